@@ -1,6 +1,6 @@
 #pragma once
-/// Who has authority over each mechanism, who follows it, and since which epoch: the ledger that
-/// every peer keeps from the server's grants.
+/// Authority, followers and epoch of each mechanism; every peer keeps this table from the server's
+/// grants.
 
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,8 @@ struct AuthorityRecord {
   PeerSet secondaries;
 };
 
-/// One entry per mechanism of the composition, by index. At first the server has everything.
+/// One entry per mechanism of the composition, by index. Initially the server has authority over
+/// all.
 class AuthorityTable {
  public:
   explicit AuthorityTable(const Composition& composition);
@@ -27,19 +28,20 @@ class AuthorityTable {
     return records_[static_cast<std::size_t>(mechanism)];
   }
   PartId id(int mechanism) const { return ids_[static_cast<std::size_t>(mechanism)]; }
-  /// The mechanism of that id, -1: none.
+  /// Returns the mechanism of an id, or -1.
   int IndexOf(PartId id) const;
 
-  /// Sets one entry (the server plans with this).
+  /// Sets one entry; the server plans with this. The epoch must not decrease (asserted).
   void Set(int mechanism, const AuthorityRecord& record);
-  /// The mechanisms have changed. Each takes what the first of those it comes from had, or
-  /// `fresh` if it is new; of several the highest epoch, one on: earlier states are of others.
+  /// Rebuilds the table after an edit. Each mechanism takes the entry of the first mechanism that
+  /// it comes from, or `fresh` if it is new. A merger of several takes their highest epoch plus
+  /// one, because earlier states belong to other mechanisms.
   void Remap(const Composition& composition, const std::vector<std::vector<int>>& from,
              const AuthorityRecord& fresh);
-  /// Takes over a message; unknown mechanisms and older epochs are ignored. Returns the indices of
-  /// the mechanisms whose entry changed.
+  /// Applies a message; ignores unknown mechanisms and older epochs. Returns the indices of the
+  /// mechanisms with a changed entry.
   std::vector<int> Apply(const Grants& grants);
-  /// Everything in as few messages as fit a datagram.
+  /// Packs these mechanisms' entries into as few messages as fit datagrams.
   std::vector<Grants> Export(std::int64_t utime, std::int64_t tick,
                              const std::vector<int>& mechanisms) const;
 

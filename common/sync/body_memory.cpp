@@ -6,14 +6,16 @@
 namespace seam {
 namespace {
 
-/// Length of the history, s. A state older than that is corrected without looking back.
+/// Length of the history, s. An older state is corrected without a comparable past.
 constexpr int kHistory = 3;
 /// Mechanisms stay coupled for 1 s / kCoupledPart after they last touched: contact flickers.
 constexpr int kCoupledPart = 4;
-/// What gravity does in a tick may be off by this share of it, and by this for rounding, m/s, of
-/// what falls freely: less than what lies, slides, rolls or swims is off by.
+/// Tolerances of free fall: the change of velocity in a tick may differ from gravity's by this
+/// share of it, plus this for rounding, m/s. Lying, sliding, rolling or swimming bodies differ by
+/// more.
 constexpr float kFallsOff = 0.05f, kFallsRounding = 1e-4f;
-/// What was changed by more than this in a tick, and leaves that way with more, was thrown, m/s.
+/// Minimum change of velocity in a tick of a thrown body, and the minimum speed at which it leaves
+/// in that direction, m/s.
 constexpr float kThrown = 1, kLeaves = 0.5f;
 
 }  // namespace
@@ -26,7 +28,7 @@ BodyMemory::BodyMemory(const SyncConfig& config, const World& world)
       bodies_(static_cast<std::size_t>(world.body_count())),
       mechanisms_(world.composition().mechanisms.size()) {
   for (int body = 0; body < world.body_count(); ++body) snapshots_.Add(body, 0, world.Read(body));
-  // Of a world that begins as it has become nobody knows when each body did.
+  // In an edited initial topology the age of each body is unknown.
   for (BodyTrack& track : bodies_) track.changed_at = world.topology().revision();
   Tend();
 }
@@ -93,7 +95,7 @@ void BodyMemory::Record() {
   history_.Begin(world_.tick());
   OpenChanged();
   const int all = kHistory * config_.tick_hz;
-  // What has lain still for as long as the past is noted has the same past at every tick.
+  // A body that has lain still for the whole recorded past has the same pose at every tick.
   std::size_t left = 0;
   for (const int body : open_) {
     Noted& noted = noted_[static_cast<std::size_t>(body)];
@@ -113,7 +115,7 @@ void BodyMemory::Record() {
   open_.resize(left);
 }
 
-/// All of them.
+/// Unparks all bodies and records all.
 void BodyMemory::Tend() {
   parked_.assign(bodies_.size(), {});
   noted_.assign(bodies_.size(), {});
@@ -176,7 +178,8 @@ void BodyMemory::Remap(const BodyRemap& change) {
     if (origin.body >= 0 && origin.same) continue;
     BodyTrack& changed = bodies.back();
     changed.changed_at = world_.topology().revision();
-    // Ours now and theirs then were other bodies: nothing to compare until both are the same.
+    // Our body now and the authority's body then are different: no comparison until both are the
+    // same.
     changed.dynamic_since = world_.tick();
     changed.pull = PullTrack{};
     changed.asleep_since = -1;

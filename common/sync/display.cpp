@@ -11,22 +11,22 @@
 namespace seam {
 namespace {
 
-/// Kinematic bodies are not made to spin faster than this, rad/s: the engine clamps at 94.
+/// Maximum spin given to a kinematic body, rad/s: the engine clamps at 94.
 constexpr float kSpinDrivenMax = 90.0f;
-/// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
+/// A larger turn within a tick is taken for a fast wheel's, which the eye cannot follow.
 constexpr float kTurnSeen = 0.5f;
 
-/// Nobody can tell where a body that spins faster than this, rad/s, has turned to: a wheel, or a
-/// paddle. Limbs are slower for most of the time (at 6 their jumps were seen).
+/// Above this spin, rad/s, the angle of a body (a wheel, a paddle) cannot be seen. Limbs are
+/// usually slower (at 6 their jumps were visible).
 constexpr float kSpinSeen = 12;
-/// So long after a correction the engine may still be closing what it has torn, ticks.
+/// Time after a correction in which the engine may still be closing torn joints, ticks.
 constexpr int kCorrectedTicks = 10;
 
-/// What is parked is looked at again this often, ticks: what was heard of it says where it can come
-/// to, so that only this peer's own way counts.
+/// Interval at which a parked body is checked, ticks. Its newest state bounds its possible places,
+/// so only this peer's own movement counts.
 constexpr int kParkedEvery = 30;
 
-/// A box that meets no other.
+/// Returns a box that overlaps no other.
 MovingBox Nowhere() {
   MovingBox box;
   box.min.setConstant(1e30f);
@@ -39,8 +39,8 @@ bool Overlap(const MovingBox& a, const MovingBox& b) {
          b.min.y() <= a.max.y();
 }
 
-/// Fills `driven` with bodies that may be driven to the tick `next`, ascending: those that are
-/// present but not simulated, the absent ones whose turn it is, and those that have come `back`.
+/// Fills `driven` (ascending) with the bodies to move to the tick `next`: present bodies that are
+/// not simulated, absent bodies at their turn, and the bodies in `back`.
 void FindDriven(const World& world, const BodyMemory& memory, const JointCloser& joints,
                 const std::vector<int>& back, std::int64_t next, std::vector<int>* driven) {
   driven->clear();
@@ -51,7 +51,7 @@ void FindDriven(const World& world, const BodyMemory& memory, const JointCloser&
   const auto absent = [&](int b) { return world.motion(b) == Motion::kAbsent && !idle(b); };
   const auto mechanisms = static_cast<int>(world.composition().mechanisms.size());
   const auto turn = static_cast<int>(next % kAbsentEvery);
-  // Where much is parked it is looked at through what is not, else through the mechanisms.
+  // If many bodies are parked, iterates over the tended ones; else over the mechanisms.
   const std::vector<int>& tended = memory.tended();
   if (static_cast<int>(tended.size()) < world.body_count()) {
     std::copy_if(tended.begin(), tended.end(), std::back_inserter(*driven), [&](int body) {
@@ -68,8 +68,8 @@ void FindDriven(const World& world, const BodyMemory& memory, const JointCloser&
   driven->erase(std::unique(driven->begin(), driven->end()), driven->end());
 }
 
-/// Whether a body that is absent lies asleep where it was last said to rest: wherever its path took
-/// it, it would be put back there before the step (RestCommit).
+/// True if an absent body sleeps at its last committed pose: RestCommit would put it back there
+/// before the step, whatever its path.
 bool Lies(const World& world, const BodyMemory& memory, int body) {
   const Snapshots& heard = memory.snapshots();
   if (!memory.track(body).at_rest || world.awake(body) || !heard.has(body)) return false;
@@ -93,12 +93,12 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory)
       corrected_until_(world.composition().mechanisms.size(), 0),
       far_(world.composition().mechanisms.size(), Nowhere()) {}
 
-/// What a person could see of a jump: of a wheel that spins, or did before, nobody can tell by how
-/// much it has turned, and gliding over it would show it wrong for longer.
+/// Returns the visible part of a jump. The angle of a wheel that spins, or did before, cannot be
+/// seen, and gliding over its jump would show a wrong angle for longer.
 BodyState Display::Visible(int body, BodyState jump) const {
   const BodyState now = world_.Read(body);
   if (std::max(std::fabs(now.spin), std::fabs(now.spin - jump.spin)) < kSpinSeen) return jump;
-  // What glides is its centre of mass.
+  // The glide is that of the centre of mass.
   const Vec2 centre = world_.mass_point(body).centre;
   jump.position += Turned(centre, now.angle) - Turned(centre, now.angle - jump.angle);
   jump.angle = jump.spin = 0;
@@ -142,8 +142,8 @@ void Display::Glide(const Roles& roles) {
   KeepClosed(roles);
 }
 
-/// What closing has moved becomes part of the offset and returns with it: closed anew from torn
-/// poses in every tick, the view would jump whenever physics does.
+/// Adds the moves made by closing joints to the offsets, so that they return too. If torn poses
+/// were closed anew in every tick, the view would jump whenever the simulated state does.
 void Display::KeepClosed(const Roles& roles) {
   const std::vector<BodyState>& poses = ShownPoses(roles, config_.shows_far);
   for (const int m : seats_.gentle()) {
@@ -159,7 +159,7 @@ void Display::KeepClosed(const Roles& roles) {
   });
 }
 
-/// Around all places where a mechanism can be shown by what was heard of it.
+/// Returns a box around all places where a mechanism can be displayed, given its newest states.
 MovingBox Display::FarBox(int mechanism) const {
   MovingBox box = Nowhere();
   for (const int body : joints_.bodies(mechanism)) {
@@ -192,7 +192,7 @@ void Display::LookAtParkedOne(int mechanism, const MovingBox& seen) {
   }
 }
 
-/// A part of it in each tick, and what something was heard of.
+/// Checks a share of the parked mechanisms per tick, and those that were heard of.
 void Display::LookAtParked(std::int64_t next, const MovingBox& seen) {
   back_.clear();
   if (config_.shows_far) return;
@@ -220,8 +220,8 @@ void Display::Leave(int body) {
 }
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
-  if (config_.mode == Mode::kOracle) return;  // nothing is only displayed
-  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // there it has none
+  if (config_.mode == Mode::kOracle) return;  // no body is only displayed
+  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // it has none
   reckoner_.Begin(next);
   LookAtParked(next, seen);
   leaving_.clear();
@@ -250,19 +250,18 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   for (const int body : leaving_) Leave(body);
 }
 
-/// In the past, between snapshots: the path has no jumps, so its steps are the velocity.
+/// Moves a body in the past, between snapshots: the path has no jumps; its steps are the velocity.
 BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState state) {
   state.velocity = (target.position - state.position) / world_.dt();
   if (state.velocity.norm() > world_.scene().speed_limit) {
-    // Too far to travel in a tick: it is placed there at once.
+    // Too far for one tick: the body is placed there at once.
     BodyState jump;
     jump.position = target.position - state.position;
     smoother_.Moved(body, jump);
     state.position = target.position;
     state.velocity.setZero();
   }
-  // A fast wheel turns by more than the wire's angle can tell: it spins as it should and its
-  // angle is placed.
+  // A fast wheel turns by more than the wire's angle can tell: its spin is set, its angle placed.
   const float turn = WrapAngle(target.angle - state.angle);
   const bool fast = std::fabs(turn) > kSpinDrivenMax * world_.dt();
   state.spin = fast ? target.spin : turn / world_.dt();
@@ -270,8 +269,8 @@ BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState s
   return state;
 }
 
-/// In the present, by dead reckoning: each message begins another path. The body is placed on it
-/// and moves with the path's velocity, not with that of the jump; the view glides over.
+/// Moves a body in the present, by dead reckoning. Each message begins another path; the body is
+/// placed on it and gets the path's velocity, not that of the jump. The view glides over.
 BodyState Display::AlongReckoned(int body, BodyState state) {
   const BodyState here = reckoner_.Here(body);
   const PathSpeed& speed = reckoner_.Speed(body);
@@ -282,7 +281,7 @@ BodyState Display::AlongReckoned(int body, BodyState state) {
   BodyState jump = Minus(along, state);
   if (std::fabs(jump.angle) > kTurnSeen) jump.angle = 0;
   jump.spin = 0;
-  // What gravity and bounces change is no jump.
+  // Velocity changes by gravity and bounces are no jumps.
   if (snapshots_.falls(body)) jump.velocity.setZero();
   smoother_.Moved(body, jump);
   return along;
@@ -319,7 +318,7 @@ const std::vector<BodyState>& Display::ShownPoses(const Roles& roles, bool all) 
     const int m = world_.mechanism(body);
     if (!joints_.jointed(m) || joints_.bodies(m).front() != body) return;
     const bool simulated = roles.Simulates(body);
-    // What physics made of a simulated mechanism is shown as it is.
+    // A simulated mechanism without corrections is displayed at its simulated poses.
     if (!simulated || IsOff(m)) joints_.Close(m, simulated, &poses);
   });
   return poses;

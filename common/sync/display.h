@@ -1,6 +1,6 @@
 #pragma once
-/// What a peer shows. Bodies that it does not simulate are driven along what was heard of them;
-/// corrections of those that it does are kept out of sight.
+/// Determines the poses that a peer displays. Moves the bodies that it does not simulate along the
+/// states received, and hides corrections of those that it does simulate.
 
 #include <cstdint>
 #include <functional>
@@ -25,29 +25,30 @@ class Display {
   /// Config, world and memory must outlive this.
   Display(const SyncConfig& config, World& world, BodyMemory& memory);
 
-  /// Before the step to `next`: gives each body that is only displayed the pose and velocity that
-  /// take it where it is to be shown then. Where nobody looks at what is far (SyncConfig), bodies
-  /// outside `seen` are left where they are: parked (BodyMemory).
+  /// Call before the step to `next`. Gives each displayed body the pose and velocity that take it
+  /// to its displayed place at `next`. Unless the config shows distant bodies (shows_far), bodies
+  /// outside `seen` stay where they are, parked (BodyMemory).
   void Drive(std::int64_t next, const MovingBox& seen);
-  /// After a step: lets the visual offsets return for a tick.
+  /// Call after a step. Lets the visual offsets return by one tick.
   void Glide(const Roles& roles);
 
-  /// The physics state of `body` was changed by this much; the view stays where it was.
+  /// Reports that the simulated state of `body` changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
-  /// Calls `call(body)` whenever Moved is told of more than the wire's rounding: a correction.
+  /// Calls `call(body)` for each correction: a Moved by more than the wire's rounding.
   void OnCorrected(std::function<void(int)> call) { on_corrected_ = std::move(call); }
-  /// The body was placed anew: it is shown there at once.
+  /// Shows the body at its new place at once.
   void Reset(int body) { smoother_.Reset(body); }
-  /// Closes mechanisms' joints, of the world's bodies as they are now.
+  /// Closes joints of mechanisms, for the world's current bodies.
   const JointCloser& joints() const { return joints_; }
-  /// A state was this many ticks old when it was received.
+  /// Records that a state was this many ticks old on arrival.
   void AddAge(std::int64_t age_ticks) {
     if (config_.mode != Mode::kBuffer) delay_.AddAge(age_ticks);
   }
-  /// The bodies have changed: visual offsets stay with what a body became.
+  /// Carries the visual offsets over after an edit.
   void Remap(const BodyRemap& change);
 
-  /// Bodies as they are shown now, joints closed: all, or what the peer simulates. utime is left 0.
+  /// Returns the displayed bodies with joints closed: all of them, or those that the peer
+  /// simulates. utime is left 0.
   View MakeView(const Roles& roles, bool all) const;
 
  private:
@@ -55,12 +56,12 @@ class Display {
   BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
   BodyState AlongReckoned(int body, BodyState state);
   void KeepClosed(const Roles& roles);
-  /// Whether a simulated mechanism may be shown other than physics made it.
+  /// True if a simulated mechanism may be displayed differently from its simulated poses.
   bool IsOff(int mechanism) const;
-  /// Of all bodies, in the view, or of those of mechanisms that the peer simulates; velocities are
-  /// those of physics.
+  /// Returns the displayed poses (by body) of all bodies, or of mechanisms that the peer simulates;
+  /// velocities are the simulated ones.
   const std::vector<BodyState>& ShownPoses(const Roles& roles, bool all) const;
-  /// Calls `visit(body)` for those that ShownPoses gives, ascending.
+  /// Calls `visit(body)` for each body that ShownPoses covers, ascending.
   template <class Visit>
   void EachShown(const Roles& roles, bool all, const Visit& visit) const;
   MovingBox FarBox(int mechanism) const;
@@ -78,11 +79,12 @@ class Display {
   Reckoner reckoner_;
   SeatGlide seats_;
   std::function<void(int)> on_corrected_ = [](int) {};
-  std::int64_t glides_ = 0;                    // calls of Glide
-  std::vector<std::int64_t> corrected_until_;  // by mechanism: in glides, may be torn in physics
-  std::vector<MovingBox> far_;  // by mechanism: of what is parked, where it can have come to
-  std::vector<int> driven_, leaving_, back_;  // bodies, in this Drive
-  mutable std::vector<BodyState> poses_;      // room for ShownPoses, by body
+  std::int64_t glides_ = 0;                    // number of Glide calls
+  std::vector<std::int64_t> corrected_until_;  // by mechanism, in glides: joints may be torn until
+                                               // then
+  std::vector<MovingBox> far_;                 // by mechanism: where a parked one may have moved to
+  std::vector<int> driven_, leaving_, back_;   // bodies, in this Drive
+  mutable std::vector<BodyState> poses_;       // memory for ShownPoses, by body
 };
 
 }  // namespace seam

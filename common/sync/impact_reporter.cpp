@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// What was told is remembered this long, ticks: a replay goes back no further.
+/// Time for which reported impacts are remembered, ticks: a replay goes back no further.
 constexpr std::int64_t kRememberTicks = 120;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-/// What a peer tells the server of impacts: those that can hurt a part of a body that it has
-/// authority over. The server decides whether to believe them, and what they cost.
+/// Reports impacts to the server: those that can hurt a part of a body under this peer's authority.
+/// The server decides whether to believe a report, and its cost.
 
 #include <cstdint>
 #include <deque>
@@ -17,14 +17,14 @@ class ImpactReporter {
   /// Both must outlive this.
   ImpactReporter(const World& world, const Roles& roles) : world_(world), roles_(roles) {}
 
-  /// After a step: what the world felt in it. `again`: the tick was stepped before; an impact of
-  /// the same two bodies within kSameImpactTicks of one that was told is that one.
+  /// Call after a step. Records its impacts. `again`: the tick was stepped before; an impact of the
+  /// same two bodies within kSameImpactTicks of a reported one is the same impact.
   void Note(bool again = false);
-  /// What was noted since the last call, a message for each tick and at most kReportedImpactsMax
-  /// impacts of it; utime is left 0.
+  /// Returns the impacts since the last call: one message per tick, with at most
+  /// kReportedImpactsMax impacts; utime is left 0.
   std::vector<ImpactReport> Take();
 
-  /// A replay has the same collision a tick or two apart.
+  /// A replay may repeat the same collision a tick or two apart.
   static constexpr std::int64_t kSameImpactTicks = 3;
 
  private:
@@ -33,7 +33,7 @@ class ImpactReporter {
     PartId id = 0, by = 0;
   };
 
-  /// Whether a change of the body's velocity by `dv` hurts any of its parts.
+  /// True if a velocity change of `dv` hurts any part of the body.
   bool Hurts(int body, float dv) const;
   bool WasTold(std::int64_t tick, PartId id, PartId by) const;
   void NoteOne(const Impact& impact, int body, int by, bool again);
@@ -41,7 +41,7 @@ class ImpactReporter {
   const World& world_;
   const Roles& roles_;
   std::vector<ImpactReport> reports_;
-  std::deque<Told> told_;  // of the last second
+  std::deque<Told> told_;  // of recent ticks
 };
 
 }  // namespace seam

@@ -1,6 +1,6 @@
 #pragma once
-/// What of one player's inputs is sent to one peer, and when: what it would not guess at once and
-/// until it is acknowledged, the rest along with other messages.
+/// Decides which of one player's inputs to send to one peer, and when. Inputs that the peer would
+/// not predict are sent at once and until acknowledged; all others only along with other messages.
 
 #include <cstdint>
 
@@ -8,18 +8,18 @@
 
 namespace seam {
 
-/// Ticks of input in one message: at most, and where so many are known, at least.
+/// Ticks of input in one message: the most, and the least if so many are known.
 constexpr int kInputsRedundant = 16, kInputsAtLeast = 3;
 static_assert(static_cast<std::size_t>(kInputsRedundant) <= kInputsMax,
               "a peer would reject such inputs as malformed");
 
 class InputFeed {
  public:
-  /// How many of the newest ticks (InputTrack::Export) to send now; 0: nothing. `acked`: the newest
-  /// tick that the peer has acknowledged, -1: none. `now`: our own tick; nothing is sent twice
-  /// within one, but for what is new. `rides`: other messages go to the peer now.
+  /// Returns how many of the newest ticks (InputTrack::Export) to send now; 0: none. `acked`:
+  /// newest tick that the peer has acknowledged, -1: none. `now`: our own tick; only new inputs are
+  /// sent twice within one. `rides`: other messages go to the peer now.
   int Take(const InputTrack& track, std::int64_t acked, std::int64_t now, bool rides);
-  /// Whether it knows of something that was not sent.
+  /// True if inputs are known that have not been sent.
   bool Waits(const InputTrack& track) const { return track.newest() > sent_newest_; }
 
  private:

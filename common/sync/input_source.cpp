@@ -14,8 +14,8 @@ Input ScriptedInput(const Scene& scene, int player, std::int64_t tick) {
 }
 
 Input BotInput(std::int64_t seed, int player, std::int64_t tick, int tick_hz) {
-  // Time is cut into slots of 0.2 s; each slot draws whether it begins a new decision, so the
-  // decision in force is found by looking back a few slots without remembering anything.
+  // Time is cut into slots of 0.2 s; each slot draws whether it begins a new decision. The current
+  // decision is found by looking back a few slots, without stored state.
   const std::int64_t slot_ticks = tick_hz / 5 > 0 ? tick_hz / 5 : 1;
   const Random base =
       Random(static_cast<std::uint64_t>(seed)).Fork(1000 + static_cast<std::uint64_t>(player));

@@ -32,7 +32,7 @@ void InputTrack::Note(std::int64_t tick, const Input& input) {
   if (!next) FindNewestChange();
 }
 
-/// What comes late may be a change, or make the one after it none.
+/// Recomputes the newest change: a late input may be a change, or turn the next one into none.
 void InputTrack::FindNewestChange() {
   newest_change_ = -1;
   const Known* after = Before(newest_);
@@ -58,8 +58,8 @@ Input InputTrack::At(std::int64_t tick) const {
 
 bool InputTrack::Surprises(std::int64_t from) const {
   if (newest_ < 0 || from > newest_) return false;
-  // In constant time: servers ask for every player and receiver. Who knows nothing before the
-  // oldest takes it to be neutral.
+  // In constant time, because servers ask for every player and receiver. A peer that knows nothing
+  // before the oldest input assumes a neutral one.
   const bool changed = newest_change_ > oldest_ && newest_change_ >= from;
   return changed || (from <= oldest_ && !(At(oldest_) == Input{}));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a peer knows of one player's inputs: exact for the ticks received, held after the newest.
+/// One player's inputs as far as known: exact for the ticks received, held after the newest.
 
 #include <cstdint>
 #include <vector>
@@ -11,28 +11,29 @@ namespace seam {
 
 class InputTrack {
  public:
-  /// Takes over the ticks it did not know. Ticks more than kKeepTicks behind are forgotten.
+  /// Adds unknown ticks. Forgets ticks more than kKeepTicks behind.
   void Note(std::int64_t tick, const Input& input);
   void Note(const Inputs& inputs);
 
   bool knows(std::int64_t tick) const { return Find(tick) != nullptr; }
-  /// The input of `tick`; where unknown, the newest known one before it.
+  /// Returns the input of `tick`, or if unknown the newest known one before it.
   Input At(std::int64_t tick) const;
-  /// Whether a known input of `from` or later is another than who knows only those before it would
-  /// take it to be.
+  /// True if a known input of `from` or later differs from the prediction of a peer that knows only
+  /// the earlier ones.
   bool Surprises(std::int64_t from) const;
   std::int64_t newest() const { return newest_; }  ///< -1: none
 
-  /// Buttons that went down in ticks heard of and <= `tick`, each reported once. They may be late:
-  /// a relayed input arrives after its tick.
+  /// Returns the buttons that went down in known ticks <= `tick`, each once. They may be late: a
+  /// relayed input arrives after its tick.
   std::int16_t TakePresses(std::int64_t tick);
 
-  /// Buttons that went down at exactly this tick, as far as it is known.
+  /// Returns the buttons that went down at exactly this tick, as far as known.
   std::int16_t PressedAt(std::int64_t tick) const;
 
-  /// The last `count` known successive ticks up to `newest()`, for the wire; all if there are less.
+  /// Returns the last `count` known successive ticks up to `newest()`, for the wire; all if there
+  /// are fewer.
   Inputs Export(int player, int count) const;
-  /// The same, into a message that keeps its memory; its utime and sequence stay.
+  /// Like the above, into a message that keeps its memory, utime and sequence.
   void Export(int player, int count, Inputs* to) const;
 
   static constexpr std::int64_t kKeepTicks = 600;
@@ -46,14 +47,15 @@ class InputTrack {
     return static_cast<std::size_t>(tick % (kKeepTicks + 1));
   }
   const Known* Find(std::int64_t tick) const;
-  /// The newest known one at or before `tick`; nullptr: there is none.
+  /// Returns the newest known input at or before `tick`, or nullptr.
   const Known* Before(std::int64_t tick) const;
   int ButtonsBefore(std::int64_t tick) const;
   void FindNewestChange();
 
   std::vector<Known> ring_;  // by tick modulo its size; empty: nothing is known
   std::int64_t newest_ = -1, oldest_ = -1;
-  std::int64_t newest_change_ = -1;  // known, and another than the known one before it
+  std::int64_t newest_change_ = -1;  // tick of the newest known input that differs from the known
+                                     // one before it
   std::int64_t presses_taken_until_ = -1;
 };
 

@@ -1,51 +1,49 @@
 #pragma once
-/// How long silence lasts before authority ends, on the client's side and on the server's, and how
-/// long a holder may take to let go. No body ever has two authorities that count only if these
-/// follow one another in this order.
+/// Timeouts of authority: how long a client or the server may stay silent, and how long a holder
+/// may take to release a mechanism. Only this order of the values ensures that no body ever has two
+/// valid authorities.
 
 #include <cstdint>
 
 namespace seam {
 
-/// Something moves and its holder has not been heard for so long, us: the server simulates it and
-/// says in the holder's name where it is, long before the lease ends, so that nothing stands still
-/// and jumps later.
+/// Silence after which the server simulates a holder's moving bodies and sends their states in the
+/// holder's name, us. Long before the lease ends, so that nothing stops and jumps later.
 constexpr std::int64_t kSilentUs = 250000;
-/// A player who drives and has not been heard for so long, us, lets go of the controls as far as
-/// the others know: a car whose driver is gone does not drive on. What is heard of it again counts
-/// from there. Shorter stops who only lags (of ten pings a second at least one arrives); longer
-/// drives on into something.
+/// Silence after which a driving player counts as having released the controls, us: a car without
+/// its driver does not drive on. Inputs heard later count from then on. Shorter stops a player who
+/// merely lags (of ten pings a second at least one arrives); longer drives into something.
 constexpr std::int64_t kDriverSilentUs = 1000000;
-/// m/s; what is slower comes to rest without the server's help, and must not be kept from it.
+/// m/s; a slower body comes to rest without the server's help and must be allowed to.
 constexpr float kMissed = 0.5f;
-/// The client's lease, us: when the newest ping that the server answered is older than this, it
-/// lets go of its mechanisms, whichever direction of the path failed.
+/// The client's lease, us: if the newest ping that the server answered is older, the client
+/// releases its mechanisms, whichever direction of the path failed.
 constexpr std::int64_t kLeaseUs = 3000000;
-/// The server's patience, us: a client not heard for this long is gone, and the server takes its
-/// mechanisms back.
+/// The server's patience, us: a client not heard for this long counts as gone, and the server takes
+/// its mechanisms back.
 constexpr std::int64_t kPatienceUs = 4000000;
 static_assert(kSilentUs < kDriverSilentUs && kDriverSilentUs < kLeaseUs,
               "a driver that is gone would drive on until its lease ends");
 static_assert(kLeaseUs < kPatienceUs,
               "the server would take a mechanism back while its client still holds it: two "
               "authorities over one body");
-/// The server's patience with a holder that was told to let go, us. Normally it answers within a
-/// round trip; with the network "terrible" (200 ms, 20 % lost each way) about one answer in ten
-/// million takes longer than this. Shorter drops honest clients there; longer lets one that
-/// withholds its answer keep a mechanism from the others.
+/// The server's patience with a holder asked to release, us. Normally the answer takes a round
+/// trip; on the network "terrible" (200 ms, 20 % lost each way) about one answer in ten million
+/// takes longer than this. Shorter drops honest clients there; longer lets a client keep a
+/// mechanism by withholding its answer.
 constexpr std::int64_t kReleasePatienceUs = 5000000;
-/// A holder that has not answered for so long, us, or for four round trips, is told that it has it
-/// still: until it answers, others would believe that nobody has it, and drop what it says. It is
-/// asked again once it is heard, and that question stands. Shorter withdraws from paths that are
-/// only slow; longer leaves others without a word of what it has.
+/// A holder that has not answered a release for this long, us, or for four round trips, is
+/// confirmed as holder: otherwise the other peers would believe that the mechanism has no holder
+/// and drop its states. It is asked again once it is heard, and that request stands. Shorter
+/// withdraws on paths that are only slow; longer leaves the other peers without its states.
 constexpr std::int64_t kWithdrawUs = 1000000;
 constexpr int kWithdrawRoundTrips = 4;
-/// us from there until it is asked again.
+/// Time until it is asked again, us.
 constexpr std::int64_t kAskAgainUs = 250000;
-/// us that a question stands at least before its holder has to leave.
+/// Time that a request stands at least before its holder is dropped, us.
 constexpr std::int64_t kAnswerPatienceUs = kReleasePatienceUs - kWithdrawUs - kAskAgainUs;
-/// us that a client which did not let go is kept without an answer to its pings: it lets go of all
-/// that it has meanwhile, unless it is hostile. Longer leaves to one that is hostile what it has.
+/// Time that a client which did not release is kept without answers to its pings, us: meanwhile an
+/// honest one releases everything. Longer lets a hostile one keep its mechanisms.
 constexpr std::int64_t kEndingUs = 3500000;
 static_assert(kLeaseUs < kEndingUs, "two authorities: it would be dropped before it has let go");
 static_assert(kPatienceUs < kReleasePatienceUs,

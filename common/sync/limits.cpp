@@ -1,4 +1,4 @@
-/// Limits of different rooms that must fit each other: this is the lowest room that sees them all.
+/// Limits of several rooms that must fit each other; this is the lowest room that sees them all.
 
 #include "common/sync/limits.h"
 
@@ -10,12 +10,12 @@
 
 namespace seam {
 
-// A scene that parses fits a Room. (A Room may be larger: it is checked before anything parses it.)
+// A scene that parses fits a Room. (A Room may be larger: it is checked before it is parsed.)
 static_assert(kSceneBytesMax <= kSceneTextBytesMax,
               "a scene that can be loaded could not be sent to those who join");
 // Edits go through the wire unchanged.
 static_assert(kEditTextMax == kEditTextBytesMax && kEditKindMax == kEditKindsMax);
-// All parts there can ever be have ids on the wire, and those that there can be at once fit a View.
+// All parts that can ever exist have ids on the wire, and all that can exist at once fit a View.
 static_assert(kPartsMax <= kPartsEver && kPartsEver <= static_cast<std::size_t>(kIdsMax));
 static_assert(kPartsMax <= kViewBodiesMax * kViewPartsMax);
 // A peer's number is on the wire as an int16.

@@ -1,6 +1,6 @@
 #pragma once
-/// Sizes that must agree, held beside each other: what a message can grow to against what carries
-/// it, and how long one text may be in different rooms. A change that breaks this does not compile.
+/// Size limits that depend on each other: messages against their carriers, and lengths of one text
+/// in different rooms. A violation does not compile.
 
 #include <cstddef>
 
@@ -11,15 +11,15 @@
 
 namespace seam {
 
-/// Encoded bytes of a message with nothing in its lists and texts, and what each element adds, as
-/// the .lcm files have it: 8 bytes of type, the fields, a count of 2 bytes before lists, 5 bytes
-/// for an empty string.
+/// Encoded size of a message with empty lists and texts, and the size of each element, as the .lcm
+/// files define it: 8 bytes of type, the fields, a count of 2 bytes before lists, 5 bytes for an
+/// empty string.
 struct MessageBytes {
   std::size_t empty;
   std::size_t each;
 };
 constexpr MessageBytes kStatesBytes{58, 21};
-constexpr MessageBytes kGrantsBytes{36, 12};  ///< and kFollowerBytes for each follower
+constexpr MessageBytes kGrantsBytes{36, 12};  ///< plus kFollowerBytes per follower
 constexpr std::size_t kFollowerBytes = 2;
 constexpr MessageBytes kReleaseBytes{26, 8};
 constexpr MessageBytes kRestBytes{50, 20};
@@ -28,17 +28,17 @@ constexpr MessageBytes kImpactReportBytes{30, 24};
 constexpr MessageBytes kMetaBytes{34, 10};
 constexpr MessageBytes kInputsBytes{38, 4};
 constexpr MessageBytes kChunkBytes{22, 1};
-constexpr MessageBytes kEditBytes{79, 1};  ///< a byte of text; it has at most five numbers
+constexpr MessageBytes kEditBytes{79, 1};  ///< per byte of text; it has at most five numbers
 constexpr MessageBytes kViewBytes{50, 31};
 constexpr MessageBytes kImpactsBytes{38, 20};
 constexpr MessageBytes kStrandsBytes{38, 10};
-constexpr MessageBytes kRoomBytes{83, 1};  ///< a byte of any of its texts
+constexpr MessageBytes kRoomBytes{83, 1};  ///< per byte of any of its texts
 
 constexpr std::size_t Largest(const MessageBytes& bytes, std::size_t count) {
   return bytes.empty + bytes.each * count;
 }
 
-// Between peers: a message, with the headers of link.h, fits one datagram.
+// Between peers: a message with the headers of link.h fits one datagram.
 static_assert(kDatagramHeaderBytes + 4 + kMessageBytesMax <= kDatagramBytesMax,
               "a message would not fit a datagram");
 static_assert(Largest(kStatesBytes, kStatesBodiesMax) <= kMessageBytesMax, "States too large");

@@ -1,6 +1,6 @@
 #pragma once
-/// Values of parts and players: health, score, checkpoints. The server decides and
-/// announces; clients keep what they are told.
+/// Values of parts and players: health, score, checkpoints. The server decides and announces them;
+/// clients keep the announced values.
 
 #include <cstdint>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace seam {
 
-/// One value's name.
+/// Name of one value.
 struct MetaKey {
   std::int8_t kind = kMetaPart;  ///< kMetaPart | kMetaPlayer
   std::int32_t id = 0;           ///< part id, or the player's index in the scene
@@ -28,17 +28,17 @@ struct MetaKey {
 
 class MetaTable {
  public:
-  /// 0 for what was never set.
+  /// Returns 0 for a value never set.
   float Get(const MetaKey& key) const;
-  /// Requires a finite value (asserted). What is changed is announced by the next TakeChanges.
+  /// Requires a finite value (asserted). The next TakeChanges announces the change.
   void Set(const MetaKey& key, float value);
   void Add(const MetaKey& key, float more) { Set(key, Get(key) + more); }
 
-  /// The server's word. Messages come in order, so the last one stands.
+  /// Applies the server's message. Messages come in order, so the last value stands.
   void Apply(const Meta& meta);
-  /// The values that changed since the last call, in messages of at most kMetaMax.
+  /// Returns the values changed since the last call, in messages of at most kMetaMax.
   std::vector<Meta> TakeChanges(std::int64_t utime, std::int64_t tick);
-  /// All values, for one who joins late.
+  /// Returns all values, for a client that joins late.
   std::vector<Meta> Export(std::int64_t utime, std::int64_t tick) const;
 
   const std::map<MetaKey, float>& values() const { return values_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// A way to synchronise a room by its names, as flags, sweep files and messages have them.
+/// Names of synchronisation methods, as used by flags, sweep files and messages.
 
 #include <string>
 #include <vector>
@@ -17,22 +17,23 @@ struct MethodNames {
   std::string predict;    ///< own | all, of mode central; "": all
 };
 
-/// "strict", "buffer/fade", "central/own": mode, and what stands behind the slash. Nothing is
-/// looked up.
+/// Splits "strict", "buffer/fade" or "central/own" into the mode and the part behind the slash.
+/// Names are not checked.
 MethodNames SplitMethod(const std::string& method);
 
-/// Fills mode, reconciler and what is predicted. Throws OperatorError when a name is unknown or
-/// belongs to another mode.
+/// Fills in mode, reconciler and prediction. Throws OperatorError if a name is unknown or belongs
+/// to another mode.
 SyncConfig MakeSyncConfig(const MethodNames& names);
 
-/// The names in full, defaults filled in; what does not apply to the mode is "".
+/// Returns the full names with defaults filled in; "" for names that do not apply to the mode.
 MethodNames NamesOf(const SyncConfig& config);
 
-/// What tells methods of one mode apart: the reconciler, or what is predicted; "" in other modes.
+/// Returns the name that distinguishes methods of one mode: the reconciler, or the prediction; ""
+/// in other modes.
 std::string VariantOf(const MethodNames& names);
 std::string VariantOf(const Room& room);
 
-/// Names of the rules of mode buffer, as --reconcile takes them.
+/// Returns the rules of mode buffer, as --reconcile takes them.
 std::vector<std::string> ReconcilerNames();
 
 }  // namespace seam

@@ -50,7 +50,7 @@ SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile)
     if (!reconcile.empty()) {
       throw OperatorError("--reconcile belongs to --mode buffer, not to --mode " + mode);
     }
-    // A client of mode central goes back to the server's states; its server has none to go back to.
+    // A client of mode central rolls back to the server's states; the server never rolls back.
     if (config.mode == Mode::kCentral) config.reconcile = ReconcileResimulate;
     return config;
   }

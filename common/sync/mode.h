@@ -1,5 +1,5 @@
 #pragma once
-/// How a room is synchronised: mode, reconciler and rates, as flags and messages say it.
+/// Synchronisation settings of a room: mode, reconciler and rates, as flags and messages name them.
 
 #include <optional>
 #include <string>
@@ -8,62 +8,64 @@
 
 namespace seam {
 
-/// Who simulates what (Roles). kOracle: every peer simulates everything alone, with all inputs.
+/// Assignment of simulation to peers (Roles). kOracle: every peer simulates everything alone, with
+/// all inputs.
 enum class Mode { kOracle, kCentral, kStrict, kBuffer };
 
-/// Mode central: what a client simulates ahead of the server's states. kOwn: what its player
-/// drives, the rest is interpolated. kAll: everything, with all inputs that it knows.
+/// Mode central: the mechanisms that a client simulates ahead of the server's states. kOwn: those
+/// that its player drives; the rest is interpolated. kAll: everything, with all inputs known.
 enum class Predict { kOwn, kAll };
 
-/// Rate of the critically damped return of what is shown to where physics is, 1/s, and its bounds.
+/// Rate of the critically damped return of the view to the simulated pose, 1/s, and its bounds.
 constexpr float kSmoothRate = 10, kSmoothRateMin = 1, kSmoothRateMax = 60;
 
 struct SyncConfig {
   Mode mode = Mode::kBuffer;
   Reconciler reconcile = nullptr;  ///< not null in modes kBuffer and kCentral
   Puller pull = nullptr;           ///< of the reconciler, if it acts in every tick
-  bool resimulates = false;        ///< the reconciler goes back and steps again
-  bool rolls_back = false;         ///< ...and for late inputs, too: see NamedReconciler
+  bool resimulates = false;        ///< the reconciler rolls back and steps again
+  bool rolls_back = false;         ///< ...also for late inputs: see NamedReconciler
   std::string reconcile_name;
   Predict predict = Predict::kAll;  ///< mode central
   int input_delay_ticks = 0;        ///< own inputs act this much later, at every peer; 0..12
   int tick_hz = 60;
   int send_hz = 30;                 ///< States per second from each peer; <= tick_hz
-  float smooth_rate = kSmoothRate;  ///< of hiding corrections in the view, 1/s; 0: none are
-  /// Whether somebody looks at what this peer shows of bodies that are far from all that it
-  /// simulates. If not they stay where they were shown last.
+  float smooth_rate = kSmoothRate;  ///< rate at which hidden corrections return, 1/s; 0: none are
+                                    ///< hidden
+  /// True if this peer's view of bodies far from all that it simulates is watched. If false, these
+  /// bodies stay where they were last displayed.
   bool shows_far = true;
   std::int64_t seed = 0;  ///< of bots
 
-  /// Whether the peer goes back and steps again when it was wrong.
+  /// True if the peer rolls back and steps again after an error.
   bool GoesBack(int self) const { return resimulates || (mode == Mode::kCentral && self > 0); }
-  /// Whether the peer's world is built anew at every send tick. The server of predicting clients
-  /// never goes back, but theirs come to the same bits only if all do it at the same ticks.
+  /// True if the peer's world is rebuilt at every send tick. The server of predicting clients never
+  /// rolls back, but its clients can reproduce its bits only if all rebuild at the same ticks.
   bool TakesBarriers(int self) const {
     return GoesBack(self) || (mode == Mode::kCentral && predict == Predict::kAll);
   }
-  /// Whether inputs act at the tick that they are of at every peer that simulates what they move,
-  /// and one that arrives late is a reason to go back. Else only the authority acts on buttons,
-  /// when it hears of them.
+  /// True if inputs take effect at their own tick at every peer that simulates their mechanisms,
+  /// and a late input starts a replay. Otherwise only the authority acts on buttons, when they
+  /// arrive.
   bool StampsInputs(int self) const { return rolls_back || (mode == Mode::kCentral && self > 0); }
 
-  /// Ticks between two States of a peer.
+  /// Ticks between two States messages of a peer.
   int send_every() const { return tick_hz / send_hz > 0 ? tick_hz / send_hz : 1; }
 };
 
-/// Of mode buffer, when none is named.
+/// Default of mode buffer.
 constexpr const char* kDefaultReconciler = "rollback";
 
 const char* ToString(Mode mode);
-/// Nothing for an unknown name: recordings may say anything.
+/// Returns nothing for an unknown name: recordings may contain any.
 std::optional<Mode> FindMode(const std::string& name);
-/// Throws OperatorError naming the known ones.
+/// Throws OperatorError with the known names.
 Mode ParseMode(const std::string& name);
-/// The rate that "on" (kSmoothRate), "off" (0) or a number of 1/s says. Throws OperatorError.
+/// Returns the rate for "on" (kSmoothRate), "off" (0) or a number in 1/s. Throws OperatorError.
 float ParseSmoothRate(const std::string& text);
-/// Fills mode and reconciler from their names. An empty reconciler in mode buffer means
-/// kDefaultReconciler. Throws OperatorError when unknown or when a reconciler is given in another
-/// mode.
+/// Fills in mode and reconciler from their names. An empty reconciler in mode buffer means
+/// kDefaultReconciler. Throws OperatorError if a name is unknown, or if another mode is given a
+/// reconciler.
 SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile);
 
 }  // namespace seam

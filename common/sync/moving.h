@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a body moves, for those who count: who simulates how much of what moves.
+/// Test for moving bodies, for counts of the moving bodies that each peer simulates.
 
 #include <cmath>
 

@@ -5,9 +5,9 @@
 namespace seam {
 namespace {
 
-/// A proposal that nothing came of is made again after this, s.
+/// A proposal without an order is repeated after this, s.
 constexpr double kProposeAgain = 0.5;
-/// Proposals that are remembered; beyond it all are forgotten, and some are made again too early.
+/// Most proposals remembered; beyond it all are forgotten, and some are repeated too early.
 constexpr std::size_t kProposedMax = 4096;
 
 }  // namespace

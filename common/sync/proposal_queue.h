@@ -1,6 +1,6 @@
 #pragma once
-/// Edits that physics found and this peer is to propose: each edit once, and again only when it was
-/// not ordered for a while.
+/// Queue of edits found by physics for this peer to propose. Each edit is proposed once, and again
+/// only if it was not ordered for a while.
 
 #include <cstdint>
 #include <map>
@@ -21,18 +21,18 @@ class ProposalQueue {
   explicit ProposalQueue(int tick_hz);
 
   /// Queues an edit found at `tick`, unless one of the same kind, joint and parts was queued within
-  /// the last 0.5 s. Returns whether it was.
+  /// the last 0.5 s. Returns true if it was queued.
   bool Add(Edit edit, std::int64_t tick);
-  /// An edit of this key was ordered: what is found from now on is another.
+  /// Call when an edit of this key was ordered: a later find is a new edit.
   void Forget(const EditKey& key) { proposed_.erase(key); }
-  /// All that was queued since the last call, in its order.
+  /// Returns the edits queued since the last call, in order.
   std::vector<FoundEdit> Take();
-  /// Edits that it remembers to have been queued.
+  /// Number of edits remembered as queued.
   std::size_t remembered() const { return proposed_.size(); }
 
  private:
   std::int64_t again_ticks_;
-  std::map<EditKey, std::int64_t> proposed_;  // when last
+  std::map<EditKey, std::int64_t> proposed_;  // tick of the last queueing
   std::vector<FoundEdit> waiting_;
 };
 

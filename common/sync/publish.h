@@ -1,5 +1,5 @@
 #pragma once
-/// How much of what a peer shows it publishes: views are most of what is on the bus.
+/// Amount of its view that a peer publishes; views are most of the bus traffic.
 
 #include <string>
 
@@ -8,14 +8,14 @@
 namespace seam {
 
 enum class Publish {
-  kAuto,  ///< all in a room of at most kPublishAllMost bodies, own in a larger one
-  kAll,   ///< every body, as shown at every tick; strands and impacts
-  kOwn,   ///< of bodies those that the peer simulates: what it has authority over or follows
+  kAuto,  ///< kAll in a room of at most kPublishAllMost bodies, kOwn in a larger one
+  kAll,   ///< every body as displayed at every tick; strands and impacts
+  kOwn,   ///< only bodies that the peer simulates, as authority or follower
   kNone,  ///< no views, strands and impacts
 };
 constexpr int kPublishAllMost = 64;
 
-/// "auto", "all", "own", "none". Throws OperatorError naming them.
+/// Parses "auto", "all", "own" or "none". Throws OperatorError that names them.
 inline Publish ParsePublish(const std::string& name) {
   if (name == "auto") return Publish::kAuto;
   if (name == "all") return Publish::kAll;
@@ -24,7 +24,7 @@ inline Publish ParsePublish(const std::string& name) {
   throw OperatorError("--publish takes auto, all, own or none, not \"" + name + "\"");
 }
 
-/// What is meant in a room of so many bodies: not kAuto.
+/// Resolves kAuto for a room of so many bodies.
 inline Publish Resolved(Publish publish, int bodies) {
   if (publish != Publish::kAuto) return publish;
   return bodies <= kPublishAllMost ? Publish::kAll : Publish::kOwn;

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers, names and publishes a peer's messages on the bus.
+/// Publishes a peer's messages on the bus, with number and room name.
 
 #include <map>
 #include <string>
@@ -13,7 +13,7 @@ class Publisher {
  public:
   Publisher(Recorder& recorder, std::string room) : recorder_(recorder), room_(std::move(room)) {}
 
-  /// False: what is published comes to nobody.
+  /// False if published messages reach no listener.
   bool listening() const { return recorder_.listening(); }
   /// Requires a message that travels on the bus (message_list.h).
   template <class Message>

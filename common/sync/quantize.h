@@ -1,5 +1,5 @@
 #pragma once
-/// States on the wire: whole numbers of fixed quanta.
+/// Conversion of states to the wire: integers in fixed quanta.
 
 #include <vector>
 
@@ -13,8 +13,9 @@ constexpr float kPositionQuantum = 1.0f / 512;     ///< m
 constexpr float kVelocityQuantum = 1.0f / 256;     ///< m/s and rad/s
 constexpr double kAngleQuantum = 2 * kPi / 65536;  ///< rad
 
-/// The state a receiver will hold: every field rounded to its quantum. Idempotent. The angle keeps
-/// its revolutions. Speeds beyond the int16 range (128 m/s, 128 rad/s) are clamped to it.
+/// Returns the state that a receiver will have: every field rounded to its quantum. Idempotent. The
+/// angle keeps its revolutions. Speeds beyond the int16 range (128 m/s, 128 rad/s) are clamped to
+/// it.
 BodyState Quantised(const BodyState& state);
 
 /// One body's entry in a States message.
@@ -25,11 +26,11 @@ struct PackedBody {
   BodyState state;
 };
 
-/// Splits bodies into messages of at most kStatesBodiesMax, each within 60 m of its origin.
-/// The header fields (utime, peer, tick, composition) are copied from `header`.
+/// Splits bodies into messages of at most kStatesBodiesMax, each within 60 m of its origin. The
+/// header fields (utime, peer, tick, composition) are copied from `header`.
 std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bodies);
 
-/// Entry `i` of a message as a state; the angle is unwrapped to the turn nearest `near_angle`.
+/// Returns entry `i` of a message; the angle is unwrapped to the turn nearest `near_angle`.
 BodyState Unpack(const States& states, std::size_t i, float near_angle);
 
 }  // namespace seam

@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// Impacts told per tick; more are not shown.
+/// Most impacts sent per tick; further ones are not displayed.
 constexpr std::size_t kImpactsToldMax = 64;
 
 }  // namespace
@@ -39,7 +39,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
   });
   FollowRoles();
   memory_.Record();
-  replay_.TakeBarrier();  // the inputs of the first ticks come late, too
+  replay_.TakeBarrier();  // inputs of the first ticks come late, too
 }
 
 void Replica::StartAt(std::int64_t tick) {
@@ -99,7 +99,7 @@ void Replica::NoteInput(int player, std::int64_t tick, const Input& input) {
 
 void Replica::NoteInputs(const Inputs& inputs) {
   InputTrack& track = inputs_[static_cast<std::size_t>(inputs.player)];
-  std::vector<std::int64_t> late;  // ticks that were stepped without knowing them
+  std::vector<std::int64_t> late;  // ticks stepped without these inputs
   std::int64_t wrong = -1;
   for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
     const std::int64_t t = inputs.first_tick + static_cast<std::int64_t>(i);
@@ -126,7 +126,8 @@ void Replica::ApplyInputs(std::int64_t next) {
       heard_players_.push_back(player);
     }
   }
-  // Who moves something here, and who was heard of: buttons count even if they move nothing.
+  // Players who move a mechanism here, and players heard of: buttons count even if they move
+  // nothing.
   std::vector<int>& players = heard_players_;
   players.insert(players.end(), drivers_.concerned().begin(), drivers_.concerned().end());
   std::sort(players.begin(), players.end());
@@ -137,12 +138,12 @@ void Replica::ApplyInputs(std::int64_t next) {
     if (!(track.At(next) == Input{})) NeedDriven(player);
     if (drivers_.Concerns(player)) world_.SetInput(player, track.At(next));
     ApplyPresses(player, next);
-    if (track.newest() > next) players[left++] = player;  // more of it is still to come
+    if (track.newest() > next) players[left++] = player;  // inputs still to come
   }
   players.resize(left);
 }
 
-/// What the player's inputs move is there when they do.
+/// Makes the mechanisms present that the player's inputs are about to move.
 void Replica::NeedDriven(int player) {
   std::vector<int> mechanisms;
   for (const int m : drivers_.MechanismsOf(player)) {
@@ -151,8 +152,9 @@ void Replica::NeedDriven(int player) {
   if (!mechanisms.empty()) corrector_.FollowRoles(BodiesOf(mechanisms));
 }
 
-/// Where inputs are stamped, every peer that simulates what is pushed pushes it, at that tick;
-/// else exactly one peer: the authority, when it hears of it (all of them in the oracle).
+/// Performs a player's button actions. Where inputs are stamped, every peer that simulates the
+/// pushed mechanism pushes it at that tick; else only the authority does, when it hears of the
+/// press (in the oracle every peer).
 void Replica::ApplyPresses(int player, std::int64_t next) {
   const auto p = static_cast<std::size_t>(player);
   const std::int16_t heard = inputs_[p].TakePresses(next);
@@ -172,11 +174,11 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
 
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   for (QueuedEdit& edit : queued_) edit.tick = std::min(edit.tick, tick());
-  ApplyEdits();  // the grants are about what is there after them
+  ApplyEdits();  // the grants refer to the topology after the edits
   GrantsApplied applied = roles_.Apply(grants);
-  // Before motion follows the roles: what the holder last simulated.
+  // Before motion follows the roles: the holder's last simulated states.
   for (ExactStates& exact : MakeExact(applied.let_go, 0)) released_.push_back(std::move(exact));
-  // Most of what a client of a large room is granted is between others.
+  // In a large room most grants that a client receives are between other peers.
   if (!applied.roles.empty()) {
     drivers_.Look();
     if (corrector_.FollowRoles(BodiesOf(applied.roles))) presence_.Ask();
@@ -209,7 +211,7 @@ Received Replica::Receive(const States& states) {
 
 void Replica::Receive(const Rest& rest) {
   ApplyEdits();
-  if (rest_.Receive(rest)) replay_.Forget();  // there is no way back to before it
+  if (rest_.Receive(rest)) replay_.Forget();  // replays cannot reach the time before it
 }
 
 void Replica::Place(const States& states) {

@@ -1,16 +1,17 @@
 #pragma once
-/// One peer's copy of a room: a world, what it knows of the others, and the rules that keep the
-/// copy near theirs. Server and clients each have one; it knows nothing of time, sockets or files.
+/// One peer's copy of a room: a world, the knowledge received from other peers, and the rules that
+/// keep all copies near each other. Server and clients each have one. It knows nothing of time,
+/// sockets or files.
 ///
 ///   Queue, ApplyGrants, Receive, NoteInputs      between steps
 ///   Step: edits -> replay -> inputs -> displayed bodies -> pulls -> World::Step -> contacts noted,
 ///         proposals, own States collected -> history -> States that waited
 ///   TakeStates, TakeProposals, MakeView, MakeImpacts      after it
 ///
-/// Its parts: Roles (what it is to each mechanism), Presence (which of the others' its world has to
-/// have), BodyMemory (what it remembers of its bodies), Display, Corrector and Replay (which move
-/// bodies), Reach (what inputs that are still unknown can have changed), SendScheduler and
-/// ProposalQueue (what it tells). This class calls them in order and has no rule of its own.
+/// Its parts: Roles (its role for each mechanism), Presence (bodies that must be in the Box2D
+/// world), BodyMemory (records per body), Display, Corrector and Replay (which move bodies), Reach
+/// (effects of inputs still unknown), SendScheduler and ProposalQueue (messages to send). This
+/// class calls them in order and has no rule of its own.
 
 #include <cstdint>
 #include <functional>
@@ -44,25 +45,25 @@ class Replica {
   /// central, or -1.
   Replica(const Scene& scene, const SyncConfig& config, int self, int own_player)
       : Replica(Topology(scene), config, self, own_player) {}
-  /// Begins with a scene as it has become by edits.
+  /// Begins with a scene as changed by edits.
   Replica(const Topology& topology, const SyncConfig& config, int self, int own_player);
 
-  /// Begins (or, after an absence, goes on) at `tick`. Beginning at 0 all bodies are where the
-  /// scene puts them; later, each body waits for its first state and is placed there.
+  /// Begins (or, after an absence, continues) at `tick`. At 0 all bodies are where the scene puts
+  /// them; later, each body waits for its first state and is placed there.
   void StartAt(std::int64_t tick);
-  /// After StartAt, when all that is known of then is placed: from there it can be stepped again.
+  /// Call after StartAt, when all states of that tick are placed. Replays can go back to this tick.
   void Begin();
-  /// After StartAt, for a world that replaces another: what `before` has too goes on from where it
-  /// is there, until it is heard of.
+  /// Call after StartAt for a world that replaces another. Bodies that `before` has too continue
+  /// from their states there until they are heard of.
   void GoOnFrom(const World& before);
   std::int64_t tick() const { return world_.tick(); }
   void Step();
 
   const World& world() const { return world_; }
   const AuthorityTable& authority() const { return roles_.table(); }
-  /// The server plans here; clients only follow grants.
+  /// The server plans here; clients only apply grants.
   AuthorityTable& authority() { return roles_.table(); }
-  /// After Set on authority(): lets motion types follow the roles.
+  /// Call after Set on authority(). Updates motion types to the roles.
   void RolesChanged() {
     FollowRoles();
     rest_.PutBack();
@@ -72,107 +73,108 @@ class Replica {
     presence_.LeaveUnwatched(std::move(unwatched), doubtful);
   }
   const Drivers& drivers() const { return drivers_; }
-  /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
-  /// longer.
+  /// Applies the server's grants. Returns the mechanisms over which this peer lost authority.
   std::vector<int> ApplyGrants(const Grants& grants);
-  /// Where the bodies of the mechanisms were that ApplyGrants took from this peer since the last
-  /// call, bit for bit: then, or as MakeExact says. utime is left 0.
+  /// Returns the exact states of the mechanisms that ApplyGrants took from this peer since the last
+  /// call, at that time or as in MakeExact. utime is left 0.
   std::vector<ExactStates> TakeReleased() { return std::exchange(released_, {}); }
-  /// The same of mechanisms that this peer has now, with an epoch on from theirs: for who gets
-  /// them. Where peers go back for inputs, as they were at the newest tick that none still to come
-  /// can change.
+  /// Returns the exact states of mechanisms that this peer holds, with their epochs raised by
+  /// `epochs_on`, for their next holder. With rollback, at the newest tick that no future input can
+  /// change.
   std::vector<ExactStates> MakeExact(const std::vector<int>& mechanisms,
                                      std::int32_t epochs_on) const;
-  /// What another peer let go of. How far this copy was from it, at most; see Corrector::TakeOver.
+  /// Takes over another peer's released states. Returns the largest difference from this copy; see
+  /// Corrector::TakeOver.
   BodyState TakeOver(const ExactStates& exact);
-  /// How far this peer's copies were from what was received, where it simulated them at that tick:
-  /// calls `call(body, off)`.
+  /// Calls `call(body, off)` with the difference between received states and this peer's copies,
+  /// for bodies that it simulated at that tick.
   void EachOff(const States& states, const std::function<void(int, const BodyState&)>& call) const;
-  /// The server only; see Roles::SpeakFor.
+  /// Server only; see Roles::SpeakFor.
   void SpeakFor(const PeerSet& silent) { roles_.SpeakFor(silent); }
-  /// Gives up every authority (the server has not been heard for too long).
+  /// Gives up all authority (the server has not been heard for too long).
   void ReleaseAll();
 
-  /// Edits that the server ordered, in their order; they are applied before anything else is done,
-  /// each after the tick that the order names: peers that go back do so, for others, and for what
-  /// is too old, it is now; for a tick still to come they wait.
-  /// False, and ignored: it is not the next one.
-  /// In mode oracle every peer edits alone: what physics found is queued by Step, the server's
-  /// order of the same edit is ignored, and one from outside is queued by the Step of the tick it
-  /// names.
+  /// Queues an edit ordered by the server. Queued edits are applied in order and before anything
+  /// else, each after the tick that its order names. A peer that rolls back goes back to that tick;
+  /// other peers, and orders too old for a replay, apply it now; an order of a future tick waits.
+  /// Returns false, and ignores the order, if it is not the next one.
+  /// In mode oracle every peer edits alone: Step queues edits found by physics, the server's orders
+  /// of these are ignored, and an edit from outside is queued by the Step of its tick.
   bool Queue(const EditOrder& order);
-  /// Whether one is to be applied now: its tick has come.
+  /// True if the next queued edit is due.
   bool has_queued() const;
-  /// The next to be applied. Requires has_queued().
+  /// The next edit to apply. Requires has_queued().
   const Edit& next_queued() const { return queued_.front().edit; }
-  /// Applies all that is queued and whose tick has come.
+  /// Applies all queued edits that are due.
   void ApplyEdits();
-  /// Applies the next that is queued. What became of the bodies; nullopt: they are what they were.
-  /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: one that
+  /// Applies the next queued edit. Returns the remap of bodies, or nullopt if they are unchanged.
+  /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
   /// applied two at once would stay an epoch behind. Requires has_queued().
   std::optional<BodyRemap> ApplyNextEdit();
-  /// What this peer, as the authority of the bodies concerned, found that should change; in mode
-  /// oracle all that physics finds.
+  /// Returns the edits that this peer found as the authority of the affected bodies; in mode oracle
+  /// all that physics finds.
   std::vector<FoundEdit> TakeProposals() { return proposals_.Take(); }
-  /// Whether the body is made of what it was made of after that many edits.
+  /// True if the body has had the same parts since revision `edits`.
   bool SameBody(int body, int edits) const { return memory_.track(body).changed_at <= edits; }
-  /// Whether our copy of what another has was simulated here already when the newest state of it
-  /// came; else it has begun from that state, without what a state does not tell.
+  /// True if a copy was simulated here before its newest state came; otherwise it started from that
+  /// state, and lacks the parts of a state that the wire does not carry.
   bool SimulatedBefore(int body) const {
     const BodyTrack& track = memory_.track(body);
     return track.dynamic_since < track.heard_tick;
   }
-  /// Edits applied so far.
+  /// Number of edits applied so far.
   int revision() const { return world_.topology().revision(); }
-  /// Ticks that were stepped again, and replays that waited since the budget was used up.
+  /// Ticks stepped again, and replays deferred because the budget was used up.
   std::int64_t ticks_stepped_again() const { return replay_.ticks_stepped_again(); }
   std::int64_t replays_deferred() const { return replay_.deferred(); }
-  /// Calls `call(body)` for each correction: a body's physics state was changed by more than the
-  /// wire's rounding, by what was heard.
+  /// Calls `call(body)` for each correction: a change of a body's simulated state by more than the
+  /// wire's rounding, caused by messages.
   void OnCorrected(std::function<void(int)> call) { display_.OnCorrected(std::move(call)); }
 
   const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
-  /// What a player does in a tick still to come, or did in one that is known late.
+  /// Records a player's input of a future tick, or a late one of a past tick.
   void NoteInput(int player, std::int64_t tick, const Input& input);
   void NoteInputs(const Inputs& inputs);
-  /// Buttons of this player that went down since the last call, as far as heard of.
+  /// Returns the buttons of this player that went down since the last call, as far as known.
   int TakePressed(int player) {
     return std::exchange(pressed_now_[static_cast<std::size_t>(player)], 0);
   }
 
-  /// States of another peer's bodies. Those of ticks or edits still to come wait for them.
+  /// Takes states of another peer's bodies. States of future ticks or edits are kept until then.
   Received Receive(const States& states);
-  /// Like Receive, but takes poses as they are: the room as it is now, for one who joins late.
+  /// Takes the room's current states, for a peer that joins late: only unplaced bodies are placed.
   void Place(const States& states);
 
-  /// What this peer has to tell after the last Step: empty unless a send is due. utime is left 0.
+  /// Returns the states to send after the last Step; empty unless a send is due. utime is left 0.
   std::vector<States> TakeStates() { return scheduler_.Take(); }
-  /// The current state of all bodies that are not committed to rest, for one who joins late.
+  /// Returns the current state of all bodies that are not committed to rest, for a peer that joins
+  /// late.
   std::vector<States> Everything() const { return scheduler_.Everything(); }
-  /// What its authorities have committed to rest (RestCommit): received, to be told after a step,
-  /// and for comparison with another peer's.
+  /// The rest commitments of all authorities (RestCommit): receives them, returns those to send
+  /// after a step, and compares them with another peer's.
   RestCommit& rest() { return rest_; }
   const RestCommit& rest() const { return rest_; }
-  /// Takes what another peer's authority has committed to rest.
+  /// Takes rest commitments of another peer.
   void Receive(const Rest& rest);
-  /// Of all bodies, or of those that this peer simulates.
+  /// Returns the view of all bodies, or of those that this peer simulates.
   View MakeView(bool all = true) const { return display_.MakeView(roles_, all); }
-  /// Of the scene's strands, as a view of this tick shows them; no points: there are none.
+  /// Returns the scene's strands as a view of this tick shows them; empty if there are none.
   Strands MakeStrands(const View& view) { return strands_.Next(view); }
-  /// Impacts of the last tick above kMajorImpact, the first 64; ids empty when there were none.
+  /// Returns the last tick's impacts above kMajorImpact, the first 64; ids are empty if there were
+  /// none.
   Impacts MakeImpacts() const;
-  /// Of the steps since the last call: impacts that can hurt what this peer has authority over.
+  /// Returns the impacts since the last call that can hurt bodies under this peer's authority.
   std::vector<ImpactReport> TakeImpactReports() { return impact_reporter_.Take(); }
 
  private:
   friend struct ReplicaTestAccess;
 
-  /// An edit that is to be applied after a tick.
+  /// An edit to be applied after a tick.
   struct QueuedEdit {
     Edit edit;
     std::int64_t tick = 0;
   };
-  /// A proposal whose order is awaited, and where it is.
+  /// A proposal whose order is pending, with its parts and tick.
   struct Awaited {
     EditKey key{};
     std::vector<PartId> parts;
@@ -180,28 +182,29 @@ class Replica {
   };
 
   void FollowRoles();
-  /// Ascending.
+  /// Returns body indices, ascending.
   std::vector<int> BodiesOf(const std::vector<int>& mechanisms) const;
   void QueueAppointed();
-  /// After a step, also one that is done again: what physics found that should change.
+  /// Call after a step, also one of a replay. Finds edits proposed by physics.
   void FindEdits();
-  /// Whether another edit of its mechanism is awaited: what is found meanwhile is found in a world
-  /// in which that has not happened.
+  /// True if another edit of the edit's mechanism is pending: this one was found in a world without
+  /// that edit.
   bool IsHeldBack(const Edit& edit, std::int64_t found);
-  /// Of what was found: where inputs are stamped that waits until its tick is input-complete.
-  /// Before that it is an assumption, and an edit cannot be taken back.
+  /// Proposes the edits found. Where inputs are stamped, an edit waits until its tick is
+  /// input-complete: before that it rests on an assumption, and an edit cannot be undone.
   void ProposeFound();
   bool IsComplete(const Edit& edit, std::int64_t found) const;
-  /// Whether it was.
+  /// Returns true if the edit was queued.
   bool Propose(Edit edit, std::int64_t found);
   void Remap(const BodyRemap& change);
-  /// Of joints that the edit takes away: a later bond may take their places, and break at once.
+  /// Forgets proposals of joints that the edit removes: a later bond may take their places and
+  /// break at once.
   void ForgetProposals(const Edit& edit);
   void ApplyInputs(std::int64_t next);
   void NeedDriven(int player);
   void ApplyPresses(int player, std::int64_t next);
 
-  // In this order: each uses those above it.
+  // Order matters: each uses members above it.
   SyncConfig config_;
   World world_;
   Roles roles_;
@@ -218,14 +221,17 @@ class Replica {
   SendScheduler scheduler_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
-  std::vector<int> heard_players_;                   // whose inputs were heard of, or are to come
+  std::vector<int> heard_players_;                   // players with new or future inputs
   std::vector<int> pressed_now_;                     // by player
-  std::vector<int> pressed_missed_;                  // by player: heard of too late to go back to
+  std::vector<int> pressed_missed_;                  // by player: presses that came too late for a
+                                                     // replay
   std::vector<QueuedEdit> queued_;                   // ordered, not yet applied; ticks ascend
   std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
-  std::vector<Awaited> awaited_;                     // where this peer goes back
-  std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: from outside, by tick
-  std::vector<ExactStates> released_;                    // of what ApplyGrants took, not yet told
+  std::vector<Awaited> awaited_;                     // pending proposals; only if this peer rolls
+                                                     // back
+  std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: edits from outside, by tick
+  std::vector<ExactStates> released_;                    // states that ApplyGrants released, not
+                                                         // yet sent
 };
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// Replica: what changes hands, bit for bit.
+/// Replica: exact states of mechanisms that change hands.
 
 #include "common/sync/replica.h"
 
@@ -11,8 +11,8 @@ namespace seam {
 
 std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
                                             std::int32_t epochs_on) const {
-  // Everybody puts it in as it is: if it rested on an assumption about an input, what that input
-  // really does would be lost.
+  // Every peer writes these states as they are. If a state rested on an assumed input, the effect
+  // of the real input would be lost.
   const auto final_tick = [&](int m) {
     if (!config_.rolls_back) return tick();
     const std::int64_t complete = std::min(reach_.CompleteTick(m), replay_.settled());

@@ -1,5 +1,5 @@
-/// Replica: edits, and bodies that split and merge by them. What is known of a body (its past, what
-/// was heard of it, its pose in the view) is carried over to what it becomes.
+/// Replica: edits, and bodies that they split and merge. Records of a body (its past, states
+/// received, its displayed pose) are carried over to its successors.
 
 #include <algorithm>
 #include <set>
@@ -11,7 +11,8 @@
 namespace seam {
 namespace {
 
-/// What let go may hold again at once, as a hand does that reaches on along a wall.
+/// Forgets bonds between the parts of a broken joint: they may hold again at once, like a hand that
+/// reaches on along a wall.
 void ForgetBonds(const Scene& scene, std::int32_t broken, ProposalQueue* proposals) {
   if (broken < 0 || static_cast<std::size_t>(broken) >= scene.joints.size()) return;
   const Joint& joint = scene.joints[static_cast<std::size_t>(broken)];
@@ -43,7 +44,7 @@ void Replica::QueueAppointed() {
 
 bool Replica::has_queued() const {
   if (queued_.empty()) return false;
-  // One that says a tick far ahead is not believed.
+  // An order of a tick far ahead is not believed.
   const std::int64_t ahead = queued_.front().tick - replay_.now();
   return ahead <= 0 || ahead > config_.tick_hz;
 }
@@ -55,7 +56,7 @@ void Replica::ApplyEdits() {
 std::optional<BodyRemap> Replica::ApplyNextEdit() {
   const QueuedEdit next = std::move(queued_.front());
   queued_.erase(queued_.begin());
-  memory_.UnparkAll();  // it may reach any of them
+  memory_.UnparkAll();  // the edit may reach any of them
   if (presence_.NeedAll()) {
     corrector_.FollowRoles();
     world_.Settle();
@@ -67,7 +68,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   if (change) {
     Remap(*change);
   } else {
-    FollowRoles();  // who sits in a seat decides what is predicted
+    FollowRoles();  // the player in a seat determines the predicted mechanisms
   }
   replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
@@ -76,7 +77,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
 
 void Replica::FindEdits() {
   const std::int64_t now = tick();
-  found_.erase(now);  // what was found when this tick was stepped before
+  found_.erase(now);  // results of an earlier step of this tick
   for (Edit& edit : world_.ProposeEdits()) {
     if (config_.mode == Mode::kOracle) {
       queued_.push_back({std::move(edit), now});
@@ -90,7 +91,7 @@ void Replica::ProposeFound() {
   if (found_.empty()) return;
   const bool waits = config_.StampsInputs(roles_.self()) && config_.rolls_back;
   if (waits) reach_.Look();
-  // In the order of their ticks: an edit cannot be ordered for a tick before the last one's.
+  // In the order of ticks: an edit cannot be ordered for a tick before the previous order's.
   while (!found_.empty()) {
     const auto first = found_.begin();
     const std::int64_t found = first->first;
@@ -102,7 +103,7 @@ void Replica::ProposeFound() {
     bool proposed = false;
     for (Edit& edit : first->second) proposed = Propose(std::move(edit), found) || proposed;
     found_.erase(first);
-    if (proposed && waits) found_.clear();  // the rest is found again in a world that has it
+    if (proposed && waits) found_.clear();  // the rest is found again in the edited world
   }
 }
 
@@ -189,7 +190,7 @@ void Replica::Remap(const BodyRemap& change) {
   replay_.Remap(change);
   rest_.Remap(change);
   FollowRoles();
-  if (config_.rolls_back) reach_.Look();  // it knows them by their numbers
+  if (config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
 }
 
 }  // namespace seam

@@ -61,7 +61,7 @@ bool Roles::Proposes(const Edit& edit) const {
 }
 
 GrantsApplied Roles::Apply(const Grants& grants) {
-  std::map<int, std::pair<std::int8_t, bool>> before;  // role, and whether it had authority
+  std::map<int, std::pair<std::int8_t, bool>> before;  // role, and true if it had authority
   for (const PartId id : grants.mechanism) {
     const int m = table_.IndexOf(id);
     if (m >= 0) before[m] = {RoleOf(m), IsAuthority(m)};
@@ -85,8 +85,8 @@ void Roles::ReleaseAll() {
 }
 
 void Roles::Remap(const std::vector<std::vector<int>>& from) {
-  // What an edit makes of nothing, such as pieces freed from bricks, everybody simulates until its
-  // grant comes: what is only led flies through walls, and its holder would begin behind them.
+  // Every peer simulates a new mechanism, such as pieces freed from bricks, until its grant
+  // arrives: a displayed body flies through walls, and its holder would begin behind them.
   AuthorityRecord fresh;
   if (config_.mode == Mode::kBuffer) {
     fresh.secondaries.Add(0);

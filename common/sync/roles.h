@@ -1,5 +1,5 @@
 #pragma once
-/// What this peer is to each mechanism: its authority, a secondary or remote. Only this class says.
+/// This peer's role for each mechanism: authority, secondary or remote. Only this class decides it.
 
 #include <cstdint>
 #include <vector>
@@ -11,10 +11,10 @@
 
 namespace seam {
 
-/// What a message of grants has changed for a peer.
+/// Effects of a Grants message on a peer.
 struct GrantsApplied {
-  std::vector<int> let_go;  ///< mechanisms that it had and has no longer
-  std::vector<int> roles;   ///< mechanisms in which its role is another
+  std::vector<int> let_go;  ///< mechanisms that the peer held and no longer holds
+  std::vector<int> roles;   ///< mechanisms in which its role changed
 };
 
 class Roles {
@@ -28,37 +28,39 @@ class Roles {
   const AuthorityTable& table() const { return table_; }
   AuthorityTable& table() { return table_; }
 
-  /// kRoleAuthority, kRoleSecondary or kRoleRemote of this peer for a mechanism.
+  /// Returns this peer's kRoleAuthority, kRoleSecondary or kRoleRemote for a mechanism.
   std::int8_t RoleOf(int mechanism) const;
-  /// The same for the mechanism of a body.
+  /// Returns the role for the mechanism of a body.
   std::int8_t RoleOfBody(int body) const { return RoleOf(world_.mechanism(body)); }
-  /// Whether this peer steps the body itself; else it only displays it.
+  /// True if this peer simulates the body; otherwise it only displays it.
   bool Simulates(int body) const { return RoleOfBody(body) != kRoleRemote; }
-  /// Whether the table names this peer, in any mode.
+  /// True if the table names this peer, in any mode.
   bool IsAuthority(int mechanism) const { return table_.at(mechanism).authority == self_; }
-  /// Holders that have fallen silent: the server, while it follows what they have, says in their
-  /// names where that is.
+  /// Sets the holders that have fallen silent. For mechanisms that it follows, the server sends
+  /// states in their names.
   void SpeakFor(const PeerSet& silent) { silent_ = silent; }
-  /// Whether this peer may say, in a silent holder's name, where a mechanism's bodies are.
+  /// True if this peer may send states of a mechanism in its silent holder's name.
   bool StandsIn(int mechanism) const {
     const AuthorityRecord& record = table_.at(mechanism);
     return silent_.Has(record.authority) && record.secondaries.Has(self_);
   }
-  /// Whether another peer steps any of the bodies that are awake here and that this one steps.
+  /// True if another peer simulates any awake body that this peer simulates; always true outside
+  /// mode buffer.
   bool Shares() const;
-  /// Whether this peer is to propose an edit that physics found: the authority of the first part
-  /// concerned that is in a mechanism; in mode oracle every peer.
+  /// True if this peer is to propose an edit found by physics: the authority of the first affected
+  /// part in a mechanism, or with rollback the server if it follows that mechanism; in mode oracle
+  /// every peer.
   bool Proposes(const Edit& edit) const;
 
-  /// Takes over a message.
+  /// Applies a message.
   GrantsApplied Apply(const Grants& grants);
-  /// Gives all that this peer has back to the server.
+  /// Returns all authority of this peer to the server.
   void ReleaseAll();
-  /// The mechanisms have changed; `from` as in BodyRemap::mechanisms.
+  /// Carries the table over after an edit; `from` as in BodyRemap::mechanisms.
   void Remap(const std::vector<std::vector<int>>& from);
 
  private:
-  /// By mechanism: what the own player drives.
+  /// By mechanism: true if the own player drives it.
   const std::vector<bool>& Own() const;
 
   const SyncConfig& config_;
@@ -67,7 +69,7 @@ class Roles {
   const World& world_;
   AuthorityTable table_;
   PeerSet silent_;
-  mutable std::vector<bool> own_;  // as of that revision
+  mutable std::vector<bool> own_;  // for revision own_of_revision_
   mutable int own_of_revision_ = -1;
 };
 

@@ -10,8 +10,8 @@
 namespace seam {
 namespace {
 
-/// Growth of the priority per send (after Fiedler, "State Synchronization", 2015): what just
-/// collided is interesting, what sleeps is repeated seldom.
+/// Growth of the priority per send (after Fiedler, "State Synchronization", 2015): a body that just
+/// collided is interesting, a sleeping one is rarely repeated.
 constexpr float kPriorityImpact = 10;
 constexpr float kPriorityAwake = 1;
 /// Sleeping bodies are repeated this often, s: final poses arrive in spite of loss.
@@ -47,9 +47,10 @@ void SendScheduler::Collect() {
   }
 }
 
-/// A body that inputs still unknown can have reached is told of as it was at the newest tick that
-/// they cannot have changed: an assumption of ours must not overwrite what others know better. Of
-/// what is told in a silent holder's name nobody knows better.
+/// Returns the tick for which a body's state is sent. If unknown inputs can have reached the body,
+/// that is the newest tick that they cannot have changed: our assumption must not overwrite the
+/// better knowledge of other peers. States in a silent holder's name are of now: no peer knows
+/// better.
 std::int64_t SendScheduler::ToldTick(int body) const {
   const std::int64_t now = world_.tick();
   const int m = world_.mechanism(body);
@@ -58,13 +59,13 @@ std::int64_t SendScheduler::ToldTick(int body) const {
   return memory_.ComparablePast(body, complete) != nullptr ? complete : now;
 }
 
-/// The newest tick whose state of ours no input that is still to come can change.
+/// Returns the newest tick for which no future input can change our state.
 std::int64_t SendScheduler::FinalTick(int mechanism) const {
   if (!config_.rolls_back) return world_.tick();
   return std::min(reach_.CompleteTick(mechanism), replay_.settled());
 }
 
-/// What others were told of a tick at which all was known can be a fact (Replay::IsFact).
+/// Records the tick of a final state that was sent: it can be a fact (Replay::IsFact).
 void SendScheduler::NoteTold(int body, std::int64_t tick) {
   const int m = world_.mechanism(body);
   if (!roles_.IsAuthority(m) || tick > FinalTick(m)) return;
@@ -76,7 +77,7 @@ std::vector<States> SendScheduler::Take() { return std::exchange(outgoing_, {});
 
 bool SendScheduler::Due(int body) {
   BodyTrack& track = memory_.track(body);
-  if (track.at_rest) return false;  // a Rest has told of it
+  if (track.at_rest) return false;  // a Rest message carries it
   if (world_.awake(body)) {
     track.asleep_since = -1;
     return true;
@@ -88,17 +89,18 @@ bool SendScheduler::Due(int body) {
          (slept + body) % repeat < config_.send_every();
 }
 
-/// In a silent holder's name only of what moves: the rest comes to rest without it.
+/// True if this peer sends the body's state. In a silent holder's name only for moving bodies:
+/// others come to rest without help.
 bool SendScheduler::Speaks(int body) const {
   const int m = world_.mechanism(body);
   if (roles_.IsAuthority(m)) return true;
   return roles_.StandsIn(m) && world_.Read(body).velocity.norm() > kMissed;
 }
 
-/// Ascending.
+/// Returns body indices, ascending.
 std::vector<int> SendScheduler::ChooseBodies() {
   std::vector<int> due;
-  for (const int body : world_.present()) {  // nobody speaks for what it has not
+  for (const int body : world_.present()) {  // no peer sends states of absent bodies
     BodyTrack& track = memory_.track(body);
     if (!Speaks(body) || !track.placed || !Due(body)) continue;
     const bool hit = world_.awake(body) && memory_.Struck(body);
@@ -108,7 +110,7 @@ std::vector<int> SendScheduler::ChooseBodies() {
   std::stable_sort(due.begin(), due.end(), [&](int a, int b) {
     return memory_.track(a).priority > memory_.track(b).priority;
   });
-  // The server chooses anew for each receiver, within its budget (Outbox).
+  // The server selects again for each receiver, within its budget (Outbox).
   if (roles_.self() > 0 && due.size() > kBodiesPerSend) due.resize(kBodiesPerSend);
   std::sort(due.begin(), due.end());
   return due;
@@ -139,7 +141,7 @@ PackedBody SendScheduler::Tell(int body, std::int64_t tick) {
   }
   const bool asleep = (packed.flags & kStateAsleep) != 0;
   if (!asleep && memory_.FallsFreely(body, tick, packed.state)) packed.flags |= kStateFalls;
-  // The sender goes on from its own numbers, in motion and at rest: writing the rounded pose back
+  // The sender continues from its own numbers, moving or at rest: writing the rounded pose back
   // topples a stack of ten boxes even in a world of its own (docs/lessons.md).
   return packed;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Which of its own bodies a peer sends in its next States: a client those of the highest priority,
-/// at most kBodiesPerSend; the rest wait and gain priority. Bodies that fall asleep are sent a few
+/// Chooses the own bodies for a peer's next States. A client sends those of the highest priority,
+/// at most kBodiesPerSend; the others wait and gain priority. Bodies falling asleep are sent a few
 /// times, and no more once they are committed to rest (RestCommit).
 
 #include <vector>
@@ -16,24 +16,23 @@
 
 namespace seam {
 
-/// Bodies that a client tells of in one send: four datagrams. More than that take turns by
-/// priority.
+/// Most bodies in one send of a client: four datagrams. More take turns by priority.
 constexpr std::size_t kBodiesPerSend = 4 * kStatesBodiesMax;
 
 class SendScheduler {
  public:
-  /// All must outlive this. Where the peer goes back for late inputs, `reach` has looked before
+  /// All must outlive this. If the peer rolls back for late inputs, `reach` must be up to date at
   /// Collect.
   SendScheduler(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
                 const Reach& reach, const Replay& replay);
 
-  /// After a step. If a send is due, collects what is to be told. What was not taken since the last
-  /// call is dropped.
+  /// Call after a step. Collects states if a send is due. Drops states not taken since the last
+  /// call.
   void Collect();
-  /// What Collect found, if anything; utime is left 0.
+  /// Returns the collected states; utime is left 0.
   std::vector<States> Take();
-  /// The current state of all bodies, whoever has them, for one who joins, but of those that are
-  /// committed to rest; utime is left 0.
+  /// Returns the current state of every body that is not committed to rest, under any authority,
+  /// for a peer that joins; utime is left 0.
   std::vector<States> Everything() const;
 
  private:
@@ -43,7 +42,7 @@ class SendScheduler {
   PackedBody Describe(int body) const;
   PackedBody Tell(int body, std::int64_t tick);
   void NoteTold(int body, std::int64_t tick);
-  /// The tick of which a body's state is told.
+  /// Tick for which a body's state is sent.
   std::int64_t ToldTick(int body) const;
   std::int64_t FinalTick(int mechanism) const;
   States Header() const;

@@ -7,8 +7,9 @@
 namespace seam {
 namespace {
 
-/// Share of a correction of velocity that the offset takes. All of it hides a collision that our
-/// copy only heard of, but what contacts undo at once would show; none shows every velocity jump.
+/// Share of a velocity correction that the offset takes. A full share hides a collision that our
+/// copy only heard of, but also shows corrections that contacts undo at once; zero shows every
+/// velocity jump.
 constexpr float kVelocityShare = 0.5f;
 
 }  // namespace

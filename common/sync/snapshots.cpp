@@ -9,17 +9,17 @@
 namespace seam {
 namespace {
 
-/// What accelerated a body between its last two states and between the two before is thought to go
-/// on for kAccelerationLasts, unless it is more than gravity, brakes and drag make, or the states
-/// are far apart. s, m/s^2, s
+/// Acceleration common to the last two intervals between states is assumed to last for
+/// kAccelerationLasts, unless it exceeds that of gravity, brakes and drag, or the states are far
+/// apart. s, m/s^2, s
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
 constexpr std::size_t kKeep = 96;         // states per body: about three seconds
-constexpr std::int64_t kKeepTicks = 512;  // ...and of what is told seldom none that is older
-constexpr std::size_t kAges = 90;         // arrivals looked at for the delay
+constexpr std::int64_t kKeepTicks = 512;  // ...and none older than this
+constexpr std::size_t kAges = 90;         // ages used for the delay
 constexpr double kSlewPerTick = 0.02;     // ticks of delay per tick: 2 % slower or faster
 
-/// The shortest vector on the way from `a` to `b`: both where they agree, 0 where they are opposed
-/// or one of them is.
+/// Returns the shortest vector on the segment from `a` to `b`: equal to both if they agree, 0 if
+/// they oppose each other or one is 0.
 Vec2 LeastBetween(const Vec2& a, const Vec2& b) {
   const Vec2 way = b - a;
   const float length = way.squaredNorm();
@@ -52,7 +52,7 @@ void Snapshots::Ring::Push(const Stamped& stamped) {
 void Snapshots::Ring::DropNewest() {
   next_ = static_cast<std::uint16_t>((next_ == 0 ? slots_.size() : next_) - 1);
   --size_;
-  falls = false;  // of older ones it is not kept
+  falls = false;  // not stored for older states
   newest_tick_ = size_ == 0 ? -1 : FromNewest(0).tick;
   if (size_ > 0) newest_ = FromNewest(0).state;
 }
@@ -126,7 +126,7 @@ Vec2 Snapshots::AccelerationBefore(std::size_t back, const Ring& ring, float dt)
 Vec2 Snapshots::Acceleration(int body, std::int64_t tick, float dt) const {
   const Ring& ring = rings_[static_cast<std::size_t>(body)];
   if (ring.newest_tick() != tick) return {0, 0};
-  // What starts, stops or is struck changes its velocity once: that does not go on.
+  // A start, a stop or an impact changes the velocity once: that does not last.
   return LeastBetween(AccelerationBefore(0, ring, dt), AccelerationBefore(1, ring, dt));
 }
 

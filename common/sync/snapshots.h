@@ -1,6 +1,6 @@
 #pragma once
-/// Received states by tick: for what is displayed rather than simulated (the snapshot interpolation
-/// of modes strict and central, dead reckoning beyond the buffer zone), for pulls and for replays.
+/// Received states by tick, for displayed bodies (snapshot interpolation in modes strict and
+/// central, dead reckoning beyond the buffer zone), for pullers and for replays.
 
 #include <cstdint>
 #include <deque>
@@ -11,12 +11,12 @@
 
 namespace seam {
 
-/// Dead reckoning of what is displayed goes no further than this, s. If it is shorter than the age
-/// of the states, a fast body stops and jumps; longer shows more that is wrong.
+/// Longest dead reckoning from a received state, s. If shorter than the age of the states, a fast
+/// body stops and jumps; longer shows more that is wrong.
 constexpr float kReckonMax = 1.0f;
 
-/// By how much a moderate acceleration changes the velocity (m/s) and the position (m) of what is
-/// reckoned for `forward` s: it is thought to last for a moment only.
+/// Return the change of velocity (m/s) and of position (m) that a moderate acceleration causes over
+/// `forward` s of extrapolation. It is assumed to last only a moment.
 Vec2 SpeedGained(const Vec2& acceleration, float forward);
 Vec2 ShiftGained(const Vec2& acceleration, float forward);
 
@@ -25,15 +25,15 @@ class Snapshots {
  public:
   explicit Snapshots(int body_count);
 
-  /// Keeps the state if it is newer than what it has of this body. `falls`: gravity alone moves it.
+  /// Keeps the state if it is newer than all states of this body. `falls`: gravity alone moves it.
   void Add(int body, std::int64_t tick, const BodyState& state, bool falls = false);
-  /// The bodies have changed: what was heard of those they come from is carried over.
+  /// Carries the states over after an edit.
   void Remap(const std::vector<BodyOrigin>& origins);
-  /// What was heard of later ticks was of another body.
+  /// Drops states after `tick`: they belong to another body.
   void ForgetAfter(int body, std::int64_t tick);
 
   bool has(int body) const { return newest_tick(body) >= 0; }
-  /// -1 when none.
+  /// -1 if there is none.
   std::int64_t newest_tick(int body) const {
     return rings_[static_cast<std::size_t>(body)].newest_tick();
   }
@@ -42,24 +42,25 @@ class Snapshots {
     return rings_[static_cast<std::size_t>(body)].newest();
   }
 
-  /// Whether the newest state is of free fall. Requires has(body).
+  /// True if the newest state is of free fall. Requires has(body).
   bool falls(int body) const { return rings_[static_cast<std::size_t>(body)].falls; }
 
-  /// The state of exactly this tick; nullptr when it is not kept.
+  /// Returns the state of exactly this tick; nullptr if it is not kept.
   const BodyState* At(int body, std::int64_t tick) const;
-  /// Interpolated at a (fractional) tick; the oldest or newest kept state outside of what is known:
-  /// never extrapolated. Requires has(body).
+  /// Returns the state interpolated at a (fractional) tick; outside the kept range the oldest or
+  /// newest, never an extrapolation. Requires has(body).
   BodyState Interpolate(int body, double tick) const;
-  /// What the last two intervals between states have in common, m/s^2; 0 where they are opposed,
-  /// one is too large to go on or too long, or the newest state is not of `tick`.
+  /// Returns the common acceleration of the last two intervals between states, m/s^2. 0 if they
+  /// oppose each other, if one is too large to last or too long, or if the newest state is not of
+  /// `tick`.
   Vec2 Acceleration(int body, std::int64_t tick, float dt) const;
-  /// The newest state moved on by its velocity for at most `max_s`, and by a moderate acceleration
-  /// that has lasted for two intervals. Requires has(body).
+  /// Returns the newest state extrapolated by its velocity for at most `max_s`, and by a moderate
+  /// acceleration that has lasted two intervals. Requires has(body).
   BodyState Extrapolate(int body, std::int64_t tick, float dt, float max_s) const;
-  /// The same by the last interval alone. For what is simulated and pulled there: it answers at
-  /// once, and what comes of it the next pull undoes.
+  /// Like Extrapolate, with the acceleration of the last interval alone. For pullers of simulated
+  /// bodies: it reacts at once, and the next pull undoes an error.
   BodyState ExtrapolateNewest(int body, std::int64_t tick, float dt, float max_s) const;
-  /// For how long a state of `from` is moved on to `tick`, s.
+  /// Returns the time for which a state of `from` is extrapolated to `tick`, s.
   static float Forward(std::int64_t from, std::int64_t tick, float dt, float max_s);
 
  private:
@@ -67,9 +68,9 @@ class Snapshots {
     std::int64_t tick = 0;
     BodyState state;
   };
-  /// The newest kKeep of a body, in one piece of memory that is as large as they need: a room hears
-  /// of thousands of bodies in a second, and what an entry costs is the memory that it is in. The
-  /// newest lies in the ring itself, too, beside its tick: most who ask want no other.
+  /// The newest kKeep states of a body in one block of memory, as large as needed: a room hears of
+  /// thousands of bodies a second, and the cost of an entry is its cache miss. The newest is also
+  /// kept in the ring itself, beside its tick, because most callers want only that.
   class alignas(64) Ring {
    public:
     void Push(const Stamped& stamped);
@@ -77,7 +78,7 @@ class Snapshots {
     std::size_t size() const { return size_; }
     std::int64_t newest_tick() const { return newest_tick_; }  ///< -1 when none
     const BodyState& newest() const { return newest_; }        ///< requires size() > 0
-    /// All states become what `to(state)` says.
+    /// Replaces each state by `to(state)`.
     template <class To>
     void Change(const To& to) {
       for (std::size_t k = 0; k < size_; ++k) {
@@ -99,24 +100,23 @@ class Snapshots {
     std::int64_t newest_tick_ = -1;
     BodyState newest_;
     std::vector<Stamped> slots_;
-    std::uint16_t next_ = 0, size_ = 0;  // where the next goes, and how many there are
+    std::uint16_t next_ = 0, size_ = 0;  // slot of the next state, and number of states
   };
-  /// Between the state that is so many back and the one before it.
+  /// Acceleration between the state `back` from the newest and the one before it.
   static Vec2 AccelerationBefore(std::size_t back, const Ring& ring, float dt);
   static BodyState Onward(const Ring& ring, std::int64_t tick, float dt, float max_s,
                           const Vec2& acceleration);
   std::vector<Ring> rings_;
 };
 
-/// How far in the past to display so that the next snapshot has nearly always arrived: the age
-/// that 19 of 20 snapshots stay below, plus one interval. Changes slowly, because a jump of it is a
-/// stutter.
+/// Display delay for which the next snapshot has nearly always arrived: the age that 19 of 20
+/// snapshots stay below, plus one interval. Changes slowly, because a jump of it is a stutter.
 class DisplayDelay {
  public:
   explicit DisplayDelay(int interval_ticks) : interval_ticks_(interval_ticks) {}
-  /// A snapshot was `age_ticks` old when it came.
+  /// Records that a snapshot was `age_ticks` old on arrival.
   void AddAge(std::int64_t age_ticks);
-  /// Called once a tick; returns the delay in ticks.
+  /// Call once a tick. Returns the delay in ticks.
   double Advance();
   double ticks() const { return delay_; }
 

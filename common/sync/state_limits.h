@@ -1,5 +1,5 @@
 #pragma once
-/// The limits of what a correction writes: speed and spin, and what is too small to correct.
+/// Limits of corrections: maximum speed and spin, and differences too small to correct.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace seam {
 
-/// A difference that the wire's rounding explains.
+/// True if the wire's rounding explains the difference.
 inline bool Negligible(const BodyState& d) {
   return d.position.norm() < 0.75f * kPositionQuantum &&
          std::fabs(d.angle) < 0.75f * static_cast<float>(kAngleQuantum) &&

@@ -1,13 +1,13 @@
 #pragma once
-/// The one place that corrects the bodies that are simulated here by what was heard of them.
-/// Besides it only physics moves them, a replay (which it asks for), and RestCommit, which puts
-/// bodies at rest where they lie at their authority.
+/// Corrects the simulated copies of other peers' bodies by the states received. Apart from physics
+/// only two classes also move such bodies: Replay, at the request of Corrector, and RestCommit,
+/// which puts resting bodies at their committed poses.
 ///
-///   States --> corrector_receive   which are new, and of whom
-///                corrector_correct   the room's rule: what to add to a secondary's copy now
-///                corrector_pull      ...and before every step, by rules that ask for it
-///   ExactStates --> corrector_take_over  copies of what changes hands are put right
-///   roles  --> corrector_roles     a body simulated from now on begins at the authority's state
+///   States --> corrector_receive   filters new states, by body
+///                corrector_correct   applies the room's rule to a secondary's copy
+///                corrector_pull      the same before every step, if the rule asks for it
+///   ExactStates --> corrector_take_over  corrects copies of mechanisms that change hands
+///   roles  --> corrector_roles     starts newly simulated bodies at the authority's state
 
 #include <cstdint>
 #include <map>
@@ -25,10 +25,10 @@
 
 namespace seam {
 
-/// What became of the bodies of a States message.
+/// Result of a States message: number of bodies per outcome.
 struct Received {
   int used = 0;
-  int stale = 0;    ///< older than what is known, or of an old epoch
+  int stale = 0;    ///< older than a known state, or of an old epoch
   int unknown = 0;  ///< no such body, or this peer's own
 };
 
@@ -38,39 +38,43 @@ class Corrector {
   Corrector(const SyncConfig& config, World& world, const Roles& roles, const Presence& presence,
             BodyMemory& memory, Display& display, Replay& replay);
 
-  /// States of another peer's bodies. Those of ticks or edits still to come wait for them.
+  /// Takes states of another peer's bodies. States of future ticks or edits are kept until then.
   Received Receive(const States& states);
-  /// After a step: what waited is received again.
+  /// Call after a step. Receives the kept states that are now due.
   void ReceiveWaiting();
-  /// Takes poses as they are, of bodies whose pose is not known yet.
+  /// Places bodies that have no known pose yet. Other bodies are not changed.
   void Place(const States& states);
-  /// After the last of them: what has been moved on to now body by body is closed, and whole turns
-  /// are as hinges allow them.
+  /// Call after the last Place. Closes joints that opened because bodies were extrapolated one by
+  /// one, and takes off whole turns that hinges do not allow.
   void ClosePlaced();
-  /// Where bodies were when their holder let go: copies are put right at once, so that who takes
-  /// over begins from there. The largest difference there was; zero of what is only displayed.
+  /// Takes over the exact states at which a holder let go. Copies are corrected at once, so that
+  /// the next holder starts from there. Returns the largest difference; zero for bodies that are
+  /// only displayed.
   BodyState TakeOver(const ExactStates& exact);
-  /// Before a step: pulls copies on, if the room's rule acts in every tick.
+  /// Call before a step. Pulls copies towards the authority's states, if the room's rule acts in
+  /// every tick.
   void PullCopies();
-  /// After a change of roles: bodies become dynamic, led, absent or kinematic. Whether one that
-  /// moves begins to be simulated.
+  /// Call after a change of roles. Sets bodies dynamic, prescribed (kLed), absent or kinematic.
+  /// Returns true if an awake body became dynamic.
   bool FollowRoles();
-  /// The same of these bodies alone, ascending. After a change of who is near: of what is tended.
+  /// Like the above for these bodies only, ascending. Call after a change of Presence, with bodies
+  /// that are not parked.
   bool FollowRoles(const std::vector<int>& bodies);
-  /// Messages of ticks or edits still to come.
+  /// Number of messages kept for a future tick or edit.
   std::size_t waiting() const { return waiting_.size(); }
 
  private:
-  /// An entry of a States message, and the body that it is of.
+  /// Index of an entry in a States message, and its body.
   using Entry = std::pair<std::size_t, int>;
 
-  /// Whether an entry is news; counts it.
+  /// True if the message is of a future tick or revision.
   bool IsEarly(const States& states) const;
-  /// Whether it is of a tick that is not far from now.
+  /// True if its tick is not far from now.
   bool IsNear(const States& states) const;
   void Wait(const States& states);
+  /// True if an entry is newer than the known state of its body; counts the outcome in `result`.
   bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
-  /// Notes one entry; true if its body is simulated here and to be corrected.
+  /// Records one entry. Returns true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);
   void PutExact(int body, std::int64_t from, const BodyState& difference, const BodyState& told,
                 std::int64_t told_tick);
@@ -80,11 +84,11 @@ class Corrector {
   /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
   std::map<int, BodyState> CommonDifferences(const States& states,
                                              const std::vector<Entry>& entries) const;
-  /// Our comparable past at `tick`, with the velocity of the near tick at which our copy moved most
-  /// like `remote`. Requires that there is one.
+  /// Returns our comparable past at `tick`, with the velocity of the nearby tick at which our copy
+  /// moved most like `remote`. Requires such a past.
   BodyState LikePast(int body, std::int64_t tick, const BodyState& remote) const;
-  /// Where a copy may be put that is to go to `target`, when its authority had it at `heard` at
-  /// tick `from`: nothing anchored lies between there and where it was.
+  /// Returns the point nearest to `target` that a copy can reach without crossing an anchored
+  /// shape, if its authority had it at `heard` at tick `from`.
   Vec2 WayTo(int body, const Vec2& heard, std::int64_t from, const Vec2& target) const;
   bool CameFrom(int body, const Vec2& heard, std::int64_t from) const;
   void Correct(int body, const States& states, std::size_t i, const BodyState& common);
@@ -106,11 +110,11 @@ class Corrector {
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;
-  std::vector<States> waiting_;  // of ticks or edits still to come
-  std::vector<States> waited_;   // that waited: their memory is used again
-  /// Ids of bodies that have been placed, and whether they were moved on to now: not closed yet.
+  std::vector<States> waiting_;  // for future ticks or edits
+  std::vector<States> waited_;   // former entries of waiting_; their memory is reused
+  /// Bodies that were placed but not yet closed: id, and true if extrapolated to now.
   std::vector<std::pair<int, bool>> placed_;
-  std::vector<BodyState> poses_;  // by body: of the mechanism that is being closed
+  std::vector<BodyState> poses_;  // by body: poses of the mechanism being closed
 };
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// Corrector: the room's rule decides what a secondary's copy is moved by, and here it is moved.
+/// Corrector: applies the room's rule to a secondary's copy.
 
 #include <algorithm>
 #include <cmath>
@@ -10,20 +10,20 @@
 namespace seam {
 namespace {
 
-/// A copy slower than this may be taken to its authority's pose of rest at once, m/s and rad/s.
+/// A copy slower than this may take its authority's rest pose at once, m/s and rad/s.
 constexpr float kQuiet = 0.1f;
-/// The same collision happens a tick or two apart at two peers. In between their velocities differ
-/// by the whole blow, and carrying that difference on would strike twice. So a difference beyond
-/// kOtherImpact, m/s, is looked for within this many ticks: the least one counts. 5 ticks see other
-/// collisions too; 2 miss some of the same.
+/// The same collision happens a tick or two apart at two peers. In between, their velocities differ
+/// by the whole impact, and correcting that difference would apply the impact twice. A difference
+/// beyond kOtherImpact, m/s, is therefore compared over this many ticks to each side, and the
+/// smallest one counts. 5 ticks match other collisions too; 2 miss some of the same.
 constexpr std::int64_t kImpactShift = 3;
 constexpr float kOtherImpact = 1;
-/// Directions in which a mechanism is blocked that are nearer to each other than this count as one:
-/// cosine of the angle between them.
+/// Blocked directions of a mechanism that are closer than this count as one: cosine of the angle
+/// between them.
 constexpr float kSameDirection = 0.9f;
 
-/// The largest share of a difference that may be corrected at once when peers correct towards each
-/// other with `dt` s of delay, `send_hz` times a second.
+/// Largest stable share of a difference to correct at once, when peers correct towards each other
+/// with a delay of `dt` s, `send_hz` times a second.
 float GainFor(float dt, int send_hz) {
   // A pure correction delayed by d updates is stable below 2 sin(pi / (2 (2 d + 1))).
   const double d = std::ceil(static_cast<double>(dt) * send_hz);
@@ -84,7 +84,7 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   in.local = world_.Read(body);
   const BodyState* then = memory_.ComparablePast(body, states.tick);
   in.dt = static_cast<float>(world_.tick() - states.tick) * world_.dt();
-  // The wire's angle has lost its revolutions: it is the one nearest to where our copy was.
+  // The wire's angle has lost its revolutions; the one nearest to our copy's past is meant.
   const float angle_then = then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
   in.remote = Unpack(states, i, angle_then);
   const bool quiet = in.local.velocity.norm() < kQuiet && std::fabs(in.local.spin) < kQuiet;
@@ -117,10 +117,10 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   NoteArrival(body);
 }
 
-/// At rest as far as the authority knows: take its pose, unless only the wire's rounding differs:
-/// that the Rest brings, and what is woken before it goes on from the same numbers. Our copy is
-/// neither woken nor put to sleep by it: either would start the engine's time to sleep again, for
-/// all that it touches.
+/// Takes the pose of a copy that rests as far as its authority knows. A difference within the
+/// wire's rounding is left: the Rest message brings the exact pose, and a body woken earlier
+/// continues from the same numbers. The copy is neither woken nor put to sleep: either would
+/// restart the engine's sleep timer for all bodies that it touches.
 void Corrector::TakeRest(int body, const BodyState& local, const BodyState& remote) {
   memory_.track(body).pull.arrived = -1;
   BodyState moved = Minus(remote, local);
@@ -132,12 +132,12 @@ void Corrector::TakeRest(int body, const BodyState& local, const BodyState& remo
   *memory_.history().At(world_.tick(), body) = world_.Read(body);
 }
 
-/// Moves the copy by what the rule said of a message of tick `from`.
+/// Applies the rule's correction for a message of tick `from`.
 void Corrector::Blend(int body, const BodyState& local, const Correction& c, std::int64_t from) {
   const std::int64_t now = world_.tick();
   const BodyState corrected = WithinLimits(PlusScaled(local, c.now, 1), world_.scene().speed_limit);
   if (c.rewrites_history) {
-    // The past is corrected too, so that the next message is compared with what we now believe.
+    // Corrects the past too, so that the next message is compared with our new belief.
     const float steps = static_cast<float>(std::max<std::int64_t>(1, now - from));
     for (std::int64_t t = from; t < now; ++t) {
       BodyState* past = memory_.history().At(t, body);
@@ -148,8 +148,8 @@ void Corrector::Blend(int body, const BodyState& local, const Correction& c, std
   }
   const std::int64_t since = memory_.track(body).dynamic_since;
   if (!c.rewrites_history && from < since && config_.pull == nullptr) {
-    // It was placed for want of a past: what past it has moves along, or the next message would
-    // find the same difference again. A puller does not look at the past.
+    // The copy was placed for lack of a past. Its recent past moves along, or the next message
+    // would find the same difference again. A puller does not use the past.
     for (std::int64_t t = since; t < now; ++t) {
       if (BodyState* past = memory_.history().At(t, body)) *past = PlusScaled(*past, c.now, 1);
     }

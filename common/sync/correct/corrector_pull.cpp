@@ -1,4 +1,4 @@
-/// Corrector: copies that are pulled in every tick between two messages, by rules that ask for it.
+/// Corrector: pulls copies in every tick between two messages, for rules that ask for it.
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/corrector.h"
@@ -7,8 +7,8 @@
 namespace seam {
 namespace {
 
-/// The authority's state is moved on by this at most, s (BeamMP's). Farther, a car that braked is
-/// looked for in the next street.
+/// The authority's state is extrapolated by at most this, s (BeamMP's value). Longer puts a car
+/// that braked into the next street.
 constexpr float kPullReckonMax = 0.3f;
 
 }  // namespace
@@ -43,7 +43,7 @@ void Corrector::PullCopies() {
     PullTrack& pull = track.pull;
     if (pull.arrived < track.dynamic_since) continue;
     if (pull.arrived < 0 || roles_.RoleOfBody(body) != kRoleSecondary) continue;
-    // News from before a blow would undo it.
+    // A state from before an impact would undo the impact.
     if (memory_.snapshots().newest_tick(body) <= track.last_impact_tick) continue;
     in.coupled = memory_.Coupled(world_.mechanism(body));
     in.local = world_.Read(body);

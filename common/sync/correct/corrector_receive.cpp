@@ -1,4 +1,4 @@
-/// Corrector, incoming: other peers' states become snapshots, corrections or a replay.
+/// Corrector: turns received states into snapshots, corrections or a replay.
 
 #include <iterator>
 #include <utility>
@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// States of ticks still to come that may wait; a hostile peer could send many.
+/// Limits of kept States of future ticks; a hostile peer could send many.
 constexpr std::size_t kWaitingMax = 64;
 constexpr std::int64_t kWaitingTicksMax = 120;
 
@@ -55,7 +55,7 @@ Received Corrector::Receive(const States& states) {
   return result;
 }
 
-/// Of a tick, or of a composition, that is still to come here.
+/// True if the message is of a future tick, or of an edit not yet applied here.
 bool Corrector::IsEarly(const States& states) const {
   return states.tick > world_.tick() || states.revision > world_.topology().revision();
 }
@@ -93,7 +93,7 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
   }
   const BodyTrack& track = memory_.track(body);
   if (states.revision < track.changed_at) {
-    ++result->stale;  // of another body of the same root
+    ++result->stale;  // the state of an earlier body with the same root
     return false;
   }
   const AuthorityRecord& record = roles_.table().at(world_.mechanism(body));
@@ -103,7 +103,7 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
   }
   const bool trusts = config_.StampsInputs(roles_.self()) && roles_.Simulates(body);
   if (track.placed && trusts && replay_.LacksEdit(states.revision, states.tick)) {
-    ++result->stale;  // it will go back, and say otherwise
+    ++result->stale;  // its sender will roll back and send another state
     return false;
   }
   if (states.epoch[i] < record.epoch || states.tick <= track.heard_tick) {
@@ -129,7 +129,7 @@ void Corrector::Place(const States& states) {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || memory_.track(body).placed) continue;
-    memory_.track(body).heard_tick = states.tick;  // what is older is no news
+    memory_.track(body).heard_tick = states.tick;  // older states are stale from now on
     memory_.track(body).heard_epoch = states.epoch[i];
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
     memory_.snapshots().ForgetAfter(body, states.tick - 1);
@@ -138,7 +138,8 @@ void Corrector::Place(const States& states) {
   }
 }
 
-/// The message is as old as its way was long: the body begins where it is by now, in motion.
+/// Places a body at the state of a message, extrapolated to now: the message is as old as its
+/// transit.
 void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, bool asleep) {
   BodyState by_now = remote;
   const bool moves_on = !asleep && tick < world_.tick();
@@ -146,7 +147,7 @@ void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, b
   if (moves_on) {
     by_now = memory_.MovedOn(body, world_.tick());
     by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
-    if (!memory_.snapshots().falls(body)) {  // which goes through nothing
+    if (!memory_.snapshots().falls(body)) {  // a falling one bounces off anchored shapes already
       by_now.position = WayTo(body, remote.position, tick, by_now.position);
     }
   }
@@ -156,7 +157,7 @@ void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, b
 void Corrector::PlaceBody(int body, const BodyState& state, bool asleep) {
   memory_.Unpark(body);
   memory_.track(body).placed = true;
-  replay_.Forget();  // it was not there before
+  replay_.Forget();  // the barriers lack this body
   world_.Write(body, WithinLimits(state, world_.scene().speed_limit));
   if (asleep) world_.SetAwake(body, false);
   *memory_.history().At(world_.tick(), body) = world_.Read(body);

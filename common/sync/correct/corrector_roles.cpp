@@ -1,5 +1,5 @@
-/// Corrector: bodies whose role changed. What is simulated from now on begins as the authority's,
-/// what is displayed from now on goes on from where it is.
+/// Corrector: changes of role. A body that becomes simulated starts from the authority's state; a
+/// body that becomes displayed continues from its current state.
 
 #include <algorithm>
 #include <numeric>
@@ -12,15 +12,15 @@
 namespace seam {
 namespace {
 
-/// What was heard a second / kHeardLatelyPart ago, or less, is of a moment ago.
+/// A state counts as recent if it was heard at most a second / kHeardLatelyPart ago.
 constexpr int kHeardLatelyPart = 5;
 
 }  // namespace
 
-/// What is displayed has its real mass, so that it neither is a wall to what is simulated nor pumps
-/// energy into it; what is far from all of that is not there at all. Strict shows what comes of
-/// infinite mass, and interpolated paths of the past are nothing to lean on. Of what is simulated
-/// that is not there at all which rests where nothing can touch it.
+/// Returns how a body takes part in the world. A displayed body keeps its real mass, so that it is
+/// neither a wall to simulated bodies nor feeds energy into them; far from all of these it is
+/// absent. Mode strict shows the effect of infinite mass, and nothing should lean on interpolated
+/// paths of the past. A simulated body is absent if it rests where nothing can touch it.
 Motion Corrector::WantedMotion(int body) const {
   const int m = world_.mechanism(body);
   if (roles_.RoleOf(m) != kRoleRemote) {
@@ -47,8 +47,8 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
     if (world_.motion(body) == wanted) continue;
     const bool parked = memory_.parked(body);
     memory_.Unpark(body);
-    // What was simulated here is from now on reckoned from where it is, not from what was last
-    // heard of it, which may be from before this peer had the authority.
+    // A body simulated until now is extrapolated from its current state. The last state heard may
+    // be from before this peer had the authority.
     const bool ends = world_.motion(body) == Motion::kDynamic;
     if (ends && !WasStruckHereAlone(body)) {
       const BodyState state = world_.Read(body);
@@ -57,14 +57,14 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
     const bool asleep = !world_.awake(body);
     if (idle) world_.RememberContacts(body);
     world_.SetMotion(body, wanted);
-    if (was_idle) {  // it was simulated all along
+    if (was_idle) {  // it has been simulated all along
       if (asleep) world_.SetAwake(body, false);
       continue;
     }
     const bool begins = wanted == Motion::kDynamic && memory_.snapshots().has(body);
     moves = moves || (wanted == Motion::kDynamic && !asleep);
     if (begins && !BeginToSimulate(body)) begun.push_back(world_.mechanism(body));
-    if (parked) display_.Reset(body);  // nobody saw it where it lay
+    if (parked) display_.Reset(body);  // it was out of sight while parked
   }
   std::sort(begun.begin(), begun.end());
   begun.erase(std::unique(begun.begin(), begun.end()), begun.end());
@@ -72,8 +72,9 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
   return moves;
 }
 
-/// Whether a copy moves on from a blow that its holder, heard a moment ago, knows nothing of: what
-/// is shown would go on with that until the holder is heard again, which is seldom from now on.
+/// Returns true if a copy moves after an impact that its holder, heard a moment ago, does not
+/// report. The display would continue that motion until the next state, and states of displayed
+/// bodies are rare.
 bool Corrector::WasStruckHereAlone(int body) const {
   const std::int64_t now = world_.tick();
   const Snapshots& heard = memory_.snapshots();
@@ -83,7 +84,8 @@ bool Corrector::WasStruckHereAlone(int body) const {
   return off.norm() > kMajorImpact;
 }
 
-/// Its bodies have gone on one by one, which tears it; the engine would shut it with a crash.
+/// Closes a mechanism whose bodies were extrapolated one by one, which tears its joints; the engine
+/// would close them violently.
 void Corrector::CloseBegun(int mechanism) {
   Close(mechanism, false, [&](int body, const BodyState& closed) {
     if (world_.motion(body) != Motion::kDynamic) return;
@@ -92,9 +94,9 @@ void Corrector::CloseBegun(int mechanism) {
   });
 }
 
-/// Nobody has seen it yet.
+/// Closes mechanisms without a visual offset: they have not been displayed yet.
 void Corrector::ClosePlaced() {
-  std::map<int, bool> mechanisms;  // whether something of it was moved on
+  std::map<int, bool> mechanisms;  // true if any of its bodies was extrapolated
   for (const auto& [id, moved_on] : placed_) {
     const int body = world_.BodyOfId(id);
     if (body < 0) continue;
@@ -115,7 +117,7 @@ void Corrector::ClosePlaced() {
   }
 }
 
-/// `put` is given each body of a mechanism that closing moves, and its pose then.
+/// Calls `put` with each body of a mechanism that closing moves, and its new pose.
 template <class Put>
 void Corrector::Close(int mechanism, bool only_turns, const Put& put) {
   const JointCloser& joints = display_.joints();
@@ -126,8 +128,8 @@ void Corrector::Close(int mechanism, bool only_turns, const Put& put) {
   }
   joints.Unwind(mechanism, &poses_);
   if (!only_turns) {
-    // As they were heard of: a wheel that was told in a crash would travel along its spring for as
-    // long as it is moved on, and the engine would pull it back with a crash.
+    // Springs start as they were heard: a wheel heard during a crash would otherwise travel along
+    // its spring for the whole extrapolation, and the engine would pull it back violently.
     std::vector<BodyState> heard = poses_;
     for (const int body : joints.bodies(mechanism)) {
       if (!memory_.snapshots().has(body)) continue;
@@ -144,9 +146,9 @@ void Corrector::Close(int mechanism, bool only_turns, const Put& put) {
   }
 }
 
-/// What was only displayed had the velocity of its display, not of a body: it starts from the
-/// authority's. Where there is a way back, from the very state that was heard; what is committed to
-/// rest has lain there since, however long ago that was said. Whether it is replayed.
+/// Starts simulating a body. Its velocity was that of the display, so it takes the authority's
+/// state: the exact state heard if a replay can reach it. A body committed to rest has stayed at
+/// rest since, however old the commitment. Returns true if a replay was requested.
 bool Corrector::BeginToSimulate(int body) {
   const std::int64_t now = world_.tick();
   const BodyState before = world_.Read(body);
@@ -154,9 +156,9 @@ bool Corrector::BeginToSimulate(int body) {
   state.angle = UnwrapAngle(state.angle, before.angle);
   const Vec2 told = memory_.snapshots().newest(body).position;
   const std::int64_t told_tick = memory_.snapshots().newest_tick(body);
-  // It was only shown until now, and goes through walls then: that it came there means nothing.
+  // The display moves bodies through walls: its path proves nothing.
   memory_.track(body).dynamic_since = now;
-  if (!memory_.snapshots().falls(body)) {  // which goes through nothing
+  if (!memory_.snapshots().falls(body)) {  // a falling one bounces off anchored shapes already
     state.position = WayTo(body, told, told_tick, state.position);
   }
   world_.Write(body, state);

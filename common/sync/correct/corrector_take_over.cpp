@@ -1,5 +1,5 @@
-/// Corrector: a mechanism changes hands. Its holder tells, bit for bit, where it was when it let
-/// go; copies are put there, at that tick, and moved on to now.
+/// Corrector: hand-over of a mechanism. Its holder sends its exact states of the tick of release;
+/// copies are put there at that tick and moved on to now.
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@
 namespace seam {
 namespace {
 
-/// Without a past the holder's word is moved on by its velocity for so long at most, s: later,
-/// there were walls on that way. Reliable messages queue where many mechanisms change hands.
+/// Without a past, the holder's state is extrapolated by at most this, s: beyond that, walls may
+/// lie on the way. Reliable messages queue when many mechanisms change hands.
 constexpr float kReckonedFor = 0.25f;
 
 BodyState StateOf(const ExactStates& exact, std::size_t i) {
   return {{exact.x[i], exact.y[i]}, exact.angle[i], {exact.vx[i], exact.vy[i]}, exact.spin[i]};
 }
 
-/// A difference of that long ago, moved on by its velocity, s.
+/// Extrapolates a difference by its velocity for `seconds`.
 BodyState MovedOn(BodyState difference, float seconds) {
   difference.position += seconds * difference.velocity;
   difference.angle += seconds * difference.spin;
@@ -37,7 +37,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     if (body < 0 || exact.revision < memory_.track(body).changed_at) continue;
     BodyTrack& track = memory_.track(body);
     const AuthorityRecord& record = roles_.table().at(world_.mechanism(body));
-    // It comes before the grant that follows from it; of older changes it is no news.
+    // It precedes the grant that results from it; after older changes it is stale.
     const bool ours = record.authority == roles_.self() && roles_.self() != 0;
     if (ours || exact.epoch[i] < record.epoch || exact.tick < track.heard_tick) continue;
     BodyState there = WithinLimits(StateOf(exact, i), world_.scene().speed_limit);
@@ -47,7 +47,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     track.heard_tick = exact.tick;
     track.heard_epoch = exact.epoch[i];
     memory_.NoteNews(body);
-    if (!track.placed) {  // what becomes this peer's and was never placed, nobody would speak for
+    if (!track.placed) {  // without this, no peer would know the pose of a body that becomes ours
       PlaceNow(body, exact.tick, there, false);
       continue;
     }
@@ -60,7 +60,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
       continue;
     }
     const BodyState told = there;
-    // Without a past the holder's own motion says where it is by now.
+    // Without a past, the holder's own motion gives its current place.
     const BodyState here = then != nullptr ? *then : world_.Read(body);
     if (then == nullptr || exact.tick > now) there = MovedOn(there, late);
     there.angle = UnwrapAngle(there.angle, here.angle);
@@ -74,18 +74,18 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     } else if (!memory_.Coupled(world_.mechanism(body))) {
       PutExact(body, then != nullptr ? from : now, difference, told, exact.tick);
     } else {
-      // Where two authorities press on it a difference would push it into one of them: there the
-      // rule goes on correcting.
+      // Two authorities press on the body: the whole difference would push it into one of them. The
+      // rule goes on correcting instead.
       BringBack(body, told, exact.tick);
     }
   }
-  // Now: the grant that comes next makes our own what a replay would correct.
+  // At once: the next grant makes bodies our own, and a replay corrects only copies.
   if (replays) replay_.Run();
   return largest;
 }
 
-/// A copy that is on the other side of something anchored from where its holder had it would stay
-/// there once it is this peer's.
+/// Brings a copy back across an anchored shape if its holder had it on the other side. Once this
+/// peer has the authority, the body would stay there.
 void Corrector::BringBack(int body, const BodyState& told, std::int64_t tick) {
   const BodyState here = world_.Read(body);
   BodyState back = here;
@@ -98,13 +98,13 @@ void Corrector::BringBack(int body, const BodyState& told, std::int64_t tick) {
   display_.Moved(body, Minus(back, here));
 }
 
-/// Adds to the copy what it was off at tick `from`, then and since. `told`: where its holder had it
-/// at tick `told_tick`.
+/// Adds the difference at tick `from` to the copy, at that tick and since. `told`: the holder's
+/// state at tick `told_tick`.
 void Corrector::PutExact(int body, std::int64_t from, const BodyState& difference,
                          const BodyState& told, std::int64_t told_tick) {
   const std::int64_t now = world_.tick();
   BodyState off = difference;
-  // What struck the body here since then has undone a difference of velocity.
+  // A later impact here has cancelled a difference of velocity.
   if (memory_.track(body).last_impact_tick > from) {
     off.velocity.setZero();
     off.spin = 0;

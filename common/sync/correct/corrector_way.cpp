@@ -1,6 +1,5 @@
-/// Corrector: what is moved on by a velocity, or by a difference of long ago, does not go through
-/// what is anchored: ground is often a line, and what is below it falls for ever, at its authority
-/// too once this peer is that.
+/// Corrector: keeps extrapolated bodies from passing through anchored shapes. Ground is often a
+/// line; a body below it falls forever, also at its authority once that is this peer.
 
 #include <algorithm>
 
@@ -9,16 +8,16 @@
 namespace seam {
 namespace {
 
-/// Nobody is on the other side of anything who has gone no farther than this, m.
+/// A body that moved less than this cannot have crossed a shape, m.
 constexpr float kNear = 0.05f;
-/// What is stopped before a surface keeps off it by this share of its smallest half extent: the
-/// engine pushes the rest out.
+/// A body that is stopped before a surface keeps this share of its smallest half extent as
+/// distance; the engine pushes the rest out.
 constexpr float kClear = 0.9f;
 
 }  // namespace
 
-/// Whether the copy is where it is by ways that nothing anchored lies across, from where its
-/// authority had it.
+/// Returns true if the copy came from its authority's position to its own without crossing an
+/// anchored shape.
 bool Corrector::CameFrom(int body, const Vec2& heard, std::int64_t from) const {
   const BodyState* before = memory_.ComparablePast(body, from);
   if (before == nullptr || world_.FreeWay(body, heard, before->position) < 1) return false;
@@ -33,7 +32,7 @@ bool Corrector::CameFrom(int body, const Vec2& heard, std::int64_t from) const {
 
 Vec2 Corrector::WayTo(int body, const Vec2& heard, std::int64_t from, const Vec2& target) const {
   if ((target - heard).norm() < kNear || world_.FreeWay(body, heard, target) >= 1) return target;
-  // Round a corner it may have come: then only what it is moved by now counts.
+  // It may have come round a corner: then only its present move counts.
   const Vec2 start = CameFrom(body, heard, from) ? world_.Read(body).position : heard;
   const Vec2 way = target - start;
   const float share = world_.FreeWay(body, start, target), length = way.norm();

@@ -1,5 +1,5 @@
 #pragma once
-/// What buttons do: a player's actions on the mechanisms that they push.
+/// Maps a player's pressed buttons to actions on mechanisms.
 
 #include <cstddef>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace seam {
 
-/// Calls `visit(action, mechanism)` for each action of the player whose button is in `pressed` and
-/// whose part is still in a mechanism.
+/// Calls `visit(action, mechanism)` for each action of the player with a button in `pressed` and a
+/// part that is still in a mechanism.
 template <class Visit>
 void EachAction(const World& world, int player, int pressed, const Visit& visit) {
   if (pressed == 0) return;

@@ -13,35 +13,36 @@
 namespace seam {
 namespace {
 
-/// Most that is stepped again, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and
-/// the state of the tick that it completed another 0.4 s later. Less than the history.
+/// Longest replay, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and the state of
+/// the tick that it completed another 0.4 s later. Less than the history.
 constexpr int kReplayMax = 2;
-/// Who is alone goes back for edits, which are rare: from a barrier in 1/4 s.
+/// A peer that is alone rolls back only for edits, which are rare: one barrier in 1/4 s.
 constexpr int kAlonePart = 4;
-/// Of the difference, where bodies of several authorities press against each other. All of it
-/// doubles the error of a shoved stack; much less is no longer a correction.
+/// Share of the difference that is corrected where bodies of several authorities press against each
+/// other. The whole would double the error of a shoved stack; much less would not correct.
 constexpr float kPressedShare = 0.3f;
-/// What moves faster than this, m/s, or was struck, does not count as pressed.
+/// A body that is faster than this, m/s, or was struck, does not count as pressed.
 constexpr float kPressedSpeed = 2;
-/// Budget: ticks stepped again for each tick, in the long run, and how many may be saved up.
+/// Budget: ticks of replay per tick in the long run, and the most that may be saved up.
 constexpr double kAgainPerTick = 4, kAgainSaved = 240;
-/// With the same inputs both sides come to nearly the same. Up to these differences it stays: half
-/// a quantum came from the wire, and writing it would set both sides on slightly other ways again.
+/// With the same inputs both sides reach nearly the same result. Differences up to these are left:
+/// the wire adds half a quantum, and writing it would make both sides diverge slightly again.
 constexpr float kAgreesPosition = 4 * kPositionQuantum;     // m
 constexpr float kAgreesVelocity = 16 * kVelocityQuantum;    // m/s
 constexpr float kAgreesAngle = 0.005f, kAgreesSpin = 0.1f;  // rad, rad/s
 
-/// From `then` to `now`. Whole turns are no difference: two peers may have counted them otherwise.
+/// Returns the difference from `then` to `now`, without whole turns: peers may count them
+/// differently.
 BodyState Apart(const BodyState& now, const BodyState& then) {
   BodyState apart = Minus(now, then);
   apart.angle = WrapAngle(apart.angle);
   return apart;
 }
 
-/// Back at a barrier: what already rested then lies where its authority has said since, and not
-/// where this peer had it, or every replay would bring that back and end its rest. Only where
-/// inputs are stamped: the other rules put what rests there in every tick (FollowsHistory), once
-/// they have looked whether it was struck (EndRest), which must not be hidden from them.
+/// Call after going back to a barrier. Puts bodies that rested at that tick where their authority
+/// has committed them since; otherwise each replay would restore our old pose and end the rest.
+/// Only where inputs are stamped. The other rules put resting bodies back in every tick
+/// (FollowsHistory), after EndRest has checked whether they were struck, which this must not hide.
 void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyTrack& track = memory.track(body);
@@ -80,7 +81,7 @@ bool Replay::Ask(int body, std::int64_t tick) {
   if (barriers_.empty() || tick < barriers_.front().world.tick) return false;
   if (tick < memory_.track(body).dynamic_since) return BeginsEarlier(body, tick);
   const BodyState* known = memory_.snapshots().At(body, tick);
-  if (known == nullptr) return true;  // a newer one was there before this
+  if (known == nullptr) return true;  // replaced by a newer one earlier
   const BodyState& then = *memory_.history().At(tick, body);
   BodyState heard = *known;
   heard.angle = UnwrapAngle(heard.angle, then.angle);
@@ -88,8 +89,8 @@ bool Replay::Ask(int body, std::int64_t tick) {
   return true;
 }
 
-/// A state from before the copy was simulated: it is simulated from there on, so that what was
-/// under way when it began to be is not lost.
+/// Begins the simulation of a copy at a state from before it was simulated, so that its motion at
+/// that time is not lost.
 bool Replay::BeginsEarlier(int body, std::int64_t tick) {
   if (!config_.StampsInputs(roles_.self())) return false;
   const BodyState* known = memory_.snapshots().At(body, tick);
@@ -118,7 +119,7 @@ bool Replay::IsAlone() const {
 
 void Replay::TakeBarrier() {
   if (!config_.TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
-  // What has fallen asleep is built anew once as it lies.
+  // A body that has just fallen asleep is rebuilt once as it lies.
   const bool is_alone = IsAlone(), alone = std::exchange(was_alone_, is_alone) && is_alone;
   const std::int64_t every = alone ? config_.tick_hz / kAlonePart : 0;
   if (!barriers_.empty() && world_.tick() - barriers_.back().world.tick < every) return;
@@ -146,7 +147,7 @@ void Replay::Forget() {
   from_ = -1;
 }
 
-/// By mechanism: whether it touches bodies of other authorities, without a blow since `from`.
+/// Finds mechanisms that touch bodies of other authorities, with no impact since `from`.
 void Replay::FindPressed(std::int64_t from) {
   pressed_.assign(world_.composition().mechanisms.size(), false);
   if (config_.StampsInputs(roles_.self())) return;
@@ -162,19 +163,19 @@ void Replay::FindPressed(std::int64_t from) {
   }
 }
 
-/// Whether others were told where the body of ours was then, or later, and no input can change it.
-/// If all agree it goes there again by itself. Where they do not (one was cut off, say) each would
-/// go back for what the other has told, make its own go another way than it has told, and the other
-/// go back for that: in a room full of blows they never agreed again, and won energy with each blow
-/// that only one of two had. Only where nobody's inputs move anything: elsewhere what is told now
-/// and then turns out wrong, and to revise it is what brings all to the same (docs/lessons.md).
+/// True if this own body's state of that tick or later was sent and no input can change it. If all
+/// peers agree, a replay reaches it again by itself. If they do not (after a cut, say), each peer
+/// would roll back for the other's state, send its own body along another path than announced, and
+/// make the other roll back in turn: a room full of impacts never agreed again and gained energy
+/// from every impact that only one of two peers had. Applies only where no inputs move anything.
+/// Elsewhere a sent state may prove wrong, and revising it makes all peers agree (docs/lessons.md).
 bool Replay::IsFact(int body, std::int64_t tick) const {
   if (tick > memory_.track(body).told_tick || !drivers_.concerned().empty()) return false;
   return roles_.RoleOfBody(body) == kRoleAuthority;
 }
 
-/// Whether the body goes again where it went: it was not stepped here then, or is held to what was
-/// told of it.
+/// True if the body repeats its history: it was not simulated here then, or is held to states
+/// already sent.
 bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (!roles_.Simulates(body)) return true;
   if (memory_.track(body).at_rest && !config_.StampsInputs(roles_.self())) return true;
@@ -182,12 +183,13 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (IsFact(body, tick)) return true;
   if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   if (config_.StampsInputs(roles_.self())) return false;
-  // What was told of a body at rest is bit for bit where it lies.
+  // The state sent of a body at rest is exact.
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
 }
 
-/// Where inputs are stamped, what is committed to rest is stepped again, and rests on if it has
-/// come to rest again where it lay.
+/// Ends a committed rest that a replay has changed. Where inputs are stamped, committed bodies are
+/// stepped again; the rest holds if the body came to rest at the same pose. Returns true if it
+/// holds.
 bool Replay::RestsAsBefore(int body, const BodyState& pose) {
   BodyTrack& track = memory_.track(body);
   if (!track.at_rest) return false;
@@ -195,7 +197,7 @@ bool Replay::RestsAsBefore(int body, const BodyState& pose) {
   return track.at_rest;
 }
 
-/// What turns out to have been disturbed rests no more.
+/// Ends the rest of bodies that the replay found disturbed.
 void Replay::EndRest() {
   if (config_.StampsInputs(roles_.self())) return;  // it is stepped again like anything else
   for (const int body : DisturbedRest(world_, drivers_, memory_, inputs_)) {
@@ -204,16 +206,16 @@ void Replay::EndRest() {
   }
 }
 
-/// After the step to the world's tick: what is known of it.
+/// Call after the step to the world's tick. Writes the states known of that tick.
 void Replay::PutIn() {
   EndRest();
-  for (const int body : world_.present()) PutIn(body);  // what is absent stays until Arrive
+  for (const int body : world_.present()) PutIn(body);  // absent bodies wait for Arrive
 }
 
 void Replay::PutIn(int body) {
   BodyState* past = memory_.history().At(world_.tick(), body);
   if (FollowsHistory(body, world_.tick())) {
-    // What woke it then may not have come this time: it moves on from there all the same.
+    // The cause that woke it then may be missing this time; it moves on all the same.
     const bool moved = past->velocity.squaredNorm() > 0 || past->spin != 0;
     world_.Write(body, *past, moved && IsFact(body, world_.tick()));
     return;
@@ -233,7 +235,7 @@ void Replay::PutIn(int body) {
   *past = world_.Read(body);
 }
 
-/// Buttons: as they are stamped, or as this peer acted on them.
+/// Repeats button actions: as stamped, or as this peer performed them.
 void Replay::ActAgain(std::int64_t next) {
   for (const Action& act : actions_) {
     if (act.tick == next) world_.Act(act.player, act.action);
@@ -254,8 +256,8 @@ void Replay::StepAgain() {
   }
   for (const int body : world_.present()) {
     if (world_.motion(body) == Motion::kDynamic) continue;
-    // Paths that are displayed jump from message to message: what hits others is the velocity that
-    // was displayed, not that of a jump.
+    // Displayed paths jump from message to message. Others must be hit at the velocity displayed,
+    // not at that of a jump.
     const BodyState& after = *memory_.history().At(next, body);
     BodyState before = after;
     before.position -= world_.dt() * after.velocity;
@@ -282,8 +284,8 @@ void Replay::Run() {
   Arrive();
 }
 
-/// Goes back to the newest barrier that is not after `from`. `all`: bodies may become others on the
-/// way, so that each counts; else what is absent and lies as it did then stays where it is.
+/// Goes back to the newest barrier that is not after `from`. `all`: edits may recreate bodies on
+/// the way, so every body is remembered; else absent bodies that have not changed stay as they are.
 bool Replay::Depart(std::int64_t from, bool all) {
   while (!barriers_.empty() && barriers_.back().world.tick > from) barriers_.pop_back();
   if (barriers_.empty()) return false;
@@ -313,8 +315,8 @@ bool Replay::Depart(std::int64_t from, bool all) {
   return true;
 }
 
-/// What nothing could touch lay then where it lies now: without its surroundings it would go astray
-/// from a tick at which it had not quite come to rest.
+/// Puts idle bodies where they are now: nothing could touch them. Without their surroundings,
+/// bodies not yet at rest at that tick would drift away.
 void Replay::PutIdle() {
   for (const Shown& shown : journey_->shown) {
     if (!memory_.track(shown.body).idle) continue;
@@ -332,7 +334,7 @@ void Replay::StepTo(std::int64_t tick) {
   }
 }
 
-/// At now again: what is only displayed is where it was, and the view of the rest stays there.
+/// Ends the replay: displayed bodies return to their states, and the views of the rest stay put.
 void Replay::Arrive() {
   for (const Shown& shown : journey_->shown) {
     const int body = shown.body;

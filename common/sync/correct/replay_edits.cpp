@@ -1,5 +1,5 @@
-/// Replay: edits at their tick. The world goes back to before the edit, is stepped again to its
-/// tick, changes there, and goes on with what it has become.
+/// Replay: edits at their tick. The world goes back to before the edit, is stepped to its tick, is
+/// edited there, and continues.
 ///
 ///   barrier     tick of the edit                now
 ///   --|--o--o------o------|-----------|---------o
@@ -15,16 +15,16 @@
 namespace seam {
 namespace {
 
-/// Whoever has not heard of an edit for so long, s, is not known to lack it.
+/// An edit counts as known to all peers after this time, s.
 constexpr int kLackMax = 3;
 
 }  // namespace
 
 void Replay::GoBackTo(std::int64_t tick) {
-  if (!edits_.empty()) tick = std::max(tick, edits_.back().tick);  // they stay in their order
+  if (!edits_.empty()) tick = std::max(tick, edits_.back().tick);  // edits keep their order
   if (!journey_ && !barriers_.empty()) {
     tick = std::clamp(tick, barriers_.front().world.tick, world_.tick());
-    const std::int64_t asked = std::exchange(from_, -1);  // what waits is done on the way
+    const std::int64_t asked = std::exchange(from_, -1);  // a pending replay is done on the way
     const std::int64_t from = asked < 0 ? tick : std::min(tick, asked);
     if (from < world_.tick()) Depart(from, true);
   }
@@ -41,7 +41,7 @@ void Replay::Remap(const BodyRemap& change) {
   for (std::size_t body = 0; body < change.bodies.size(); ++body) {
     const BodyOrigin& origin = change.bodies[body];
     const auto found = before.find(origin.body);
-    if (found == before.end()) continue;  // it is new
+    if (found == before.end()) continue;  // a new body
     const Shown& then = *found->second;
     shown.push_back({static_cast<int>(body), Carried(origin, then.state), true});
     shown.back().awake = !origin.same || then.awake;
@@ -80,8 +80,7 @@ bool Replay::LacksEdit(int revision, std::int64_t tick) const {
   });
 }
 
-/// Whatever was heard of later ticks came from peers that lacked the edit, and what was told of
-/// them was told without it, too.
+/// Forgets states of later ticks, heard or sent: their senders lacked the edit.
 void Replay::ForgetHeard() {
   for (const int body : world_.present()) {
     BodyTrack& track = memory_.track(body);
@@ -101,7 +100,7 @@ void Replay::NoteSitters() {
   for (const Seat& seat : world_.scene().seats) sitters_.push_back(seat.player);
 }
 
-/// Who sat where when the newest barrier was taken. The barrier has all else.
+/// Restores the seats of the newest barrier's tick. The barrier has everything else.
 void Replay::UndoEdits() {
   const auto first = barriers_.back().edits;
   while (edits_done_ > first) {
@@ -136,7 +135,7 @@ bool Replay::IsBeforeEdit(std::int64_t tick) const {
          tick >= edited_tick_ - config_.tick_hz;
 }
 
-/// Where bodies have become others the world is built anew, so this is a tick to go back to, too.
+/// Call after edits. Recreated bodies mean a rebuilt world, so this tick becomes a barrier too.
 void Replay::BarrierAfterEdits() {
   if (std::exchange(edited_, false) && config_.GoesBack(roles_.self())) AddBarrier(false);
 }

@@ -1,14 +1,14 @@
 #pragma once
-/// Edits as messages.
+/// Conversion between edits and messages.
 
 #include "common/codec/messages.h"
 #include "common/topology/edit.h"
 
 namespace seam {
 
-/// The header fields (utime, number, tick) are left as they are by default.
+/// Returns the message of an edit; the header fields (utime, number, tick) keep their defaults.
 EditOrder ToOrder(const Edit& edit);
-/// Requires a message that Decode accepted.
+/// Returns the edit of a message. Requires one that Decode accepted.
 Edit ToEdit(const EditOrder& order);
 
 }  // namespace seam

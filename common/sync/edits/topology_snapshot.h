@@ -1,5 +1,5 @@
 #pragma once
-/// A world as it has become by edits, as messages, for one who joins late or is repaired.
+/// Messages of an edited world's topology, for a peer that joins late or is repaired.
 
 #include <cstdint>
 #include <vector>
@@ -11,17 +11,18 @@
 
 namespace seam {
 
-/// As few messages as hold the entries, at least one, in their order; utime is left 0. There may be
-/// more than kSnapshotPartsMax: then `part` and `parts` are wrong, and nobody can be sent them.
+/// Packs the entries in their order into as few messages as possible, at least one; utime is left
+/// 0. If there are more than kSnapshotPartsMax, `part` and `parts` are invalid, and the snapshot
+/// cannot be sent.
 std::vector<Snapshot> ToSnapshots(int revision, const std::vector<TopologyEntry>& entries);
 
-/// Puts a snapshot together that comes in its parts. Distrusts all of it.
+/// Assembles a snapshot from its parts. Trusts none of it.
 class SnapshotReader {
  public:
   /// Begins with the scene. Requires one that ParseScene accepted.
   explicit SnapshotReader(const Scene& scene) : builder_(scene) {}
 
-  /// Takes the next part. After an error the reader is of no more use.
+  /// Takes the next part. After an error the reader must not be used further.
   Status Take(const Snapshot& part);
   bool complete() const { return taken_ > 0 && taken_ == parts_; }
   /// Requires complete().

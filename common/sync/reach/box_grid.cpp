@@ -5,15 +5,15 @@
 namespace seam {
 namespace {
 
-/// Cells for each box, and at least: more cost more to clear than they save.
+/// Cells per box, and the minimum of cells: more would cost more to clear than they save.
 constexpr float kCellsPerBox = 16, kCellsMin = 1024;
-/// Boxes of which the borders are found.
+/// Number of boxes from which the borders are computed.
 constexpr std::size_t kSamples = 256;
-/// Share of the boxes that may lie beyond each border, so that one far away does not make all cells
-/// large.
+/// Share of the boxes that may lie beyond each border, so that one distant box does not enlarge all
+/// cells.
 constexpr double kBeyond = 0.02;
 
-/// The values that all but kBeyond of the boxes on either side lie between.
+/// Returns the range of the values without the share kBeyond at either end.
 std::pair<float, float> Middle(std::vector<float> values) {
   const auto skip = static_cast<std::ptrdiff_t>(static_cast<double>(values.size()) * kBeyond);
   const auto low = values.begin() + skip, high = values.end() - 1 - skip;

@@ -1,5 +1,5 @@
 #pragma once
-/// Boxes by cells of 8 m, in flat arrays: which of them may be near a rectangle, without a look at
+/// Grid of 8 m cells in flat arrays; finds the boxes that may be near a rectangle without checking
 /// all of them.
 
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace seam {
 
 class BoxGrid {
  public:
-  /// Of all boxes, or of those that `use` (by box) is not 0 of.
+  /// Indexes all boxes, or only those with a nonzero entry in `use` (by box).
   explicit BoxGrid(const std::vector<MovingBox>& boxes, const std::vector<char>* use = nullptr);
 
-  /// Calls `visit` (an index of the boxes) once for each box that overlaps the rectangle, and for
-  /// some that lie a few cells beside it.
+  /// Calls `visit` (a box index) once for each box that overlaps the rectangle, and for some that
+  /// lie a few cells beside it.
   template <class Visit>
   void Near(const Vec2& min, const Vec2& max, const Visit& visit) const {
     for (const int i : large_) visit(i);
@@ -28,11 +28,11 @@ class BoxGrid {
     }
   }
 
-  /// m; normal 8. Larger only where the boxes are spread over very many cells.
+  /// Cell size, m; normal 8. Larger only if the boxes are spread over very many cells.
   static constexpr float kCell = 8;
 
  private:
-  // What lies beyond the border is in the border's cells, and so is the question for it.
+  // Boxes beyond the border are kept in the border's cells, and queries there look in these cells.
   static int Index(float at, int count) {
     return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(count - 1)));
   }
@@ -46,10 +46,10 @@ class BoxGrid {
   Vec2 low_{0, 0};
   float cell_ = kCell;
   int columns_ = 1, rows_ = 1;
-  float widest_ = 0;        // half of the longest side of those in cells, m
-  std::vector<int> start_;  // by cell: where its boxes begin in items_; one more at the end
-  std::vector<int> items_;  // by cells, row by row: indices of the boxes
-  std::vector<int> large_;  // too large for cells
+  float widest_ = 0;        // half of the longest side among the boxes in cells, m
+  std::vector<int> start_;  // by cell: index of its first box in items_; one more at the end
+  std::vector<int> items_;  // box indices by cell, row by row
+  std::vector<int> large_;  // boxes too large for cells
 };
 
 }  // namespace seam

@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// Whose inputs those of `driver`, a player or a seat, are now; -1: nobody's.
+/// Returns the player behind `driver` (a player, or a seat), or -1 for an empty seat.
 int PlayerOf(const Scene& scene, int driver) {
   const auto players = static_cast<int>(scene.players.size());
   if (driver < players) return driver;
@@ -17,7 +17,7 @@ int PlayerOf(const Scene& scene, int driver) {
 }
 
 /// Calls `visit(player, mechanism, by_axes)` for every way in which a player's inputs move a
-/// mechanism; by_axes: not only by a button.
+/// mechanism; by_axes is false if only a button does.
 template <class Visit>
 void EachDriven(const World& world, const Visit& visit) {
   const Scene& scene = world.scene();

@@ -1,5 +1,5 @@
 #pragma once
-/// What a player drives: the mechanisms that the player's inputs move directly.
+/// Determines the mechanisms that a player's inputs move directly.
 
 #include <vector>
 
@@ -8,39 +8,38 @@
 
 namespace seam {
 
-/// By mechanism of the world's composition: whether it is the player's own (its owner, or the
-/// player's vehicle), whether the player's axes turn a motor, a thrust or a character of it, or of
-/// a seat in which the player sits; with `actions` also whether a button pushes a part of it.
+/// By mechanism of the world's composition: true if the player owns it, if it is the player's
+/// vehicle, or if the player's axes drive a motor, a thrust, a belt or a character of it, directly
+/// or from a seat; with `actions` also if a button pushes one of its parts.
 std::vector<bool> DrivenMechanisms(const World& world, int player, bool actions);
 
-/// The same for all players, kept until an edit changes it, and which of them this peer's world has
-/// to hear of.
+/// Caches the driven mechanisms of all players, and the players whose inputs this peer needs.
 class Drivers {
  public:
   /// Both must outlive this.
   Drivers(const World& world, const Roles& roles) : world_(world), roles_(roles) { Look(); }
 
-  /// After changes of the world's composition or of roles.
+  /// Call after the world's composition or the roles have changed.
   void Look();
   /// Mechanisms that the player's axes or buttons move, ascending.
   const std::vector<int>& MechanismsOf(int player) const {
     return driven_[static_cast<std::size_t>(player)];
   }
-  /// Those that the player's axes move: buttons do not count; ascending.
+  /// Mechanisms that the player's axes move, ascending; buttons do not count.
   const std::vector<int>& MovedBy(int player) const {
     return moved_[static_cast<std::size_t>(player)];
   }
-  /// Whether the player's axes move an anchored belt.
+  /// True if the player's axes move an anchored belt.
   bool MovesBelt(int player) const { return belts_[static_cast<std::size_t>(player)] != 0; }
-  /// Whether any player's axes move the mechanism; buttons do not count.
+  /// True if any player's axes move the mechanism; buttons do not count.
   bool Driven(int mechanism) const { return by_axes_[static_cast<std::size_t>(mechanism)] != 0; }
-  /// Whether the player's inputs move something that this peer simulates, or a belt that does not
-  /// move itself. What others do is only seen, by their states.
+  /// True if the player's inputs move a mechanism that this peer simulates, or an anchored belt.
+  /// Inputs of other players are not needed: their effect is visible in states.
   bool Concerns(int player) const { return concerns_[static_cast<std::size_t>(player)] != 0; }
-  /// The players of whom it holds, ascending.
+  /// Players for which Concerns is true, ascending.
   const std::vector<int>& concerned() const { return concerned_; }
 
-  /// Whether `simulates` (of a mechanism's index) holds for one of the player's; true for who moves
+  /// True if `simulates(mechanism)` holds for any mechanism of the player, or if the player moves
   /// an anchored belt.
   template <class Simulates>
   bool Moves(int player, const Simulates& simulates) const {
@@ -56,9 +55,9 @@ class Drivers {
 
   const World& world_;
   const Roles& roles_;
-  int revision_ = -1;                     // of which driven_ is
+  int revision_ = -1;                     // revision that driven_ belongs to
   std::vector<std::vector<int>> driven_;  // by player
-  std::vector<std::vector<int>> moved_;   // by player: by axes
+  std::vector<std::vector<int>> moved_;   // by player: by axes only
   std::vector<char> by_axes_;             // by mechanism
   std::vector<char> belts_, concerns_;    // by player
   std::vector<int> concerned_;            // players

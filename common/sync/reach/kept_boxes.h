@@ -1,6 +1,6 @@
 #pragma once
-/// Boxes that mostly stay where they are, each with a number: which of them overlap a rectangle,
-/// without a look at all of them.
+/// Index of numbered boxes that rarely move; finds those that overlap a rectangle without checking
+/// all of them.
 
 #include <cstddef>
 #include <optional>
@@ -12,26 +12,26 @@ namespace seam {
 
 class KeptBoxes {
  public:
-  /// Numbers are below `numbers`; none is kept.
+  /// Removes all boxes. Numbers must be below `numbers`.
   void Clear(std::size_t numbers);
   std::size_t numbers() const { return entry_.size(); }
   bool Has(int number) const { return entry_[static_cast<std::size_t>(number)] >= 0; }
-  /// Where it is kept. Requires Has.
+  /// Returns the box of a number. Requires Has.
   const MovingBox& at(int number) const {
     return entries_[static_cast<std::size_t>(entry_[static_cast<std::size_t>(number)])].box;
   }
-  /// It is there, from now on.
+  /// Sets or moves the box of a number.
   void Put(int number, const MovingBox& box);
-  /// It is nowhere, if it was anywhere.
+  /// Removes the box of a number; does nothing if there is none.
   void Take(int number) {
     if (!entry_.empty()) entry_[static_cast<std::size_t>(number)] = -1;
   }
-  /// To be called now and then, where no EachWithin runs: what came since is put in order when it
-  /// is much.
+  /// Call now and then while no EachWithin runs. Rebuilds the grid if many boxes were put since the
+  /// last time.
   void Tidy() {
     if (entries_.size() - in_grid_ > kLateMost + entries_.size() / kLateShare) Rebuild();
   }
-  /// Calls `visit` (the number, its box) once for each that overlaps the rectangle.
+  /// Calls `visit(number, box)` once for each box that overlaps the rectangle.
   template <class Visit>
   void EachWithin(const Vec2& min, const Vec2& max, const Visit& visit) const {
     const auto look = [&](std::size_t i) {
@@ -44,8 +44,8 @@ class KeptBoxes {
   }
 
  private:
-  /// The grid is made anew when more have come since than so many, and than this share of all: they
-  /// are looked at one by one.
+  /// The grid is rebuilt when more boxes than kLateMost and than this share of all were put since;
+  /// until then they are checked one by one.
   static constexpr std::size_t kLateMost = 16, kLateShare = 64;
   struct Entry {
     int number = 0;
@@ -57,9 +57,9 @@ class KeptBoxes {
   }
   void Rebuild();
 
-  std::vector<int> entry_;      // by number: its place in entries_; -1: it is not kept
-  std::vector<Entry> entries_;  // some are of what is not kept there any more
-  std::size_t in_grid_ = 0;     // of them; the others came later
+  std::vector<int> entry_;      // by number: index in entries_; -1: no box
+  std::vector<Entry> entries_;  // some are outdated
+  std::size_t in_grid_ = 0;     // number of entries in the grid; later ones are not
   std::optional<BoxGrid> grid_;
 };
 

@@ -14,11 +14,11 @@ namespace {
 
 MovingBox FreeBoxOf(const World& world, int body) {
   MovingBox box = BoxOf(world, body);
-  box.acceleration = kDrivenAcceleration;  // that a player or gravity can give it
+  box.acceleration = kDrivenAcceleration;  // the most that a player or gravity can cause
   return box;
 }
 
-/// How far a box can come by itself, m.
+/// Returns how far a box can come by itself, m.
 float WayOf(const MovingBox& box, float seconds) {
   return box.velocity.norm() * seconds + box.acceleration * seconds * seconds / 2 + kZoneSlack / 2;
 }
@@ -27,8 +27,8 @@ bool SameBox(const MovingBox& a, const MovingBox& b) {
   return a.min == b.min && a.max == b.max && a.velocity == b.velocity && a.group == b.group;
 }
 
-/// Whether nothing but a body, an input or an edit wakes what sleeps: no anchored part moves or
-/// turns a belt, nobody is drawn into a seat, nothing is joined where it lies.
+/// True if only a body, an input or an edit can wake a sleeping body: no anchored part moves or
+/// turns a belt, no seat draws a player in, and no stage proposes edits.
 bool OnlyBodiesWake(const World& world) {
   const Scene& scene = world.scene();
   const std::vector<Assembly>& assemblies = world.composition().assemblies;
@@ -41,7 +41,8 @@ bool OnlyBodiesWake(const World& world) {
          std::none_of(scene.parts.begin(), scene.parts.end(), belt);
 }
 
-/// By mechanism. What has joints is not, because they would begin without what they pulled with.
+/// By mechanism: true if it may idle. Jointed mechanisms may not: they would return without their
+/// joint impulses.
 std::vector<char> MayIdle(const World& world) {
   std::vector<char> may(world.composition().mechanisms.size(), OnlyBodiesWake(world) ? 1 : 0);
   for (const Joint& joint : world.scene().joints) {
@@ -55,10 +56,10 @@ std::vector<char> MayIdle(const World& world) {
 
 }  // namespace
 
-/// Boxes in the order of their left sides, grown by the way that each can make.
+/// Boxes sorted by their left sides, for queries that add the distance each can travel.
 class Presence::Sorted {
  public:
-  /// Puts the boxes in order; they must outlive it.
+  /// Sorts the boxes, which must outlive this.
   Sorted(std::vector<MovingBox>* boxes, float seconds) : boxes_(*boxes) {
     std::sort(boxes->begin(), boxes->end(),
               [](const MovingBox& a, const MovingBox& b) { return a.min.x() < b.min.x(); });
@@ -113,7 +114,7 @@ void Presence::Remap() {
 
 bool Presence::LookIfDue() {
   if (config_.mode != Mode::kBuffer) return false;
-  // Not all peers in the same tick: a machine that runs many has as much to do in each.
+  // Peers check in different ticks, so that a machine with many peers has even load.
   const int every = std::max(1, config_.tick_hz / kLooksPerSecond);
   if ((world_.tick() + roles_.self()) % every != 0) return false;
   Look();
@@ -139,7 +140,7 @@ bool Presence::NeedAll() {
   return true;
 }
 
-/// What rested in the look before and was not changed since lies as it did.
+/// Finds bodies that may have changed since the last check; other resting bodies lie as before.
 void Presence::FindChanged() {
   stirred_.clear();
   const bool known = world_.ChangedSince(change_, &stirred_);
@@ -172,7 +173,7 @@ void Presence::ForgetOthers() {
   resting_.Tidy();
 }
 
-/// All of it that rests is needed.
+/// Marks all resting bodies of a mechanism as needed.
 void Presence::Reach(int mechanism) {
   needed_in_[static_cast<std::size_t>(mechanism)] = looks_;
   EachIdOf(world_.composition(), mechanism, [&](PartId id) {
@@ -181,7 +182,7 @@ void Presence::Reach(int mechanism) {
   });
 }
 
-/// What rests and a mover may reach, directly or through others that rest.
+/// Finds resting bodies that a mover may reach, directly or through other resting bodies.
 void Presence::FindNeeded() {
   needed_.clear();
   const auto each = [&](const MovingBox& box, float most, const auto& seconds_of) {
@@ -199,7 +200,7 @@ void Presence::FindNeeded() {
   }
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     MovingBox box = resting_.at(needed_[i]);
-    box.acceleration = kDrivenAcceleration;  // a blow passes through it
+    box.acceleration = kDrivenAcceleration;  // an impact passes through it
     each(box, kNearSeconds, [](int) { return kNearSeconds; });
   }
 }
@@ -239,7 +240,8 @@ void Presence::SortOut() {
     } else {
       simulated_.push_back(FreeBoxOf(world_, body));
     }
-    // What rests under its present epoch has been there for a step of it (RestCommit::AfterStep).
+    // A body at rest under its present epoch was present for at least one step
+    // (RestCommit::AfterStep).
     const BodyTrack& track = memory_.track(body);
     if (!rests || !track.at_rest || !(track.idle || world_.motion(body) == Motion::kDynamic)) {
       lies_[static_cast<std::size_t>(m)] = 0;
@@ -248,12 +250,12 @@ void Presence::SortOut() {
   movers_.insert(movers_.end(), simulated_.begin(), simulated_.end());
 }
 
-/// Of what is only displayed: what may meet what is simulated.
+/// Finds displayed mechanisms that may meet a simulated one.
 void Presence::FindNear() {
   near_.swap(near_before_);
   near_.assign(near_before_.size(), 0);
   const Sorted there(&simulated_, kNearSeconds + kNearKeep);
-  if (there.empty()) displayed_.clear();  // nothing can touch it
+  if (there.empty()) displayed_.clear();  // no simulated body could touch them
   for (const int body : displayed_) {
     const auto m = static_cast<std::size_t>(world_.mechanism(body));
     if (near_[m] != 0) continue;
@@ -285,7 +287,7 @@ void Presence::Look() {
   FindNear();
   idle_before_ = idle_;
   FindIdle();
-  // What is simulated would be near if it ceased to be.
+  // A simulated mechanism would be near if it became displayed.
   for (const int body : world_.present()) {
     if (roles_.Simulates(body)) near_[static_cast<std::size_t>(world_.mechanism(body))] = 1;
   }

@@ -1,11 +1,11 @@
 #pragma once
-/// Which bodies a peer's world has to have. Of those that are only displayed: what could touch,
-/// before the next look, one that it simulates. Of its own that rest: what something that moves
-/// could touch. The others are absent (Motion::kAbsent) and cost a step nothing.
+/// Chooses which bodies are in the Box2D world. A displayed body is, while it could touch a
+/// simulated one before the next check; an own resting body is, while a moving one could touch it.
+/// All other bodies are absent (Motion::kAbsent) and cost a step nothing.
 ///
 ///   simulated, awake   there
-///   own, at rest       there if a mover could reach it, or one that such a one touches; else idle
-///   displayed          there if it could reach one of these; else not near
+///   own, at rest       there if a mover could reach it, also through resting bodies; else idle
+///   displayed          there if it could reach one of the above; else not near
 
 #include <cstdint>
 #include <utility>
@@ -22,60 +22,63 @@ namespace seam {
 
 class Presence {
  public:
-  /// All must outlive this. At first everything is near. `memory` says what is parked: that is
+  /// All must outlive this. Initially every mechanism is near. Bodies that `memory` has parked are
   /// never near.
   Presence(const SyncConfig& config, const World& world, const Roles& roles,
            const BodyMemory& memory);
 
-  /// After a step; when a look is due, looks. Whether it did.
+  /// Call after a step. Repeats the check if it is due; returns true if it did.
   bool LookIfDue();
-  /// Before a step: the same if somebody has asked for one.
+  /// Call before a step. Repeats the check if Ask was called; returns true if it did.
   bool LookIfAsked();
-  /// What moves has begun to be simulated here: it may be near what was not needed until now.
+  /// Requests a check: a moving body is simulated here from now on and may be near bodies not
+  /// needed until now.
   void Ask() { asked_ = true; }
-  /// Mechanisms of which the last look has another answer than the one before; ascending.
+  /// Mechanisms with another result in the last check than in the one before; ascending.
   const std::vector<int>& changed() const { return changed_; }
-  /// Whether a mechanism that is only displayed has to be there.
+  /// True if a displayed mechanism has to be present.
   bool Near(int mechanism) const { return near_[static_cast<std::size_t>(mechanism)] != 0; }
-  /// Whether a mechanism is this peer's own, at rest, and nothing needs it to be there.
+  /// True if a mechanism is this peer's own, at rest, and need not be present.
   bool Idle(int mechanism) const {
     const auto m = static_cast<std::size_t>(mechanism);
     return idle_[m] != kNotIdle && idle_[m] == roles_.table().at(mechanism).epoch &&
            roles_.RoleOf(mechanism) == kRoleAuthority;
   }
-  /// Something that is no body is about to move the mechanism: it is not idle, for a second.
-  /// Whether it was.
+  /// Keeps a mechanism from being idle for a second, because something other than a body is about
+  /// to move it. Returns true if it was idle.
   bool Need(int mechanism);
-  /// The same of all, until the next look.
+  /// Ends idleness of all mechanisms until the next check. Returns true if any was idle.
   bool NeedAll();
-  /// What is outside of it is near nothing that is simulated, for a second and more.
+  /// Rectangle around all simulated bodies; anything outside stays far from them for more than a
+  /// second.
   const MovingBox& around() const { return around_; }
-  /// By mechanism: 1 where what is simulated becomes somebody's before that peer's things touch it:
-  /// while it sleeps it needs nobody near it, and need not be there itself. Things of `doubtful`
-  /// peers may touch it all the same. Until the next call, or until the bodies change.
+  /// Sets the simulated mechanisms (1, by mechanism) that need no watching while asleep: each is
+  /// handed to another peer before that peer's bodies touch it, so no displayed body need be near
+  /// it, and it may be absent itself. Bodies of `doubtful` peers may touch it all the same. Holds
+  /// until the next call or change of bodies.
   void LeaveUnwatched(std::vector<char> unwatched, const PeerSet& doubtful) {
     unwatched_ = std::move(unwatched);
     doubtful_ = doubtful;
   }
-  /// The bodies have changed: everything is near until the next look.
+  /// Call when the bodies have changed. Every mechanism is near until the next check.
   void Remap();
 
-  /// Times a second, and how far ahead is looked, s: to the next look and what a blow can change on
-  /// the way. What is near remains so for kNearKeep longer, s: to come and to go costs the world a
-  /// new beginning.
+  /// Checks per second, and the time that each looks ahead, s: up to the next check, plus what an
+  /// impact can change meanwhile. A near mechanism stays near for kNearKeep longer, s, because each
+  /// change makes Box2D rebuild its world.
   static constexpr int kLooksPerSecond = 10;
   static constexpr float kNearSeconds = 0.2f, kNearKeep = 0.5f;
-  /// The same for a mover and what rests, s: what is heard of the mover may be a way old besides,
-  /// and what is aside costs little to come.
+  /// The same for a moving and a resting body, s. Longer, because the mover's state may be one
+  /// transit old, and the return of an absent resting body is cheap.
   static constexpr float kRestSeconds = 0.4f, kRestKeep = 0.2f;
-  /// m from all that is simulated to the edge of around().
+  /// Margin between the simulated bodies and the edge of around(), m.
   static constexpr float kAround = 60;
 
  private:
   class Sorted;
   static constexpr std::int32_t kNotIdle = -1;
   void Look();
-  /// Sorts what moves, what is only displayed, and what rests.
+  /// Sorts bodies into moving, displayed and resting ones.
   void SortOut();
   void FindNeeded();
   void FindNear();
@@ -90,7 +93,7 @@ class Presence {
     const auto m = static_cast<std::size_t>(mechanism);
     return m < unwatched_.size() && unwatched_[m] != 0;
   }
-  /// It rests, in this look; then: what rested in the one before and does no more.
+  /// Rest records a resting body in this check; ForgetOthers drops those that no longer rest.
   void Rest(int body, std::uint64_t still);
   void ForgetOthers();
   void Reach(int mechanism);
@@ -103,26 +106,27 @@ class Presence {
   PeerSet doubtful_;
   std::vector<char> may_idle_;              // by mechanism, see MayIdle
   bool asked_ = false;                      // see Ask
-  std::vector<std::int32_t> idle_;          // by mechanism: its epoch then; kNotIdle
+  std::vector<std::int32_t> idle_;          // by mechanism: its epoch when it became idle, or
+                                            // kNotIdle
   std::vector<std::int64_t> needed_until_;  // by mechanism: tick, see Need
   std::vector<int> changed_;
-  // What rests, by body: it is kept from look to look, since it mostly lies where it lay.
+  // Resting bodies are kept from check to check, since most have not moved.
   struct Rested {
-    std::uint64_t still = 0;  // World::still then
-    int seen_in = -1;         // the last look in which it rested
-    int changed_in = -1;      // the last look before which it may have been changed
+    std::uint64_t still = 0;  // World::still at that time
+    int seen_in = -1;         // last check in which it rested
+    int changed_in = -1;      // last check before which it may have changed
   };
   std::vector<Rested> rested_;
   KeptBoxes resting_;
-  std::vector<int> rests_;    // those that are kept; some rest no more
-  float fastest_ = 0;         // m/s, of any of them
-  std::uint64_t change_ = 0;  // World::last_change at the last look
-  std::vector<int> stirred_;  // for FindChanged: bodies
-  std::vector<char> lies_;    // of this look, by mechanism that may idle: all of it rests
+  std::vector<int> rests_;    // bodies in resting_; some rest no more
+  float fastest_ = 0;         // speed of the fastest of them, m/s
+  std::uint64_t change_ = 0;  // World::last_change at the last check
+  std::vector<int> stirred_;  // bodies, for FindChanged
+  std::vector<char> lies_;    // in this check, by mechanism that may idle: all of its bodies rest
   int looks_ = 0;
-  std::vector<int> needed_in_;  // by mechanism: the last look that needed it, see FindNeeded
-  std::vector<int> needed_;     // of this look: bodies that rest
-  // Of this look; a client has ten in a second: their memory is used again.
+  std::vector<int> needed_in_;  // by mechanism: last check that needed it, see FindNeeded
+  std::vector<int> needed_;     // resting bodies needed in this check
+  // For this check; members only to reuse their memory, since a client checks ten times a second.
   std::vector<MovingBox> simulated_, movers_;
   std::vector<int> displayed_;  // bodies
   std::vector<char> near_before_;

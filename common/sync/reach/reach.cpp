@@ -9,13 +9,13 @@
 namespace seam {
 namespace {
 
-/// A player of whom nothing was heard for so long is not there: nobody waits for it. In a quiet
-/// room inputs come once a second. s
+/// A player not heard for this long is absent: no peer waits for its inputs. In a quiet room inputs
+/// come once a second. s
 constexpr double kSilent = 3.0;
-/// The same of who had let go of everything: of who has left the server says so.
+/// The same for a player with all controls released: the server announces a player's departure.
 constexpr double kSilentIdle = 1.25;
-/// From the beginning of the room on, s: of who was not heard of yet the first word is still on its
-/// way, and all that is known is the state of tick 0. Later, who was never heard of is not there.
+/// From the room's start, s: a player's first inputs may still be on their way, and only the state
+/// of tick 0 is known. Later, a player never heard of is absent.
 constexpr double kFirstWord = 0.75;
 
 }  // namespace
@@ -53,11 +53,10 @@ void Reach::Look() {
   for (const int m : open_) complete_[static_cast<std::size_t>(m)] = kComplete;
   open_.clear();
   complete_.resize(world_.composition().mechanisms.size(), kComplete);
-  // By player: how much of the past is not known. Of oneself, and of who is not there, nothing is
-  // missing.
+  // By player: length of the unknown past. Nothing is missing of the own player or of absent ones.
   std::vector<std::pair<int, std::int64_t>> missing;
   std::int64_t longest = 0;
-  // Of who does not concern this peer it hears seldom, and that is of no matter.
+  // Inputs of players that do not matter here arrive rarely and are not needed.
   for (const int player : drivers_.concerned()) {
     const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
     const std::int64_t newest = std::max<std::int64_t>(0, track.newest());
@@ -72,7 +71,7 @@ void Reach::Look() {
   }
   if (missing.empty()) return;
   const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
-  // Mechanisms by their place among those that are present; what is absent meets nothing.
+  // Mechanisms are indexed by their place among those present; absent ones meet nothing.
   std::vector<MovingBox> boxes = BoxesOf(world_, drivers_, false);
   std::vector<int> groups;
   for (const MovingBox& box : boxes) groups.push_back(box.group);

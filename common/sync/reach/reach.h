@@ -1,7 +1,6 @@
 #pragma once
-/// How far the inputs that are not known here yet can reach: for each mechanism, the newest tick
-/// that is input-complete, that is, for which the inputs of all players who can influence it are
-/// known.
+/// Finds the newest input-complete tick of each mechanism: the newest tick for which the inputs of
+/// all players that can influence it are known here.
 
 #include <algorithm>
 #include <cstdint>
@@ -23,11 +22,11 @@ class Reach {
         const std::vector<InputTrack>& inputs)
       : config_(config), world_(world), roles_(roles), drivers_(drivers), inputs_(inputs) {}
 
-  /// After a step: looks at what may have met within the time of which inputs are missing.
+  /// Call after a step. Finds mechanisms that may have met during the ticks with missing inputs.
   void Look();
 
-  /// Newest input-complete tick, at most the world's; -1 before the first Look. Requires that Look
-  /// was called since the bodies changed.
+  /// Newest input-complete tick, at most the world's; -1 before the first Look. Requires a Look
+  /// since the bodies changed.
   std::int64_t CompleteTick(int mechanism) const {
     if (looked_ < 0) return -1;  // grants may come before the first step
     return std::min(looked_, complete_[static_cast<std::size_t>(mechanism)]);
@@ -40,18 +39,18 @@ class Reach {
   const Drivers& drivers_;
   const std::vector<InputTrack>& inputs_;
   static constexpr std::int64_t kComplete = INT64_MAX;
-  std::int64_t looked_ = -1;            // tick of the last look
-  std::vector<std::int64_t> complete_;  // by mechanism; kComplete: when looked at
-  std::vector<int> open_;               // mechanisms that are not complete
+  std::int64_t looked_ = -1;            // tick of the last Look
+  std::vector<std::int64_t> complete_;  // by mechanism; kComplete: up to looked_
+  std::vector<int> open_;               // mechanisms with missing inputs
 };
 
-/// The box of a body, without acceleration.
+/// Returns the box of a body, without acceleration.
 MovingBox BoxOf(const World& world, int body);
 
-/// The boxes of a world's bodies, grouped by mechanism, without those that are absent unless
-/// `absent_too`. What any player drives can accelerate.
+/// Returns the boxes of the world's bodies, grouped by mechanism. Absent bodies only if
+/// `absent_too`. A mechanism that any player drives can accelerate.
 std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too);
-/// The same of these bodies, in their order.
+/// Returns the boxes of these bodies, in their order.
 std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers,
                                const std::vector<int>& bodies);
 

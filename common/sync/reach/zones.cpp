@@ -12,7 +12,7 @@ std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& box
 std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes,
                                                float seconds_max,
                                                const std::function<float(int, int)>& seconds_of) {
-  // Each box grown by the way it can make itself: two that may meet overlap then.
+  // Each box is grown by its own possible travel; boxes of two that may meet then overlap.
   struct Span {
     float from, to;
     std::size_t box;

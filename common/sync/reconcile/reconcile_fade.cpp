@@ -1,6 +1,6 @@
 /// fade: X = (1 - e) Xl + e Xr', e = seconds since the last major impact, at most 1; a small
 /// difference is left alone. After Kevin He (2012), "impact fade": just after an impact the
-/// authority's message still tells of the time before it, and our own result is the better one.
+/// authority's message is still from before it, so our own result is better.
 
 #include <algorithm>
 
@@ -19,8 +19,8 @@ Correction ReconcileFade(const ReconcileInput& in) {
   const BodyState difference = Minus(Extrapolate(in.remote, in.dt), in.local);
   if (difference.position.norm() < kKeepLocalBelow) return Correction{};
   Correction out;
-  // Between bodies of two authorities that touch, the article's full share is a feedback loop with
-  // delay: a stack falls at 200 ms. Bounded, it stands.
+  // Between touching bodies of two authorities, the article's full share is a feedback loop with
+  // delay: a stack falls at 200 ms. A bounded share keeps it standing.
   const float most = in.coupled ? in.gain : 1.0f;
   out.now = PlusScaled(BodyState{}, difference, std::min(in.since_impact, most));
   return out;

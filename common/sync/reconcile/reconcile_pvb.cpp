@@ -1,11 +1,11 @@
 /// pvb: projective velocity blending, after C. Murphy, "Believable Dead Reckoning for Networked
-/// Games" (Game Engine Gems 2, 2011, chapter 18). When a message comes, our copy is at P0 with V0,
-/// the authority's, moved on to then, at P0' with V0' and acceleration A'. With t since then and
-/// T = t / (time in which to blend), at most 1:
+/// Games" (Game Engine Gems 2, 2011, chapter 18). When a message comes, our copy is at P0 with V0;
+/// the authority's, extrapolated to that time, is at P0' with V0' and acceleration A'. With t since
+/// then and T = t / (time of the blend), at most 1:
 ///   Vb = V0 + (V0' - V0) T                 P  = P0  + Vb  t + A' t^2 / 2
 ///   Q  = P + (P' - P) T                    P' = P0' + V0' t + A' t^2 / 2
-/// Here Q is not where the copy is put but where its velocity leads: what is in its way still stops
-/// it, which ends the blend, and the next message begins from where that left it.
+/// Here the copy is not put at Q; its velocity leads there. An obstacle still stops the copy, which
+/// ends the blend, and the next message starts from there.
 
 #include <algorithm>
 #include <cmath>
@@ -15,29 +15,29 @@
 namespace seam {
 namespace {
 
-/// Farther off than this, m, it is placed: blended, it would come at hundreds of m/s.
+/// Farther off than this, m, the copy is placed: a blend would move it at hundreds of m/s.
 constexpr float kPlaceBeyond = 8;
-constexpr float kMovedOnMax = 0.3f;  // s, where it is placed
-/// Blended over at least this time, s. Over the interval of 30 messages a second alone, as the
-/// article has it, an error of half a metre is made good at 15 m/s, and two peers' corrections
-/// swing up against each other: a stack of ten explodes. Longer follows later.
+constexpr float kMovedOnMax = 0.3f;  // s, for a copy that is placed
+/// Shortest blend, s. The article blends over one interval; with 30 messages a second this corrects
+/// half a metre at 15 m/s, and two peers' corrections build up against each other: a stack of ten
+/// explodes. Longer follows later.
 constexpr float kBlendMin = 0.3f;
-/// A velocity that is another one by this, m/s, than the blend left it: it was struck, and the rest
-/// of the blend would push whatever struck it. Less would count the springs of a car.
+/// A velocity this far from the one that the blend gave, m/s, means an impact: the rest of the
+/// blend would push the other body. Less would count the springs of a car.
 constexpr float kStruck = 1;
-/// Of the blend, for bodies that touch those of other authorities: each peer corrects towards what
-/// the other corrected. More lets a stack rock; none leaves what slides apart.
+/// Share of the blend for bodies that touch those of another authority, where each peer corrects
+/// towards the other's correction. More lets a stack rock; zero lets sliding bodies drift apart.
 constexpr float kCoupledShare = 0.02f;
-/// The angle of what spins faster than this is not followed, rad/s: the wire lost its revolutions.
+/// Above this spin the angle is not followed, rad/s: the wire lost its revolutions.
 constexpr float kSpinFollowed = 15;
 
-/// Q at `t`, of a position or an angle. `there`: P' then.
+/// Returns Q at `t`, for a position or an angle. `there`: P' at that time.
 template <typename T>
 T Blended(float t, float blend, const T& p0, const T& v0, const T& there0, const T& there_v0,
           const T& there) {
   const float share = std::min(1.0f, t / blend);
   const T vb = v0 + share * (there_v0 - v0);
-  const T accelerated = there - there0 - t * there_v0;  // A' t^2 / 2, or what stands for it
+  const T accelerated = there - there0 - t * there_v0;  // A' t^2 / 2, or its substitute
   const T p = p0 + t * vb + accelerated;
   return p + share * (there - p);
 }

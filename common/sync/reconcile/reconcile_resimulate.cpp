@@ -1,17 +1,17 @@
-/// resimulate: go back to the tick of the message, put the authority's state in, and step again to
-/// now with the inputs as they are known by now (replay.cpp). After the rollback of fighting games
-/// (T. Cannon, GGPO, 2009), here with bodies of several authorities: our own are stepped again,
-/// too, unless they press against another authority's.
+/// resimulate: go back to the tick of the message, write the authority's state, and step again to
+/// now with the inputs known by now (replay.cpp). After the rollback of fighting games (T. Cannon,
+/// GGPO, 2009), here with bodies of several authorities: own bodies are stepped again too, unless
+/// they press against another authority's.
 ///
-/// What is here is the rule for what cannot be gone back to: a message older than the barriers that
-/// are kept, or a copy that was not simulated then. Only what is far off is placed.
+/// This file has the rule for a tick that cannot be reached: the message is older than the kept
+/// barriers, or the copy was not simulated then. Only a copy that is far off is placed.
 
 #include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
 namespace {
 
-/// Differences up to these, m and m/s, wait for a message that can be gone back to.
+/// Smaller differences, m and m/s, wait for a message whose tick can be reached.
 constexpr float kWaitsBelow = 0.25f, kWaitsBelowSpeed = 2.5f;
 
 }  // namespace

@@ -1,14 +1,13 @@
-/// retrospect (ours): compare states of the same tick, and carry the difference forward.
+/// retrospect (ours): compares states of the same tick and carries the difference forward.
 ///   D = Xr(t1) - Xl(t1), Dv likewise;   X = Xl + D + Dv dt,   V = Vl + Dv
-/// Exact whenever both peers' copies felt the same forces since t1: nothing is extrapolated through
-/// gravity, spin or contact. That holds for *free* differences: of a mechanism as a whole, in the
-/// directions in which nothing holds it. What is left is the difference of springs, of joints and
-/// of bodies pressed against ground or against each other. It does not grow like Dv dt (it swings
-/// back, or a contact removes it), and where another authority's body is pressed against it, each
-/// peer corrects towards what the other corrected. All of that is a feedback loop with delay: there
-/// only a bounded share is taken, without the Dv dt term, and nothing inside a dead band just above
-/// the quantisation. A single free body is left no more kinetic energy than its authority said,
-/// and what our copy has gained since.
+/// Exact if both peers' copies felt the same forces since t1: nothing is extrapolated through
+/// gravity, spin or contact. This holds for *free* differences: of a whole mechanism, in unblocked
+/// directions. The remainder is the difference of springs, of joints, and of bodies pressed against
+/// ground or each other. It does not grow like Dv dt (it swings back, or a contact removes it).
+/// Where another authority's body presses on it, each peer corrects towards the other's correction:
+/// a feedback loop with delay. Of the remainder only a bounded share is taken, without the Dv dt
+/// term, and none inside a dead band just above the quantisation. A single free body gets no more
+/// kinetic energy than its authority's had, plus our copy's gain since.
 
 #include <cmath>
 
@@ -18,15 +17,16 @@ namespace seam {
 namespace {
 
 /// Dead band for coupled bodies: 1.5 quanta of position (m), angle (rad) and velocity (m/s, rad/s).
-/// Below one quantum resting copies never stop correcting each other; much above, error stands.
+/// Below one quantum, resting copies never stop correcting each other; far above, error stays.
 constexpr float kBandPosition = 1.5f / 512;
 constexpr float kBandAngle = 3 * 9.58738e-5f;
 constexpr float kBandVelocity = 1.5f / 256;
 
-/// A copy that has just begun to be simulated has no past to compare yet. Up to these differences,
-/// m and m/s, it waits for one: placing a loaded wheel by a quantum makes it hop.
+/// A newly simulated copy has no past to compare. Up to these differences, m and m/s, it waits for
+/// one: placing a loaded wheel by a quantum makes it hop.
 constexpr float kStartApart = 0.25f, kStartApartSpeed = 2.5f;
-/// Most that one message moves what is held, m: more is pushed into neighbours, which push back.
+/// Most that one message moves a blocked difference, m: more is pushed into neighbours, which push
+/// back.
 constexpr float kHeldMax = 0.05f;
 
 Vec2 AtMost(float most, const Vec2& v) {
@@ -40,7 +40,7 @@ Vec2 Outside(const Vec2& value, float band) {
   return value.norm() > band ? value : Vec2(0.0f, 0.0f);
 }
 
-/// The part of `v` across every direction that is blocked.
+/// Returns the part of `v` perpendicular to every blocked direction.
 Vec2 Unblocked(const ReconcileInput& in, Vec2 v) {
   for (int i = 0; i < in.blocked_count; ++i)
     v -= v.dot(in.blocked_directions[i]) * in.blocked_directions[i];
@@ -51,14 +51,14 @@ Vec2 Unblocked(const ReconcileInput& in, Vec2 v) {
 
 Correction ReconcileRetrospect(const ReconcileInput& in) {
   Correction out;
-  if (in.local_then == nullptr) {  // nothing to compare with: only what is far off is placed
+  if (in.local_then == nullptr) {  // nothing to compare: place only if far off
     const BodyState d = Minus(Extrapolate(in.remote, in.dt), in.local);
     if (d.position.norm() > kStartApart || d.velocity.norm() > kStartApartSpeed) out.now = d;
     return out;
   }
   out.rewrites_history = true;
   const BodyState d = Minus(in.remote, *in.local_then);
-  BodyState free;  // the part that both peers' forces leave alone
+  BodyState free;  // the part independent of forces that both peers felt
   if (!in.coupled) {
     free.position = Unblocked(in, in.common.position);
     free.velocity = Unblocked(in, in.common.velocity);
@@ -77,8 +77,8 @@ Correction ReconcileRetrospect(const ReconcileInput& in) {
   out.now = out.then;
   out.now.position += in.dt * free.velocity;
   out.now.angle += in.dt * free.spin;
-  // A difference of velocity that is carried through a blow can point any way after it: in a room
-  // full of blows that feeds itself. Jointed bodies pass energy on to each other: not for them.
+  // A velocity difference carried through an impact can point any way after it; in a room full of
+  // impacts this feeds itself. Not for jointed bodies: they pass energy on to each other.
   if (in.alone && !in.coupled) {
     const Vec2 velocity = in.local.velocity + out.now.velocity;
     out.now.velocity = AtMost(in.speed_max, velocity) - in.local.velocity;

@@ -1,4 +1,4 @@
-/// snap: X = Xr. The baseline: always late by the latency.
+/// snap: X = Xr. The baseline: always behind by the latency.
 
 #include "common/sync/reconcile/reconcile.h"
 

@@ -2,9 +2,8 @@
 /// every tick between two messages and only on velocities:
 ///   a = kp (xr' - x) + kd (vr' - v),   |a| <= cap
 /// After BeamMP (its vehicle synchronisation, public source), which has 5 1/s^2, 5 1/s, a cap of
-/// 100 m/s^2 and extrapolates by 0.3 s at most. Where the copy did not accelerate as it was asked
-/// to, something is in its way, and the force is cut: two peers do not press a pile from both
-/// sides.
+/// 100 m/s^2 and extrapolates by 0.3 s at most. If the copy did not accelerate as asked, something
+/// blocks it, and the force is cut, so that two peers do not press a pile from both sides.
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +20,17 @@ namespace {
 constexpr float kStiffness = 20, kDamping = 9;
 /// m/s^2 and rad/s^2. More lets a wrong message throw the copy about.
 constexpr float kAccelerationMax = 100, kTurnMax = 100;
-/// The angle of what spins faster than this is not followed, rad/s: the wire lost its revolutions.
+/// Above this spin the angle is not followed, rad/s: the wire lost its revolutions.
 constexpr float kSpinFollowed = 15;
-/// Farther off than this, m, it is placed: a spring would drag it through the scene.
+/// Farther off than this, m, the copy is placed: a spring would drag it through the scene.
 constexpr float kPlaceBeyond = 8;
-/// Extrapolated by this at most, s, where it is placed.
+/// Longest extrapolation of a copy that is placed, s.
 constexpr float kMovedOnMax = 0.3f;
-/// A pull of less than this, m/s, says nothing about what is in the way.
+/// A smaller pull, m/s, cannot tell whether the copy is blocked.
 constexpr float kTellsFrom = 0.01f;
-/// Less than this share of what was asked: something is in the way.
+/// Below this share of the asked change, the copy is blocked.
 constexpr float kBlockedBelow = 0.5f;
-/// The force comes back over this time, s. Shorter presses against the obstacle more often.
+/// The force returns over this time, s. Shorter presses against the obstacle more often.
 constexpr float kComesBack = 0.25f;
 
 void GiveWay(const PullInput& in, PullMemory* memory) {
@@ -39,7 +38,8 @@ void GiveWay(const PullInput& in, PullMemory* memory) {
   if (asked > kTellsFrom) {
     const Vec2 along = memory->asked / asked;
     const float got = (in.local.velocity - memory->before).dot(along);
-    // What stands does not gain what a falling body gains: the more favourable view counts.
+    // A standing body does not gain the velocity of a falling one: the more favourable reading
+    // counts.
     const float most = std::max(got, got - in.drift.velocity.dot(along));
     if (most < kBlockedBelow * asked) {
       memory->share = 0;

@@ -1,7 +1,7 @@
 #pragma once
-/// Whether two peers know the same of what rests, block by block: each ping looks at one block of
-/// the bodies, the next one at the next. What differs for a while is under way, what goes on to
-/// differ was lost and has to be said again: so much of it as the block has.
+/// Block-wise comparison of two peers' rest commitments. Each ping carries the hash of one block of
+/// bodies; the blocks take turns. A difference that is young is assumed to be in transit; one that
+/// persists means a lost message, and only that block's commitments are sent again.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,21 +12,21 @@
 
 namespace seam {
 
-/// About the least bodies of a block: what a ping looks at is little, and how long it takes until
-/// all have had their turn does not grow with the room.
+/// Approximate minimum of bodies per block. Small, so that a ping compares little; the number of
+/// blocks is capped (kRestBlocksMax), so that a full round does not grow with the room.
 constexpr int kRestBlockBodies = 20;
 
-/// Of all bodies by ascending id one of `blocks` equal parts.
+/// One of `blocks` equal parts of all bodies, in ascending order of id.
 struct RestBlock {
-  int blocks = 0;  ///< 0: nothing is looked at
+  int blocks = 0;  ///< 0: nothing is compared
   int block = 0;   ///< from 0
 
-  /// The block whose turn it is, of so many bodies.
+  /// Returns the block of turn `turn` in a room of `bodies` bodies.
   static RestBlock Of(int bodies, std::int64_t turn) {
     const int blocks = std::clamp(bodies / kRestBlockBodies, 1, kRestBlocksMax);
     return {blocks, static_cast<int>(turn % blocks)};
   }
-  /// Indices of its bodies: the first one, and the one behind the last.
+  /// Body indices: the first of the block, and one past the last.
   int begin(int bodies) const { return At(bodies, block); }
   int end(int bodies) const { return At(bodies, block + 1); }
 
@@ -38,7 +38,8 @@ struct RestBlock {
 
 class RestBlocks {
  public:
-  /// A ping came with `theirs` of a block, while ours is `ours`. True: say again what rests of it.
+  /// Compares our hash with `theirs` from a ping. Returns true if commitments of this block were
+  /// lost and have to be sent again.
   bool Lost(std::int64_t now_us, const RestBlock& at, std::uint64_t ours, std::uint64_t theirs) {
     Difference& known = At(at);
     if (ours == theirs) {
@@ -52,20 +53,22 @@ class RestBlocks {
     if (lost) known.since_us = known.any_us = now_us;
     return lost;
   }
-  /// Nothing can be said of a block now: not all that rests of it was told.
+  /// Forgets the block's difference: not all of its commitments have been sent, so a comparison
+  /// would mean nothing.
   void Skip(const RestBlock& at) { At(at) = Difference{}; }
 
  private:
-  /// More than a message takes on a slow path, and no less than two pings of a quiet room, us.
+  /// Time after which an unchanged difference counts as a loss, us: longer than a message takes on
+  /// a slow path, and at least two pings of a quiet room.
   static constexpr std::int64_t kPatienceUs = 1000000;
-  /// Where something comes to rest or wakes all the time, us: what is under way differs then, too.
-  /// And about two pings more for each block.
+  /// Time after which any difference counts as a loss, us: where bodies come to rest or wake all
+  /// the time, messages in transit keep changing it. kTurnUs, about two pings, is added per block.
   static constexpr std::int64_t kPatienceMovingUs = 3000000, kTurnUs = 200000;
 
   struct Difference {
     std::uint64_t ours = 0, theirs = 0;
-    std::int64_t since_us = -1;  // of this difference
-    std::int64_t any_us = -1;    // of any; -1: there is none
+    std::int64_t since_us = -1;  // when this difference began
+    std::int64_t any_us = -1;    // when the blocks began to differ; -1: equal
   };
   Difference& At(const RestBlock& at) {
     const auto blocks = static_cast<std::size_t>(at.blocks);

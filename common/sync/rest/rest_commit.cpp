@@ -12,22 +12,22 @@
 namespace seam {
 namespace {
 
-/// The engine's speeds below which a body may sleep, m/s and rad/s, and how much more wakes a body
-/// that is committed.
+/// The engine's sleep thresholds, m/s and rad/s, and the factor above them that wakes a committed
+/// body.
 constexpr float kSleepSpeed = 0.01f, kSleepSpin = 0.035f, kWakeShare = 1.4f;
-/// ...if it is more for this long on end, s: a copy beside it that is corrected pushes for a tick
-/// or two. Each time that a push turned out to be nothing, twice as long: two peers whose copies
-/// lie otherwise would wake each other's for ever.
+/// ...if exceeded for this long in a row, s: a corrected copy next to it pushes only for a tick or
+/// two. The time doubles with each release, at most kDoublings times: two peers whose copies lie
+/// differently would otherwise wake each other forever.
 constexpr double kPushedFor = 0.1;
 constexpr int kDoublings = 5;
-/// A blow, m/s and rad/s: it wakes at once.
+/// An impact, m/s and rad/s: wakes the body at once.
 constexpr float kBlow = 0.5f;
-/// A copy that was woken goes back when its authority has not said for so long that it moves, s: a
-/// slow path's round trip and more. Where states are those of input-complete ticks, the input has
-/// to arrive there first, and its state takes as long again.
+/// A woken copy goes back to rest if its authority has not reported motion for this long, s: more
+/// than the round trip of a slow path. Where states are sent only for input-complete ticks, the
+/// input has to reach the authority first, and the state takes as long again.
 constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
 
-/// Since its authority's word it has lain there, whatever was thought of it here.
+/// Rewrites our past of the body: it has rested since the commitment, whatever this peer assumed.
 void WriteHistory(const RestRecord& rest, std::int64_t now, int body, BodyMemory* memory) {
   std::int64_t tick = std::max(rest.tick, memory->history().oldest());
   for (; tick <= now; ++tick) {
@@ -56,7 +56,7 @@ std::int64_t RestCommit::Ticks(double seconds) const {
   return static_cast<std::int64_t>(seconds * config_.tick_hz);
 }
 
-/// The authority sends no states of what it has committed: a newer one is the end of it.
+/// Ends a commitment when a newer state was heard: the authority sends no states of resting bodies.
 void RestCommit::EndOutdated(int body) {
   const RestRecord& record = table_.at(body);
   if (!record.committed) return;
@@ -74,7 +74,7 @@ void RestCommit::Put(int body) {
                     now.velocity == pose.velocity && now.spin == pose.spin;
   if (lies && !world_.awake(body)) return;
   BodyState moved = Minus(pose, now);
-  moved.angle = WrapAngle(moved.angle);  // whole turns are nothing to see
+  moved.angle = WrapAngle(moved.angle);  // whole turns are invisible
   moved.velocity.setZero();
   moved.spin = 0;
   if (!Negligible(moved)) display_.Moved(body, moved);
@@ -84,8 +84,8 @@ void RestCommit::Put(int body) {
 }
 
 void RestCommit::PutBack() {
-  if (Off() || edited_) return;              // an edit's push is not to be lost
-  for (const int body : memory_.tended()) {  // a parked one is where it rests
+  if (Off() || edited_) return;              // an edit's push must not be lost
+  for (const int body : memory_.tended()) {  // a parked body is at rest already
     if (Holds(body)) Put(body);
   }
 }
@@ -101,8 +101,8 @@ void RestCommit::LetGo(int body) {
   }
 }
 
-/// Of what is absent only that of which something was heard, what was moved, and what may have been
-/// let go for long enough.
+/// Chooses the bodies to check. Absent bodies count only if they were heard of, moved, or released,
+/// which may now be long enough ago.
 void RestCommit::FindDue() {
   due_.clear();
   const auto add_absent = [this](const std::vector<int>& bodies) {
@@ -144,7 +144,7 @@ void RestCommit::Hold(int body) {
     }
   }
   if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
-    LetGo(body);  // a replay found a blow
+    LetGo(body);  // a replay found an impact
   }
   if (!Holds(body)) return;
   const BodyState now = world_.Read(body);
@@ -157,7 +157,7 @@ void RestCommit::Hold(int body) {
   }
 }
 
-/// Whether a body that is held, and was pushed in the last step, is to be let go.
+/// Returns true if a held body that the last step pushed is to be released.
 bool RestCommit::GivesWay(int body) {
   const BodyState now = world_.Read(body);
   const float speed = now.velocity.norm(), spin = std::fabs(now.spin);
@@ -171,10 +171,10 @@ bool RestCommit::GivesWay(int body) {
   return true;
 }
 
-/// What the engine has woken in an island in the last step. An own body that only own ones touch is
-/// awake: nobody else's word is needed for it. Where all are held, of several owners, the engine
-/// wakes what leans on copies that lie a little otherwise, in every step: that is a push like
-/// others.
+/// Decides for each body of an island that the engine woke in the last step. An own body touched
+/// only by own bodies stays awake: no other peer's word is needed. Where all bodies are held and
+/// have several owners, the engine wakes bodies that lean on slightly displaced copies in every
+/// step; these count as pushes.
 void RestCommit::HoldIsland(const std::vector<int>& island) {
   bool own_awake = false, others_awake = false, driven = false, only_own = true;
   for (const int body : island) {
@@ -199,19 +199,19 @@ void RestCommit::HoldIsland(const std::vector<int>& island) {
 void RestCommit::AfterStep() {
   if (Off()) return;
   bool woken = false, open = false;
-  for (const int body : world_.present()) {  // what is absent is another's, or idle
+  for (const int body : world_.present()) {  // an absent body is another peer's, or idle
     woken = woken || (Holds(body) && world_.awake(body));
     open = open || (!Holds(body) && Own(body));
     const bool anew = Own(body) && Holds(body) &&
                       table_.at(body).epoch != roles_.table().at(world_.mechanism(body)).epoch;
-    if (anew && !world_.awake(body)) Commit(body);  // it was another's
+    if (anew && !world_.awake(body)) Commit(body);  // taken over from another peer
   }
   if (woken) {
     for (const std::vector<int>& island : FindPresentIslands(world_)) HoldIsland(island);
   }
   watch_.Look();
   if (open && world_.tick() % config_.send_every() == 0) {
-    // What this peer may still commit is never absent.
+    // A body that this peer may still commit is never absent.
     for (const std::vector<int>& island : FindPresentIslands(world_)) CommitIsland(island);
   }
   std::vector<Rest> waiting;
@@ -250,7 +250,7 @@ void RestCommit::StartAnew() {
 
 bool RestCommit::all() const {
   if (Off()) return false;
-  // The body that was found open last is likely to be so still.
+  // Starts with the body found last: it is probably still not held.
   const int count = world_.body_count();
   if (open_ < count && !Holds(open_)) return false;
   for (open_ = 0; open_ < count; ++open_) {

@@ -1,18 +1,19 @@
 #pragma once
-/// Rest that is the same everywhere. An island that has slept for a quarter of a second is
-/// committed by its bodies' authorities: each sends its own bodies' exact poses, reliably; the
-/// others write them unconditionally and hold them there until the authority says otherwise.
+/// Makes bodies rest at the same pose everywhere. Once an island has slept for .25 s, each
+/// authority commits its own bodies: it sends their exact poses reliably. All other peers write
+/// these poses unconditionally and hold the bodies there until the authority says otherwise.
 ///
-///   authority   asleep .25 s --> commit --> Rest --> server (right, epoch) --> everyone else
-///   receivers   Rest --> written, asleep, held --> a newer state of the authority's ends it
+///   authority   asleep .25 s --> commit --> Rest --> server (right, epoch) --> all other peers
+///   receivers   Rest --> written, asleep, held --> a newer state of the authority ends it
 ///
-/// Small disturbances do not wake what is held: kWakeShare times the engine's threshold, for some
-/// ticks on end, a blow, an edit or an input does. A copy that was woken here while its authority
-/// says nothing goes back to rest. Where an island has several owners their copies differ, and the
-/// engine may never let them sleep: there a peer commits its own bodies when they have lain still
-/// whatever the copies do, and if that does not come about, the lowest peer's and then everybody's.
-/// Rules that stamp inputs need neither: their copies are the same, so they wake and sleep alike.
-/// They commit what sleeps at an input-complete tick: sleep before that may be an assumption.
+/// A held body does not wake from a small disturbance. It wakes when its speed exceeds kWakeShare
+/// times the engine's sleep threshold for some ticks in a row, or from an impact, an edit or an
+/// input. A copy woken here goes back to rest if its authority stays silent.
+/// If an island has several owners, their copies differ and the engine may never let them sleep. A
+/// peer then commits its own bodies once they have lain still, whatever the copies do; if that
+/// fails, the lowest peer commits, and finally every peer.
+/// Rules that stamp inputs need none of this: their copies are equal and wake and sleep alike. They
+/// commit only sleep of an input-complete tick, because earlier sleep may rest on an assumed input.
 
 #include <cstdint>
 #include <vector>
@@ -34,66 +35,70 @@ namespace seam {
 
 class RestCommit {
  public:
-  /// All must outlive this. `inputs`: by player. Does nothing in mode oracle, and where
-  /// the scene lets nothing sleep.
+  /// All must outlive this. `inputs`: by player. Does nothing in mode oracle or in a scene without
+  /// sleep.
   RestCommit(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
              BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs,
              const Reach& reach);
 
-  /// Immediately before a step: what is held is exactly where it rests.
+  /// Call immediately before a step. Puts each held body exactly at its rest pose.
   void BeforeStep();
-  /// After a step, its contacts noted: what was woken is held or let go, what has come to rest is
-  /// committed.
+  /// Call after a step, once its contacts are noted. Holds or releases the bodies that were woken
+  /// and commits those that have come to rest.
   void AfterStep();
-  /// After a change of roles, which makes bodies anew: what is held is where it rests, and asleep.
+  /// Call after a change of roles, which recreates bodies. Puts held bodies back to their rest
+  /// poses, asleep.
   void PutBack();
-  /// An edit was applied: what is awake before the next step was woken by it.
+  /// Call when an edit was applied: a body that is awake before the next step was woken by it.
   void NoteEdit() { edited_ = true; }
   void Remap(const BodyRemap& change);
-  /// Nothing is known to rest any more.
+  /// Forgets all rest.
   void StartAnew();
 
-  /// What other peers' authorities have committed. What is older than a newer state or commitment
-  /// is ignored; what is of a tick still to come waits for it. True: it was the first to say where
-  /// a body is.
+  /// Takes commitments of another peer. Ignores entries older than a known state or commitment;
+  /// keeps a message of a future tick until that tick. Returns true if it was the first word of any
+  /// body's pose.
   bool Receive(const Rest& rest);
-  /// Where its holder let go of bodies, after the copies were put there. What was handed over as it
-  /// rests lies on: its new authority says so under its own epoch.
+  /// Call after a hand-over has placed the copies. A body handed over exactly at its rest pose
+  /// stays at rest; its new authority commits it again under its own epoch.
   void NoteHandedOver(const ExactStates& exact);
-  /// What this peer committed in the last step; `utime` is left 0.
+  /// Returns the commitments of the last step. `utime` is left 0.
   std::vector<Rest> Take();
-  /// All that rests, for one who joins.
+  /// Returns all commitments, for a peer that joins.
   std::vector<Rest> Everything() const;
-  /// What is held of these bodies (ascending), for one who has not heard of it yet or has lost it,
-  /// and may have heard something else since: it lies so after this tick, too.
+  /// Returns the commitments of these bodies (ascending) that are held, for a peer that missed
+  /// them. The tick is raised to the current one, because that peer may have heard newer states
+  /// meanwhile.
   std::vector<Rest> Again(const std::vector<int>& bodies) const;
-  /// The same of a block; only what `peer` has authority over, unless below 0.
+  /// Like the above for one block; only bodies of authority `peer`, or all if `peer` is below 0.
   std::vector<Rest> Again(const RestBlock& at, int peer) const;
 
-  /// Whether the body lies committed, and is to be corrected, replayed and driven by nothing.
+  /// True if the body is held at a committed rest: nothing may correct, replay or drive it.
   bool Holds(int body) const { return memory_.track(body).at_rest; }
-  /// Whether every body lies so.
+  /// True if every body is held.
   bool all() const;
-  /// The sum of the hashes of all that is committed; 0: nothing.
+  /// Sum of the hashes of all commitments; 0 if there are none.
   std::uint64_t Hash() const { return table_.Hash(); }
-  /// The same of a block, its lower 32 bits; only what `peer` has authority over, unless below 0.
+  /// Lower 32 bits of that sum for one block; only bodies of authority `peer`, or all if `peer` is
+  /// below 0.
   std::uint32_t HashOf(const RestBlock& at, int peer) const;
-  /// What is known of a body's rest.
+  /// The record of a body's rest.
   const RestRecord& record(int body) const { return table_.at(body); }
-  /// Messages of ticks still to come.
+  /// Number of messages kept for a future tick.
   std::size_t waiting() const { return waiting_.size(); }
 
  private:
-  /// What disturbed a body that is held.
+  /// Disturbances of a held body.
   struct Disturbance {
-    std::int64_t freed_tick = -1;  ///< it was let go here, its authority has not said so
-    int pushed_ticks = 0;          ///< on end
-    int times = 0;                 ///< it gave way to pushes since its authority last spoke of it
+    std::int64_t freed_tick = -1;  ///< when it was released here, its authority still silent; -1:
+                                   ///< it was not
+    int pushed_ticks = 0;          ///< ticks in a row
+    int times = 0;                 ///< releases by pushes since its authority last spoke of it
   };
 
   bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
-  /// Where all peers come to the same by the same inputs, what the physics wakes is awake, and what
-  /// it lets sleep sleeps: nothing is held against it. Likewise where one peer has all of it.
+  /// True if the physics alone decides about waking and sleeping, and no body is held against it:
+  /// all peers come to the same result from the same inputs, or one peer simulates everything.
   bool Trusts() const {
     return config_.StampsInputs(roles_.self()) || config_.mode == Mode::kCentral;
   }
@@ -104,14 +109,15 @@ class RestCommit {
   void EndOutdated(int body);
   void FindDue();
   void Hold(int body);
-  /// Between BeforeStep and AfterStep; not where inputs are trusted to wake what they move.
+  /// Valid between BeforeStep and AfterStep. False where inputs are trusted to wake the bodies that
+  /// they move.
   bool Driven(int body) const {
     return !Trusts() && driven_[static_cast<std::size_t>(world_.mechanism(body))];
   }
-  /// Where and as it rests, its view gliding there.
+  /// Writes the body's rest pose, asleep; its view glides there.
   void Put(int body);
-  /// The disturbance is real: an own body's rest is over, another's copy goes on until its
-  /// authority speaks, or it goes back.
+  /// Accepts a disturbance as real. The rest of an own body ends; a copy moves on until its
+  /// authority speaks, or until it goes back.
   void LetGo(int body);
   bool GivesWay(int body);
   void HoldIsland(const std::vector<int>& island);
@@ -134,13 +140,13 @@ class RestCommit {
   RestWatch watch_;
   std::vector<Disturbance> disturbed_;  // by body
   std::vector<bool> driven_;            // by mechanism: an input of this step moves it
-  std::vector<int> freed_;              // bodies that are let go, or were
-  std::vector<int> due_;                // bodies that a step has to look at
-  mutable int open_ = 0;                // the body that was found not to be held last
+  std::vector<int> freed_;              // bodies released here, and some that no longer are
+  std::vector<int> due_;                // bodies that this step has to check
+  mutable int open_ = 0;                // a body that was not held at the last call of all()
   bool edited_ = false;
-  std::vector<int> committed_;  // since the last Take; some twice
+  std::vector<int> committed_;  // bodies, since the last Take; some twice
   std::int64_t number_ = 0;     // of the next Rest
-  std::vector<Rest> waiting_;   // of ticks still to come
+  std::vector<Rest> waiting_;   // messages of future ticks
 };
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// RestCommit: what this peer commits, and what others have committed.
+/// RestCommit: sends this peer's commitments and receives those of other peers.
 
 #include <algorithm>
 #include <cmath>
@@ -11,16 +11,18 @@
 namespace seam {
 namespace {
 
-/// From an island's falling asleep to its commitment, s.
+/// Time that an island must have slept before it is committed, s.
 constexpr double kAsleepFor = 0.25;
-/// Own bodies of an island of several owners: still for twice the engine's half second;
-/// hardly moving for so long that the peers must disagree, the lowest peer's; or anybody's. s
+/// Waits before own bodies of an island with several owners are committed, s. kStillFor: they are
+/// still for twice the engine's half second. kSlowFor: all hardly move for so long that the peers
+/// must disagree; the lowest peer commits. kSlowForAnybody: any peer commits.
 constexpr double kStillFor = 1, kSlowFor = 2.5, kSlowForAnybody = 4;
-/// A copy that is put farther than this, m and rad, may have been what own bodies lay on.
+/// A copy that is moved farther than this, m and rad, may have supported own bodies.
 constexpr float kMoved = 0.005f;
-/// Own bodies at rest are woken for it so many times: then they are as right as the other's.
+/// Number of times that an own body at rest is woken by such a move; after that its pose is as good
+/// as the other peer's.
 constexpr int kMovedTimes = 3;
-/// Messages of ticks still to come that may wait, and how far in the future they may be, s.
+/// Limits of waiting messages: their number, and how far in the future they may be, s.
 constexpr std::size_t kWaitingMax = 64;
 constexpr double kWaitingFor = 2;
 
@@ -62,7 +64,8 @@ void RestCommit::CommitIsland(const std::vector<int>& island) {
 }
 
 void RestCommit::Commit(int body) {
-  // Later than all that another authority can have said of it, whose clock may be a tick ahead.
+  // Later than anything another authority can have said of it; that peer's clock may be a tick
+  // ahead.
   const std::int64_t tick =
       std::max({world_.tick(), table_.at(body).tick + 1, memory_.track(body).heard_tick});
   const std::int32_t epoch = roles_.table().at(world_.mechanism(body)).epoch;
@@ -79,7 +82,7 @@ std::vector<Rest> RestCommit::Take() {
   for (const int body : std::exchange(committed_, {})) {
     if (table_.at(body).committed && Own(body)) bodies.push_back(body);
   }
-  // Who catches up steps many times in one go: something may have come to rest there twice.
+  // A peer that catches up steps many times in one go: a body may have come to rest twice.
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   std::vector<Rest> out = table_.Pack(world_, roles_.self(), bodies);
@@ -133,8 +136,8 @@ bool RestCommit::Receive(const Rest& rest) {
   return placed;
 }
 
-/// Whether a copy that is simulated and awake lay there at that tick, so that what woke it here
-/// came later: the word that it rests is merely late.
+/// Returns true if an awake simulated copy was at that pose at `tick`, so that it was woken later:
+/// the commitment merely arrives late.
 bool RestCommit::WokenSince(int body, std::int64_t tick, const BodyState& pose) const {
   if (!Trusts() || !roles_.Simulates(body) || !world_.awake(body)) return false;
   const BodyState* then = memory_.history().At(tick, body);
@@ -150,7 +153,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   const bool places = !track.placed;
   if (!places && Own(body)) return false;
   if (rest.revision < track.changed_at) return false;
-  // Another authority's clock may be ahead of this one's: its word counts from its epoch on.
+  // Another authority's clock may be ahead of ours: a newer epoch overrides the tick.
   if (rest.epoch[i] <= track.heard_epoch && rest.tick < track.heard_tick) return false;
   const RestRecord& known = table_.at(body);
   if (known.committed && rest.epoch[i] <= known.epoch && rest.tick < known.tick) return false;
@@ -158,7 +161,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   pose.position = Vec2(rest.x[i], rest.y[i]);
   pose.angle = rest.angle[i];
   if (!places && WokenSince(body, rest.tick, pose)) {
-    // It goes on until its authority says that it moves, or goes back to where that says it rests.
+    // It moves on until its authority reports motion, or goes back to the committed pose.
     table_.Commit(body, rest.id[i], rest.epoch[i], rest.tick, pose);
     track.heard_tick = rest.tick;
     track.heard_epoch = rest.epoch[i];
@@ -173,7 +176,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   track.asleep_since = world_.tick();
   track.pull.arrived = -1;
   disturbed(body) = Disturbance{};
-  if (places) memory_.snapshots().ForgetAfter(body, rest.tick - 1);  // it was assumed
+  if (places) memory_.snapshots().ForgetAfter(body, rest.tick - 1);  // that was an assumption
   memory_.snapshots().Add(body, rest.tick, pose);
   memory_.NoteNews(body);
   std::int64_t tick = std::max(rest.tick, memory_.history().oldest());
@@ -198,13 +201,13 @@ void RestCommit::NoteHandedOver(const ExactStates& exact) {
     const bool lies = exact.x[i] == pose.position.x() && exact.y[i] == pose.position.y() &&
                       exact.angle[i] == pose.angle && exact.vx[i] == 0 && exact.vy[i] == 0 &&
                       exact.spin[i] == 0;
-    // Only if nothing newer was heard: what was not taken over is no news of it.
+    // Only if nothing newer was heard: a hand-over that was not accepted says nothing of the body.
     const bool newest = memory_.track(body).heard_tick == exact.tick;
     if (lies && newest && exact.tick > table_.at(body).tick) table_.Prolong(body, exact.tick);
   }
 }
 
-/// What lay on the copy, or held it, may have lost what it lay on.
+/// Wakes own bodies that touched the moved copy: they may have lost their support.
 void RestCommit::WakeNeighbours(int body) {
   for (const Touch& touch : world_.touches()) {
     if (touch.body_a != body && touch.body_b != body) continue;

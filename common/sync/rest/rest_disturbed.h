@@ -1,7 +1,7 @@
 #pragma once
-/// What ends the rest of a whole island at once, when it happens and in a replay that finds it out:
-/// a blow to one of its bodies, or a player's input to one of its mechanisms. Smaller disturbances
-/// may be no more than a correction (RestCommit).
+/// Finds disturbances that end the rest of a whole island at once: an impact on one of its bodies,
+/// or a player's input to one of its mechanisms. Used live and in replays. Smaller disturbances may
+/// be mere corrections (see RestCommit).
 
 #include <vector>
 
@@ -12,16 +12,16 @@
 
 namespace seam {
 
-/// What moves faster than this was struck, m/s and rad/s.
+/// A body faster than this counts as struck, m/s.
 constexpr float kRestBlow = 0.5f;
 
-/// By mechanism: whether a player whose axes move it, or whose it is, does something in this tick.
+/// By mechanism: true if a player whose axes move it, or who owns it, gives any input in this tick.
 /// `inputs`: by player.
 std::vector<bool> DrivenIn(const World& world, const Drivers& drivers,
                            const std::vector<InputTrack>& inputs, std::int64_t tick);
 
-/// After a step: the bodies that are held at rest but were woken by it, in islands whose rest it
-/// ended; ascending in each island.
+/// Call after a step. Returns the held bodies that the step woke in islands that no longer rest;
+/// ascending within each island.
 std::vector<int> DisturbedRest(const World& world, const Drivers& drivers, const BodyMemory& memory,
                                const std::vector<InputTrack>& inputs);
 

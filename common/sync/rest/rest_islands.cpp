@@ -6,7 +6,7 @@
 namespace seam {
 namespace {
 
-/// What stands for the island of `m` (union-find with halved paths).
+/// Returns the representative of the island of `m` (union-find with path halving).
 int Leader(std::vector<int>* leaders, int m) {
   std::vector<int>& up = *leaders;
   while (up[static_cast<std::size_t>(m)] != m) {
@@ -20,7 +20,7 @@ int Leader(std::vector<int>* leaders, int m) {
 }  // namespace
 
 std::vector<std::vector<int>> FindPresentIslands(const World& world) {
-  // Mechanisms by their place among those that are present.
+  // Ascending; leaders are indexed by the place in this list.
   std::vector<int> mechanisms;
   for (const int body : world.present()) mechanisms.push_back(world.mechanism(body));
   std::sort(mechanisms.begin(), mechanisms.end());

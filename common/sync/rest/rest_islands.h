@@ -7,8 +7,8 @@
 
 namespace seam {
 
-/// The islands of bodies that are present, after the world's last tick; each ascending. Anchored
-/// bodies join nothing.
+/// Returns the islands of all present bodies after the world's last tick; each is ascending.
+/// Anchored bodies connect nothing.
 std::vector<std::vector<int>> FindPresentIslands(const World& world);
 
 }  // namespace seam

@@ -14,9 +14,9 @@ std::uint64_t Add(const T& value, std::uint64_t hash) {
   return Fnv1a(&value, sizeof value, hash);
 }
 
-/// Hashes of bodies are added up, so each has to be mixed well in itself: the last steps of
-/// MurmurHash3's finalizer (Appleby, public domain) let every bit count for all below it, too. Of a
-/// body it is never 0.
+/// Hashes of bodies are added up, so each must be well mixed by itself: the last steps of
+/// MurmurHash3's finalizer (Appleby, public domain) let every bit affect all lower ones too. Never
+/// 0 for a body.
 std::uint64_t HashOfBody(PartId id, const RestRecord& record) {
   std::uint64_t hash = Add(record.epoch, Add(id, Fnv1a("", 0)));
   hash = Add(record.pose.position.y(), Add(record.pose.position.x(), hash));
@@ -59,7 +59,7 @@ void RestTable::Remap(const std::vector<BodyOrigin>& origins) {
   std::vector<std::uint64_t> hashes;
   sum_ = 0;
   for (const BodyOrigin& origin : origins) {
-    const bool same = origin.body >= 0 && origin.same;  // so it has its id still
+    const bool same = origin.body >= 0 && origin.same;  // so it keeps its id
     records.push_back(same ? at(origin.body) : RestRecord{});
     hashes.push_back(same ? HashOf(origin.body) : 0);
     sum_ += hashes.back();

@@ -5,10 +5,11 @@
 namespace seam {
 namespace {
 
-/// m. The engine lets a body sleep that creeps by 5 mm within its half second; a tall stack settles
-/// slower than that for seconds.
+/// m. The engine lets a body sleep that creeps by 5 mm in its half second; a tall stack settles
+/// more slowly than that for seconds.
 constexpr float kStill = 0.001f, kSlow = 0.02f;
-/// rad for each metre of these: a box of 1 m then moves a corner as far as it may move itself.
+/// rad per metre of these distances: a corner of a 1 m box then moves as far by turning as by
+/// shifting.
 constexpr float kTurn = 2;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-/// For how long each body has been asleep, has lain still, or has hardly moved: by where it is, not
-/// by its speed, which small corrections disturb again and again.
+/// Measures how long each body has been asleep, still, or nearly still. Goes by position, not by
+/// speed, because small corrections disturb the speed again and again.
 
 #include <cstdint>
 #include <vector>
@@ -13,15 +13,15 @@ class RestWatch {
  public:
   explicit RestWatch(const World& world);
 
-  /// After a step. What is absent is not looked at, and nothing may be asked of it.
+  /// Call after a step. Absent bodies are skipped; their times must not be asked for.
   void Look();
-  /// Ticks for which the body has been asleep; 0: it is awake.
+  /// Ticks for which the body has been asleep; 0: awake.
   std::int64_t asleep(int body) const { return Since(of(body).asleep_since); }
-  /// Ticks for which it has been within 1 mm and .002 rad of one pose.
+  /// Ticks for which it has stayed within 1 mm and .002 rad of one pose.
   std::int64_t still(int body) const { return Since(of(body).still.since); }
-  /// Ticks for which it has been within 20 mm and .04 rad of one pose.
+  /// Ticks for which it has stayed within 20 mm and .04 rad of one pose.
   std::int64_t slow(int body) const { return Since(of(body).slow.since); }
-  /// The bodies have changed, or the tick: all begins anew.
+  /// Restarts all times. Call when the bodies or the tick were changed.
   void StartAnew();
 
  private:
@@ -31,7 +31,7 @@ class RestWatch {
   };
   struct Track {
     std::int64_t asleep_since = -1;
-    std::int64_t looked = 0;  // tick of the last look at it
+    std::int64_t looked = 0;  // tick of the last Look that saw it
     Near still, slow;
   };
   const Track& of(int body) const { return tracks_[static_cast<std::size_t>(body)]; }

@@ -9,14 +9,14 @@
 namespace seam {
 namespace {
 
-/// What is off by centimetres takes a few sweeps; a chain of a dozen links that is off by half a
-/// metre everywhere takes about a hundred. What is left after these is seen as an open joint.
+/// Limit of sweeps. Errors of centimetres take a few; a chain of a dozen links that is off by half
+/// a metre everywhere takes about a hundred. The rest stays visible as an open joint.
 constexpr int kRoundsMax = 120;
-/// What is not closed by then is closed as if all its bodies were alike, and what pins keep from
-/// turning only shifts: where something light is between what is heavy or anchored, each sweep only
-/// moves or turns it to and fro.
+/// Sweeps that weight bodies by mass. Later sweeps treat all bodies alike, and bodies that pins
+/// keep from turning only shift: a light body between heavy or anchored ones would otherwise only
+/// move or turn to and fro.
 constexpr int kRoundsByMass = 20;
-/// In place of the inertia of what does not turn, kg m2.
+/// Stands for the inertia of an anchored body, kg m2.
 constexpr float kAnchored = 1e12f;
 /// A pin between two bodies of a list.
 struct Hold {
@@ -24,10 +24,10 @@ struct Hold {
   std::size_t a = 0, b = 0;  // indices into the list
 };
 
-/// A mechanism's bodies in these poses, then what its pins are anchored to.
+/// A mechanism's bodies at given poses, followed by the anchored ends of its pins.
 struct Assembled {
   std::vector<PinnedBody> list;
-  std::vector<BodyState> states;  // of the same
+  std::vector<BodyState> states;  // of list, in the same order
   std::vector<Hold> holds;
 
   template <class PoseOf>
@@ -62,8 +62,8 @@ struct Assembled {
   }
 };
 
-/// Whole turns by which the angle between two bodies is off the range that a pin allows it; 0 where
-/// that is a turn or more.
+/// Returns the whole turns by which the angle between two bodies is off the pin's range; 0 if that
+/// range is a turn or more.
 float TurnsBeyond(const Pin& pin, float angle_a, float angle_b) {
   const float middle = (pin.angle_lower + pin.angle_upper) / 2;
   if (pin.angle_upper - pin.angle_lower >= 2 * kPiFloat) return 0;
@@ -72,8 +72,8 @@ float TurnsBeyond(const Pin& pin, float angle_a, float angle_b) {
 
 bool KeepsTurn(const Pin& pin) { return !pin.by_distance && pin.angle_lower == pin.angle_upper; }
 
-/// Gives bodies that pins keep from turning against each other the turn that they have on average,
-/// or that of what is anchored among them; after that they turn no more.
+/// Turns bodies that pins keep from turning against each other to their average angle, or to that
+/// of an anchored body among them, and fixes their angles.
 void HoldTurns(const std::vector<Hold>& holds, std::vector<PinnedBody>* list) {
   std::vector<char> held(list->size(), 0);
   struct Member {
@@ -200,7 +200,7 @@ void JointCloser::Close(const std::vector<int>& bodies, const std::vector<Pin>& 
       for (PinnedBody& body : shown.list) body.MakeAlike();
     }
     for (std::size_t i = 0; i < left.size(); ++i) {
-      // To and fro, or what is off travels along a chain only a link a sweep.
+      // Alternates the direction; otherwise an error travels along a chain only one link per sweep.
       const std::size_t at = round % 2 == 0 ? i : left.size() - 1 - i;
       const Hold& hold = shown.holds[at];
       open = ClosePin(*hold.pin, left[at], &shown.list[hold.a], &shown.list[hold.b]) || open;

@@ -1,6 +1,6 @@
 #pragma once
-/// Closes the joints of poses that the engine did not make: of bodies that are displayed, and of
-/// views with offsets. They are moved by as little as is needed, the light more than the heavy.
+/// Closes the joints of poses that the engine did not compute: displayed bodies, and views with
+/// visual offsets. Moves bodies as little as needed, light ones more than heavy ones.
 
 #include <vector>
 
@@ -13,28 +13,28 @@ class JointCloser {
  public:
   /// The world must outlive this.
   explicit JointCloser(const World& world) : world_(world) { Rebuild(); }
-  /// To be called when World::Apply has returned a change.
+  /// Call when World::Apply has returned a change.
   void Rebuild();
 
   /// The bodies of a mechanism, ascending.
   const std::vector<int>& bodies(int mechanism) const { return At(mechanism).bodies; }
-  /// Whether there is anything to close.
+  /// True if the mechanism has joints.
   bool jointed(int mechanism) const { return !At(mechanism).pins.empty(); }
-  /// Whether one of its joints holds it to something anchored.
+  /// True if one of its joints holds it to an anchored body.
   bool anchored(int mechanism) const { return At(mechanism).anchored; }
 
-  /// Takes whole turns off the angles of this mechanism's bodies until each is within the limits
-  /// that its hinges allow it, of what has been told without its turns. The first body keeps its.
+  /// Takes whole turns off the angles of this mechanism's bodies until each is within the limits of
+  /// its hinges; the wire carries angles without turns. The first body keeps its angle.
   void Unwind(int mechanism, std::vector<BodyState>* poses) const;
 
   /// Moves poses of this mechanism's bodies (`poses` is by body) until its joints and their limits
-  /// are within 0.1 mm and 0.1 mrad, or kRoundsMax sweeps are over. Mass times displacement sums up
-  /// to 0 where nothing is anchored. Velocities stay. If `simulated`, joints may stay as far open
-  /// as they are in the world: a load opens them there and in the truth alike. A mechanism whose
-  /// joints are closed is left alone bit for bit.
+  /// are within 0.1 mm and 0.1 mrad, or kRoundsMax sweeps are done. Mass times displacement sums to
+  /// 0 if nothing is anchored. Velocities stay. If `simulated`, joints may stay as far open as in
+  /// the world, where a load opens them as it does in the oracle. Closed joints leave the mechanism
+  /// bit for bit unchanged.
   void Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const;
-  /// The same of poses that were moved on from these states (by body) as if there were no springs:
-  /// what a spring holds swings about its rest and travels no further.
+  /// Like Close, for poses that were extrapolated from the states `from` (by body) as if there were
+  /// no springs: a sprung body swings about its rest and travels no further than that.
   void CloseMovedOn(int mechanism, const std::vector<BodyState>& from,
                     std::vector<BodyState>* poses) const;
 

@@ -8,16 +8,16 @@
 namespace seam {
 namespace {
 
-/// Closed is what is nearer than this to where it should be, m and rad: far below a pixel.
+/// A gap below this counts as closed, m and rad: far below a pixel.
 constexpr float kClosed = 1e-4f;
-/// Of bodies that are alike: as a rod of twice its length.
+/// Inertia of bodies that are treated alike: that of a rod of twice the length.
 constexpr float kHarderToTurn = 4;
 
 float Beyond(float value, float lower, float upper) {
   return value - std::clamp(value, lower, upper);
 }
 
-/// What is too much of a gap when any between `left` and none may stay.
+/// Returns the part of a gap beyond the range from zero to `left`.
 float TooMuch(float gap, float left) {
   return Beyond(gap, std::min(left, 0.0f), std::max(left, 0.0f));
 }
@@ -29,7 +29,7 @@ Vec2 SpeedAt(const Vec2& at, const PinnedBody& body, const BodyState& moves) {
 
 void Narrow(float rest, float reach, float* lower, float* upper) {
   const float least = std::max(*lower, rest - reach), most = std::min(*upper, rest + reach);
-  if (least > most) return;  // it is out of its limits
+  if (least > most) return;  // outside its limits
   *lower = least;
   *upper = most;
 }
@@ -43,7 +43,7 @@ bool CloseTurn(float excess, PinnedBody* a, PinnedBody* b) {
   return true;
 }
 
-/// What a unit impulse at the arm does to the point it acts on.
+/// Adds the response of the point at the arm to a unit impulse there.
 void AddResponse(const PinnedBody& body, const Vec2& arm, Eigen::Matrix2f* k) {
   (*k)(0, 0) += body.inverse_mass + body.inverse_inertia * arm.y() * arm.y();
   (*k)(1, 1) += body.inverse_mass + body.inverse_inertia * arm.x() * arm.x();
@@ -87,7 +87,7 @@ PinGap GapOf(const Pin& pin, const PinnedBody& a, const PinnedBody& b) {
   gap.along = gap.axis.dot(apart);
   gap.excess.x() = Beyond(gap.along, pin.lower, pin.upper);
   if (!pin.by_distance) gap.excess.y() = Cross(gap.axis, apart);
-  // A view's angle may have lost whole turns, so a range of more than a turn says nothing.
+  // A view's angle may have lost whole turns, so a range of a turn or more constrains nothing.
   const float middle = (pin.angle_lower + pin.angle_upper) / 2;
   const float half = (pin.angle_upper - pin.angle_lower) / 2;
   if (half < kPiFloat) gap.turn = Beyond(WrapAngle(b.angle - a.angle - middle), -half, half);
@@ -120,7 +120,7 @@ bool ClosePin(const Pin& pin, const PinLeft& left, PinnedBody* a, PinnedBody* b)
   if (size < kClosed) return turned;
   const Vec2 across(-gap.axis.y(), gap.axis.x());
   const Vec2 excess = gap.axis * off.x() + across * off.y();
-  // A line is pushed where b's point is on it, not where it begins.
+  // A line is pushed at the place of b's point on it, not at its start.
   Vec2 at_a = gap.at_a;
   if (!pin.by_distance) at_a += gap.axis * (gap.along - gap.excess.x());
   Eigen::Matrix2f k = Eigen::Matrix2f::Zero();
@@ -128,7 +128,7 @@ bool ClosePin(const Pin& pin, const PinLeft& left, PinnedBody* a, PinnedBody* b)
   AddResponse(*b, gap.at_b - b->centre, &k);
   Vec2 impulse;
   if (pin.lower == pin.upper && !pin.by_distance) {
-    // Both coordinates at once.
+    // Solves both coordinates at once.
     const float det = k(0, 0) * k(1, 1) - k(0, 1) * k(0, 1);
     if (det <= 0) return turned;
     impulse = Vec2(k(1, 1) * excess.x() - k(0, 1) * excess.y(),

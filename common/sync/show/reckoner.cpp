@@ -8,10 +8,10 @@
 namespace seam {
 namespace {
 
-/// Closing may always add this much, m/s and rad/s: what is reckoned is off by more.
+/// Speeds that closing may always add, m/s and rad/s: the extrapolation is off by more.
 constexpr float kClosingSpeed = 2, kClosingSpin = 2;
 
-/// From a body's origin to its centre of mass; of most they are one point, and nothing turns.
+/// Returns the arm from a body's origin to its centre of mass; zero for most bodies.
 Vec2 ArmOf(const MassPoint& mass, float angle) {
   if (mass.centre == Vec2(0, 0)) return Vec2(0, 0);
   return Turned(mass.centre, angle);
@@ -19,7 +19,7 @@ Vec2 ArmOf(const MassPoint& mass, float angle) {
 
 }  // namespace
 
-/// A body as it was last heard of, by its centre of mass.
+/// Newest state of a body, with its centre of mass.
 struct Reckoner::Heard {
   int body = -1;
   MassPoint mass;
@@ -28,7 +28,7 @@ struct Reckoner::Heard {
   Vec2 centre{0, 0};
 };
 
-/// What the centres of bodies have in common: the motion of a rigid body.
+/// Common motion of the bodies' centres, as of one rigid body.
 struct Reckoner::Common {
   Vec2 centre{0, 0}, velocity{0, 0};
   Vec2 acceleration{0, 0};
@@ -52,8 +52,8 @@ Reckoner::Common Reckoner::CommonOf(const std::vector<Heard>& heard, const Snaps
   common.centre /= mass;
   common.velocity /= mass;
   common.acceleration /= mass;
-  // The body that is hardest to turn counts with its own spin: without it centres that lie near
-  // each other would spin at random. Wheels do not: they spin for themselves.
+  // The body hardest to turn adds its own spin; without it, centres close to each other would give
+  // a random spin. Wheels do not add theirs: they spin by themselves.
   const auto root = std::max_element(
       heard.begin(), heard.end(),
       [](const Heard& a, const Heard& b) { return a.mass.inertia < b.mass.inertia; });
@@ -90,9 +90,9 @@ const Reckoner::Paths& Reckoner::Reckoned(int body) {
 }
 
 void Reckoner::Reckon(int mechanism) {
-  // Those of the newest tick move on as one. Older states are moved on one by one: what they had in
-  // common with the others then is not known now. So are those of a mechanism that is tied to
-  // something: that takes its momentum.
+  // Bodies with the newest tick move as one. Bodies with older states move singly: the common
+  // motion at that time is not known any more. So do bodies of an anchored mechanism: the anchor
+  // takes their momentum.
   std::int64_t newest = -1;
   const bool free = !joints_.anchored(mechanism);
   for (const int body : joints_.bodies(mechanism)) {
@@ -177,8 +177,8 @@ void Reckoner::CloseJoints(int mechanism) {
   for (const int body : bodies) paths_.speed[static_cast<std::size_t>(body)] = SpeedOf(body);
 }
 
-/// Whether what closing has added to the speeds of a mechanism's bodies can come from how they
-/// moved against each other, or against what it is tied to.
+/// Returns true if the speeds that closing has added can come from the bodies' motion against each
+/// other, or against the anchor.
 bool Reckoner::IsMotion(int mechanism) const {
   const std::vector<int>& bodies = joints_.bodies(mechanism);
   Vec2 common(0, 0);
@@ -203,7 +203,7 @@ bool Reckoner::IsMotion(int mechanism) const {
   return true;
 }
 
-/// All of together_.
+/// Extrapolates all bodies in together_.
 void Reckoner::MoveOn(const Common& common, std::int64_t newest, std::int64_t tick,
                       std::vector<BodyState>* states) const {
   const float forward = snapshots_.Forward(newest, tick, world_.dt(), kReckonShownMax);

@@ -1,5 +1,5 @@
 #pragma once
-/// Dead reckoning of what is displayed: of single bodies, and of mechanisms, which move on as one.
+/// Dead reckoning of displayed bodies: single ones, and mechanisms, which move on as a whole.
 
 #include <cstdint>
 #include <vector>
@@ -9,42 +9,42 @@
 
 namespace seam {
 
-/// What is only shown is reckoned no further than this, s. The server tells of it twice a second,
-/// and again what was lost on the way: who hears nothing for longer has lost its connection for a
-/// moment, and what stood still then would jump after it.
+/// Longest extrapolation of a displayed body, s. The server sends its state twice a second and
+/// resends lost ones; a peer that hears nothing for longer has lost its connection for a moment,
+/// and a body that stopped would jump afterwards.
 constexpr float kReckonShownMax = 2.0f;
 
-/// Ticks from one look at the path of what is absent to the next: between them it goes straight on.
+/// Ticks between two updates of an absent body's path; it goes straight on in between.
 constexpr int kAbsentEvery = 6;
 
-/// A body's motion along its path: of its origin, m/s, and rad/s.
+/// Motion of a body along its path: velocity of its origin, m/s, and spin, rad/s.
 struct PathSpeed {
   Vec2 velocity{0, 0};
   float spin = 0;
 };
 
-/// A mechanism's centre of mass goes on with its momentum, its bodies turn about that with its
-/// angular momentum (that of their centres), each turns with its own spin and drifts with what is
-/// left of its velocity; then its joints are closed. So wheels go on turning and limbs swinging.
-/// A body without joints that falls freely goes on by gravity and bounces off what is anchored.
+/// Extrapolates mechanisms and free bodies. A mechanism's centre of mass keeps its momentum, and
+/// its bodies turn about it with their angular momentum (of their centres). Each body also turns
+/// with its own spin and drifts with the rest of its velocity. Then joints are closed, so wheels go
+/// on turning and limbs go on swinging. A jointless body in free fall moves by gravity and bounces
+/// off anchored shapes.
 class Reckoner {
  public:
   /// All must outlive this.
   Reckoner(const World& world, const Snapshots& snapshots, const JointCloser& joints);
   ~Reckoner();
 
-  /// From now on what is asked for is computed anew: a tick has passed, states have come or bodies
-  /// have changed.
+  /// Starts a new tick: paths are recomputed when asked for. Call after each tick, and when states
+  /// have come or bodies have changed.
   void Begin(std::int64_t next);
-  /// Where the body is at the tick before `next`, and at `next`. Angles go on from the newest
-  /// snapshot's. Requires that it has been heard of, and Begin. Of a mechanism, what has not been
-  /// heard of is where the world has it.
+  /// Return the body's pose at the tick before `next`, and at `next`. Angles continue from the
+  /// newest snapshot's. Require Begin, and a state heard of the body. Bodies of its mechanism
+  /// without one stay where the world has them.
   const BodyState& Here(int body) { return Reckoned(body).here[static_cast<std::size_t>(body)]; }
   const BodyState& There(int body) { return Reckoned(body).there[static_cast<std::size_t>(body)]; }
-  /// How it moves from Here to There, or if it falls and is absent, to where it is in kAbsentEvery
-  /// ticks. Joints that are torn can often be closed in two ways: if one is found at Here and the
-  /// other at There, what lies between is no motion, and the mechanism's bodies move as if nothing
-  /// had been closed.
+  /// Returns the velocity from Here to There; for an absent falling body, the velocity to its place
+  /// in kAbsentEvery ticks. Torn joints can often be closed in two ways. If Here and There are
+  /// closed differently, the difference is no motion, and the speeds are those before closing.
   const PathSpeed& Speed(int body) { return Reckoned(body).speed[static_cast<std::size_t>(body)]; }
 
  private:
@@ -72,16 +72,16 @@ class Reckoner {
   std::int64_t next_ = 0;
   std::vector<bool> done_;  // by mechanism
   Paths paths_;
-  /// Where the flight of what falls has come to since it was heard of.
+  /// Cached flight of a falling body since its newest state.
   struct Flown {
     std::int64_t heard = -1, at = -1;  // ticks
-    Vec2 from{0, 0};                   // m, when it was heard of
+    Vec2 from{0, 0};                   // m, position in that state
     BodyState state;
   };
   std::vector<Flown> flown_;     // by body
-  int revision_ = -1;            // of the world, of which flown_ is
-  std::vector<Heard> together_;  // bodies of the mechanism that is reckoned
-  std::vector<PathSpeed> open_;  // of its bodies, before its joints were closed
+  int revision_ = -1;            // world revision that flown_ belongs to
+  std::vector<Heard> together_;  // bodies of the mechanism being extrapolated that move as one
+  std::vector<PathSpeed> open_;  // speeds of its bodies before its joints were closed
 };
 
 }  // namespace seam

@@ -9,12 +9,12 @@
 namespace seam {
 namespace {
 
-/// How long after somebody has left a seat, s: who hears of it late shows it late.
+/// How long after a seat was left, s: a peer that hears of it late shows it late.
 constexpr int kAfter = 2;
-/// m in a tick of what is seen beside the velocity: the glide's own limit, and what closing joints
-/// adds to it.
+/// Visible move per tick beyond the velocity, m: the limit of the glide, plus the part that closing
+/// joints adds.
 constexpr float kGentleBeside = 0.04f;
-/// rad/s; nobody can tell where something faster has turned to.
+/// rad/s; at a higher spin the angle cannot be seen.
 constexpr float kSpinSeen = 12;
 
 }  // namespace

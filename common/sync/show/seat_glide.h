@@ -1,6 +1,6 @@
 #pragma once
-/// Whose view glides gently: everybody looks at who is on the way to a seat, or just out of one,
-/// and whoever hears of that late has metres to catch up.
+/// Makes views glide gently for players who are entering or have just left a seat. Everyone watches
+/// these, and a peer that hears of the change late has metres to catch up.
 
 #include <cstdint>
 #include <vector>
@@ -11,22 +11,22 @@ namespace seam {
 
 class SeatGlide {
  public:
-  /// To be called once a tick.
+  /// Call once a tick.
   void Look(const World& world);
-  /// Whether a mechanism is one of them.
+  /// True if a mechanism's view is to glide gently.
   bool IsGentle(int mechanism) const;
-  /// Those mechanisms.
+  /// Mechanisms for which IsGentle is true.
   const std::vector<int>& gentle() const { return gentle_; }
 
-  /// Poses of a mechanism that are to be shown after those of the last tick, by body: takes all of
-  /// them back by one share, until none has moved further than its velocity says and kGentleBeside.
-  /// Whether there was anything to take back: then joints are open by a little.
+  /// Limits the move of a mechanism's displayed poses (by body) since the last tick: scales all of
+  /// them back by one share, so that none moves further than its velocity explains plus
+  /// kGentleBeside. Returns true if it changed anything; joints are then slightly open.
   bool HoldBack(const World& world, const std::vector<int>& bodies,
                 std::vector<BodyState>* poses) const;
-  /// They are shown.
+  /// Records the poses as displayed.
   void Shown(const World& world, const std::vector<int>& bodies,
              const std::vector<BodyState>& poses);
-  /// Bodies have become others.
+  /// Call when bodies were recreated.
   void Forget() { shown_.clear(); }
 
  private:
@@ -34,7 +34,7 @@ class SeatGlide {
     std::int64_t tick = -1;
     BodyState pose;
   };
-  std::vector<int> ticks_;        // by player: for how much longer
+  std::vector<int> ticks_;        // by player: ticks left
   std::vector<int> gentle_;       // mechanisms
   std::vector<ShownPose> shown_;  // by body; empty: none
 };

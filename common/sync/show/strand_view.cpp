@@ -8,10 +8,10 @@
 namespace seam {
 namespace {
 
-/// More than this many ticks between two views are not made up for.
+/// Limit of ticks between two views that are simulated.
 constexpr std::int64_t kTicksMax = 10;
 
-/// Where a strand's upper end is shown.
+/// Finds the displayed position of a strand's upper end; false if its part has left.
 bool Upper(const World& world, const View& view, const Strand& strand, Vec2* at) {
   const auto shown = [&view](int body) {
     const auto i = static_cast<std::size_t>(body);

@@ -1,5 +1,6 @@
 #pragma once
-/// The strands of a scene as one peer shows them: each hangs on its part where that is shown.
+/// Simulates the strands of a scene for one peer's view: each hangs on the displayed pose of its
+/// part.
 
 #include <map>
 
@@ -14,8 +15,8 @@ class StrandView {
   /// The world must outlive this.
   explicit StrandView(const World& world) : world_(world) {}
 
-  /// Lets the ticks since the last view pass. A strand whose part has left is not shown. utime is
-  /// left 0; no points: there is nothing to publish.
+  /// Advances the strands by the ticks since the last view. A strand without its part is left out.
+  /// utime is left 0; no points: nothing to publish.
   Strands Next(const View& view);
 
  private:

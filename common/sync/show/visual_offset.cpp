@@ -8,19 +8,20 @@
 namespace seam {
 namespace {
 
-/// Speed of the glide, m/s: at least kGlideMin, or kGlideShare of the body's own speed.
+/// Speed limit of the return, m/s: kGlideMin, or kGlideShare of the body's own speed if that is
+/// more.
 constexpr float kGlideMin = 4.0f;
 constexpr float kGlideShare = 0.35f;
 constexpr float kSpinCap = 6.0f;  // rad/s
-/// Of what everybody looks at, m/s: 3.3 cm in a tick, which leaves room for what limbs do
-/// meanwhile.
+/// Limit for gentle mechanisms, m/s: 3.3 cm per tick, which leaves room for the motion of limbs.
 constexpr float kGentle = 2;
-/// Beyond this the view jumps: nobody can glide through it without lying for seconds. m
+/// An offset beyond this is dropped, and the view jumps: a glide would show wrong poses for
+/// seconds. m
 constexpr float kGiveUp = 15.0f;
-/// Offsets below these are over: m (rad) and m/s (rad/s).
+/// Offsets below these count as zero: m (rad) and m/s (rad/s).
 constexpr float kOver = 1e-5f, kOverSpeed = 1e-4f;
 
-/// One step of a critically damped spring of that rate, 1/s, towards zero, exactly.
+/// Advances exactly one step of a critically damped spring of that rate, 1/s, towards zero.
 template <typename T>
 void Return(float dt, float rate, T* offset, T* velocity) {
   const float decay = std::exp(-rate * dt);
@@ -33,11 +34,11 @@ float GlideMax(float speed) { return std::max(kGlideMin, kGlideShare * speed); }
 
 Vec2 Crossed(float spin, const Vec2& arm) { return {-spin * arm.y(), spin * arm.x()}; }
 
-/// The shares of a mechanism's offsets: one rigid motion, and the rest of each body.
+/// A mechanism's offsets, split into one rigid motion and the remainder of each body.
 struct Split {
-  VisualOffset common;             // of the centre of mass; the turn about it
-  Vec2 middle{0, 0};               // the centre of mass in physics
-  std::vector<Vec2> arms;          // of the bodies' centres about it
+  VisualOffset common;             // shift of the centre of mass, and turn about it
+  Vec2 middle{0, 0};               // the simulated centre of mass
+  std::vector<Vec2> arms;          // from it to the bodies' centres
   std::vector<VisualOffset> rest;  // of the bodies' centres
 };
 
@@ -61,7 +62,7 @@ Split SplitOffsets(const std::vector<OffsetBody>& bodies) {
   split.middle /= mass;
   split.common.position /= mass;
   split.common.velocity /= mass;
-  // The turn that is nearest to all offsets, by least squares.
+  // Finds the turn nearest to all offsets, by least squares.
   float sine = 0, cosine = 0, moment = 0, inertia = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const MassPoint& m = bodies[i].mass;
@@ -90,7 +91,7 @@ Split SplitOffsets(const std::vector<OffsetBody>& bodies) {
   return split;
 }
 
-/// The step of `offset`, at most as fast as allowed; `share` of it is made.
+/// One step of an offset's return; `share` of it is taken, to keep within the limits.
 struct Step {
   VisualOffset from, to;
   float share = 1;
@@ -130,7 +131,7 @@ void ReturnCommon(float dt, float rate, float glide, float reach, VisualOffset* 
   *common = {shift.position, shift.velocity, turn.angle, turn.spin};
 }
 
-/// All by the same share, so that a body does not run ahead of those it hangs on.
+/// Uses one share for all bodies, so that none runs ahead of its neighbours.
 void ReturnRest(float dt, float rate, float glide, std::vector<VisualOffset>* rest) {
   std::vector<Step> steps;
   float share = 1;
@@ -147,19 +148,19 @@ void ReturnRest(float dt, float rate, float glide, std::vector<VisualOffset>* re
   }
 }
 
-/// Both shares of a mechanism's offsets come back.
+/// Returns both parts of a mechanism's offsets.
 void ReturnSplit(float dt, float rate, float glide, float reach, Split* split) {
   ReturnCommon(dt, rate, glide, reach, &split->common);
   ReturnRest(dt, rate, glide, &split->rest);
 }
 
-/// Of a body's centre, beside where it is in physics.
+/// Returns the offset of a body's centre of mass.
 Vec2 CentreOffset(const Split& split, std::size_t i) {
   const Rotation<float> turn(split.common.angle);
   return split.common.position + turn(split.arms[i]) - split.arms[i] + split.rest[i].position;
 }
 
-/// The way of the body that comes back furthest, m.
+/// Returns the longest way of any body's centre in this step, m.
 float FurthestWay(const Split& before, const Split& after) {
   float furthest = 0;
   for (std::size_t i = 0; i < before.rest.size(); ++i) {
@@ -168,8 +169,8 @@ float FurthestWay(const Split& before, const Split& after) {
   return furthest;
 }
 
-/// A foot is moved by the shift, by the turn and by what it has beside them: each within the limit
-/// is three times the limit together.
+/// Keeps every body within kGentle: a foot is moved by the shift, the turn and its remainder, and
+/// each within the limit would be three times the limit together.
 void ReturnGently(float dt, float rate, float reach, Split* split) {
   const Split before = *split;
   ReturnSplit(dt, rate, kGentle, reach, split);
@@ -188,7 +189,7 @@ bool Over(const VisualOffset& o) {
 
 void ReturnAlone(float dt, float rate, float speed, VisualOffset* offset) {
   VisualOffset& o = *offset;
-  if (o.zero()) return;  // of nearly all bodies, in every tick
+  if (o.zero()) return;  // true of nearly all bodies in every tick
   if (o.position.norm() > kGiveUp) o = VisualOffset{};
   const Vec2 was = o.position;
   Return(dt, rate, &o.position, &o.velocity);
