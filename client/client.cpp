@@ -52,7 +52,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   if (closed_ || !fatal_.empty()) return;
   const std::int64_t silence_us = now_us - answered_us_;
   if (silence_us > kLeaseUs && replica_ != nullptr && !released_) {
-    TellReleaseOfAll(now_us);
+    SendReleaseOfAll(now_us);
     replica_->ReleaseAll();
     released_ = true;
   }
@@ -65,7 +65,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     Join(now_us);
   }
   if (peer_ < 0) {
-    Knock(now_us);
+    SendHelloOrJoin(now_us);
   } else if (asked_names_us_ >= 0) {
     AskNames(now_us);
   } else {
@@ -178,7 +178,7 @@ void Client::StepDue(std::int64_t now_us) {
   }
 }
 
-void Client::NoteOwnInput() {
+void Client::RecordOwnInput() {
   if (player_ < 0) return;
   const std::int64_t next = replica_->tick() + 1;
   Input input;
@@ -199,9 +199,9 @@ void Client::NoteOwnInput() {
   const std::int64_t acts = next + room_.input_delay_ticks;
   const InputTrack& track = replica_->inputs(player_);
   for (std::int64_t tick = std::max(next, track.newest() + 1); tick < acts; ++tick) {
-    replica_->NoteInput(player_, tick, Input{});
+    replica_->RecordInput(player_, tick, Input{});
   }
-  replica_->NoteInput(player_, acts, input);
+  replica_->RecordInput(player_, acts, input);
   if (!(input == Input{})) idle_since_ = next;
 }
 
@@ -242,7 +242,7 @@ void Client::SendInputs(std::int64_t now_us) {
 }
 
 void Client::StepOnce(std::int64_t now_us) {
-  NoteOwnInput();
+  RecordOwnInput();
   replica_->Step();
   if (mode_ == Mode::kOracle) replica_->ApplyEdits();  // in the tick in which they were found
   for (const FoundEdit& found : replica_->TakeProposals()) {

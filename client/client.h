@@ -42,7 +42,7 @@ struct ClientConfig {
   Publish publish = Publish::kAll;
   bool shows = false;  ///< replica()'s view is displayed: all of it has to be up to date
   bool watch = false;  ///< join as a spectator; else a name that is not a player's is fatal
-  SceneShelf* scenes = nullptr;  ///< shared by a thread, outlives the client; nullptr: an own one
+  SceneCache* scenes = nullptr;  ///< shared by a thread, outlives the client; nullptr: an own one
 };
 
 class Client {
@@ -97,7 +97,7 @@ class Client {
   // client_join.cpp
   void Join(std::int64_t now_us);
   /// Until welcomed: sends a Hello, or a Join once there is a token.
-  void Knock(std::int64_t now_us);
+  void SendHelloOrJoin(std::int64_t now_us);
   void SendLoose(const Bytes& message);
   /// Handles a datagram of the handshake; false if it is none.
   bool OnHandshake(std::int64_t now_us, const Bytes& datagram);
@@ -116,7 +116,7 @@ class Client {
   void OnGrants(std::int64_t now_us, const Grants& grants);
   /// Sends a Release of all our mechanisms when the lease has ended: the server may still receive
   /// it although nothing arrives here.
-  void TellReleaseOfAll(std::int64_t now_us);
+  void SendReleaseOfAll(std::int64_t now_us);
   void OnSnapshot(const Snapshot& part);
   /// Makes the replica from the scene, or from the edited one. It continues the state of an
   /// existing replica.
@@ -132,7 +132,7 @@ class Client {
   /// Returns the amount to publish in a room of so many bodies; kNone if nobody listens.
   Publish Published(int bodies) const;
   void PublishShown(std::int64_t now_us);
-  void NoteOwnInput();
+  void RecordOwnInput();
   void TellRest(std::int64_t now_us);
   void OnStates(const States& states);
   void OnPacked(const PackedStates& packed);
@@ -167,7 +167,7 @@ class Client {
   Room room_;
   Mode mode_ = Mode::kBuffer;                 // room_.mode, once its scene is loaded
   std::unique_ptr<SnapshotReader> snapshot_;  // a snapshot that arrives in parts
-  HeldWorld held_;                            // received states until the start
+  JoinBuffer held_;                           // received states until the start
   Bytes room_bytes_;
   std::size_t room_size_ = 0;
   int peer_ = -1;

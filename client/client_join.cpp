@@ -57,7 +57,7 @@ void Client::Join(std::int64_t now_us) {
   refused_us_ = asked_names_us_ = -1;
 }
 
-void Client::Knock(std::int64_t now_us) {
+void Client::SendHelloOrJoin(std::int64_t now_us) {
   if (now_us - last_hello_us_ < kHelloUs && !token_fresh_) return;
   last_hello_us_ = now_us;
   token_fresh_ = false;

@@ -102,7 +102,7 @@ void Client::OnInputs(const PackedInputs& packed) {
   for (const Inputs& inputs : *all) {
     const bool known = inputs.player != player_ &&
                        static_cast<std::size_t>(inputs.player) < scene_->players.size();
-    if (known) replica_->NoteInputs(inputs);
+    if (known) replica_->RecordInputs(inputs);
   }
 }
 
@@ -142,7 +142,7 @@ void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
   link_->SendUrgent(Encode(release));
 }
 
-void Client::TellReleaseOfAll(std::int64_t now_us) {
+void Client::SendReleaseOfAll(std::int64_t now_us) {
   const AuthorityTable& table = replica_->authority();
   Release release;
   release.utime = now_us;
@@ -200,7 +200,7 @@ void Client::MakeReplica(const Topology* become) {
   // Keep all known inputs: our own of the next ticks may have been sent, and others do not repeat
   // the inputs that we acknowledged.
   for (int p = 0; p < static_cast<int>(scene_->players.size()); ++p) {
-    replica_->NoteInputs(before->inputs(p).Export(p, InputTrack::kKeepTicks));
+    replica_->RecordInputs(before->inputs(p).Export(p, InputTrack::kKeepTicks));
   }
   if (!started_) return;
   replica_->StartAt(before->tick());
@@ -227,8 +227,8 @@ void Client::Build(std::int64_t now_us) {
   }
   room_ = *room;
   try {
-    SceneShelf own;
-    SceneShelf& scenes = config_.scenes != nullptr ? *config_.scenes : own;
+    SceneCache own;
+    SceneCache& scenes = config_.scenes != nullptr ? *config_.scenes : own;
     scene_ = scenes.Of(room_.scene_text, room_.scene_name + ".toml");
     if (scene_->solver.tick_hz != room_.tick_hz) {
       throw OperatorError("its tick rate is not its scene's");

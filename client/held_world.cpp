@@ -9,22 +9,22 @@
 
 namespace seam {
 
-void HeldWorld::Add(const States& states) { Add(Message(states)); }
-void HeldWorld::Add(const Rest& rest) { Add(Message(rest)); }
+void JoinBuffer::Add(const States& states) { Add(Message(states)); }
+void JoinBuffer::Add(const Rest& rest) { Add(Message(rest)); }
 
-void HeldWorld::Add(Message message) {
+void JoinBuffer::Add(Message message) {
   if (held_.size() >= room_) LetGo();
   if (held_.size() < kHeldMax) held_.push_back(std::move(message));
 }
 
-void HeldWorld::Clear() {
+void JoinBuffer::Clear() {
   held_.clear();
   room_ = kRoomMin;
 }
 
 /// Drops outdated states. Messages of rest stay, because they are sent once. Doubles the room, so
 /// that this is done seldom.
-void HeldWorld::LetGo() {
+void JoinBuffer::LetGo() {
   std::map<std::int32_t, std::int64_t> newest;
   for (const Message& message : held_) {
     const auto* states = std::get_if<States>(&message);
@@ -44,11 +44,11 @@ void HeldWorld::LetGo() {
   room_ = std::min(kHeldMax, std::max(kRoomMin, 2 * held_.size()));
 }
 
-std::int64_t HeldWorld::TickOf(const Message& message) {
+std::int64_t JoinBuffer::TickOf(const Message& message) {
   return std::visit([](const auto& of) { return std::int64_t{of.tick}; }, message);
 }
 
-bool HeldWorld::Covers(const World& world, std::int64_t from) const {
+bool JoinBuffer::Covers(const World& world, std::int64_t from) const {
   const auto composition = static_cast<std::int64_t>(world.composition().hash);
   std::set<int> heard;
   const auto note = [&](const auto& message) {
@@ -68,7 +68,7 @@ bool HeldWorld::Covers(const World& world, std::int64_t from) const {
   return true;
 }
 
-std::int64_t HeldWorld::TickOf(const World& world, std::int64_t oldest, std::int64_t now) const {
+std::int64_t JoinBuffer::TickOf(const World& world, std::int64_t oldest, std::int64_t now) const {
   const auto composition = static_cast<std::int64_t>(world.composition().hash);
   struct Heard {
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), newest = -1;
@@ -98,7 +98,7 @@ std::int64_t HeldWorld::TickOf(const World& world, std::int64_t oldest, std::int
 
 /// First passes the messages up to the replica's tick, the newest first, because the replica
 /// ignores older ones. A later message of rest is valid at the replica's tick, too.
-void HeldWorld::GiveTo(Replica& replica) const {
+void JoinBuffer::GiveTo(Replica& replica) const {
   std::vector<const Message*> all;
   for (const Message& message : held_) all.push_back(&message);
   std::stable_sort(all.begin(), all.end(), [](const Message* a, const Message* b) {

@@ -11,7 +11,7 @@
 
 namespace seam {
 
-class HeldWorld {
+class JoinBuffer {
  public:
   /// Adds states. When there are many, drops those with newer states for all of their bodies: of
   /// the messages of a slow join, the newest stay. At most kHeldMax.

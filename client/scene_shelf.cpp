@@ -4,7 +4,7 @@
 
 namespace seam {
 
-std::shared_ptr<const Scene> SceneShelf::Of(const std::string& text, const std::string& file_name) {
+std::shared_ptr<const Scene> SceneCache::Of(const std::string& text, const std::string& file_name) {
   for (const Entry& entry : entries_) {
     if (entry.text != text || entry.file_name != file_name) continue;
     if (std::shared_ptr<const Scene> scene = entry.scene.lock()) return scene;

@@ -10,7 +10,7 @@
 
 namespace seam {
 
-class SceneShelf {
+class SceneCache {
  public:
   /// Parses like ParseScene; returns the same scene as long as it is in use. Throws OperatorError
   /// likewise.

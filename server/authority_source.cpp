@@ -32,7 +32,7 @@ void AuthoritySource::NoteTick() {
   for (int body = 0; body < world.body_count(); ++body) {
     if (Mine(body)) trail_.Add(body, world.tick(), world.Read(body));
   }
-  for (const Blow& blow : BlowsOf(world)) {
+  for (const Blow& blow : ImpactsOf(world)) {
     if (!Mine(blow.body)) continue;
     // A copy that was corrected into what is ours strikes it as its authority never did.
     const bool all_ours = blow.by < 0 || Mine(blow.by);
@@ -114,7 +114,7 @@ std::int64_t AuthoritySource::TickOf(int body, std::int64_t tick) const {
   return known >= 0 ? known : replica_.world().tick();
 }
 
-std::vector<Blow> AuthoritySource::TakeBlows() {
+std::vector<Blow> AuthoritySource::TakeImpacts() {
   std::vector<Blow> taken;
   taken.swap(blows_);
   return taken;

@@ -34,8 +34,8 @@ class AuthoritySource : public RuleSource {
   std::vector<std::int64_t> Ticks() const override;
   BodyState ReadAt(int body, std::int64_t tick) const override;
   std::int64_t TickOf(int body, std::int64_t tick) const override;
-  void NoteLooked() override { trail_.NoteLooked(); }
-  std::vector<Blow> TakeBlows() override;
+  void MarkProcessed() override { trail_.MarkProcessed(); }
+  std::vector<Blow> TakeImpacts() override;
 
  private:
   bool Mine(int body) const { return authority_.Has(0, replica_.world().mechanism(body)); }

@@ -243,11 +243,11 @@ int Serve(const Flags& f) {
       page_us = now;
       page->Poll(now, [&] { return WriteLoadPage(hub.Loads()); });
     }
-    for (const std::string& news : hub.TakeNews()) {
+    for (const std::string& news : hub.TakeReports()) {
       line.End();
       PrintError("seam-server", news);
     }
-    if (line.Due(now) && HubTells(hub)) line.Show(now, HubProgress(hub));
+    if (line.Due(now) && HasReport(hub)) line.Show(now, HubProgress(hub));
     hub.Wait();
   }
   line.End();

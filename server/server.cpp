@@ -269,7 +269,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
     bounds_.NoteApplied(edit);
     if (config_.sync.mode == Mode::kOracle) {
-      broadcast_.Publish(edits_.NoteAlone(edit, now_us));
+      broadcast_.Publish(edits_.RecordLocalEdit(edit, now_us));
     } else {
       edits_.NoteApplied();
     }
@@ -283,7 +283,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
 }
 
 void Server::UpdateAuthority(std::int64_t now_us) {
-  AuthorityManager::Situation situation;
+  AuthorityManager::PlannerInputs situation;
   situation.peer_of_player = sessions_.PeerOfPlayer();
   situation.one_way_s.reserve(situation.peer_of_player.size());
   for (int& peer : situation.peer_of_player) {

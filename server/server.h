@@ -78,7 +78,7 @@ class Server {
   /// What the operator should read since the last call: a script was stopped. One line each.
   std::vector<std::string> TakeWarnings();
   /// Who came and went since the last call, for people, one line each; the first 256.
-  std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
+  std::vector<std::string> TakeReports() { return std::exchange(news_, {}); }
   /// The scene's players who are not in the room.
   std::vector<std::string> missing() const;
   const Scene& scene() const { return scene_; }

@@ -136,7 +136,7 @@ Inputs Server::TakeFresh(std::int64_t now_us, const Inputs& inputs) {
   std::int64_t to = from + static_cast<std::int64_t>(inputs.drive.size());
   while (from < to && track.knows(from)) ++from;
   while (to > from && track.knows(to - 1)) --to;
-  replica_.NoteInputs(inputs);
+  replica_.RecordInputs(inputs);
   Inputs fresh;
   fresh.utime = now_us;
   fresh.player = inputs.player;
@@ -259,7 +259,7 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   const States& kept = filter_.Keep(now_us, session.peer, states);
   if (kept.id.empty()) return;
   if (authority_.WatchesAgreement()) {
-    replica_.EachOff(
+    replica_.EachDifference(
         kept, [this](int body, const BodyState& off) { authority_.NoteTold(body, off); });
   }
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
@@ -288,7 +288,7 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
                     off.velocity.norm() > AuthorityManager::kJumpVelocity;
   if (seen) ++stats_.jumps;
   for (const std::int32_t id : kept.id) {
-    authority_.NoteJump(replica_.world().BodyOfId(id), off);
+    authority_.NoteCopyError(replica_.world().BodyOfId(id), off);
   }
   const Bytes bytes = Encode(kept);
   sessions_.ForEachReady(session.peer, [&](Session& other) {
@@ -301,12 +301,12 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
 
 void Server::OnRelease(std::int64_t now_us, Session& session, const Release& release) {
   for (std::size_t i = 0; i < release.mechanism.size(); ++i) {
-    if (authority_.GivesUp(session.peer, release.mechanism[i], release.epoch[i])) {
+    if (authority_.HoldsInEpoch(session.peer, release.mechanism[i], release.epoch[i])) {
       session.lapsed = true;
       broadcast_.Tell(authority_.TakeBack(now_us, session.peer));
       return;
     }
-    switch (authority_.NoteRelease(session.peer, release.mechanism[i], release.epoch[i])) {
+    switch (authority_.AcceptRelease(session.peer, release.mechanism[i], release.epoch[i])) {
       case AuthorityManager::Right::kYes: break;
       case AuthorityManager::Right::kStale: ++stats_.counters.dropped_stale; break;
       case AuthorityManager::Right::kNo: ++stats_.counters.dropped_right; break;

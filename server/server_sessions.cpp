@@ -67,7 +67,7 @@ void Server::FollowSessions(std::int64_t now_us) {
 /// goes on until its lease ends: so it is answered no more, and loses what it has when it is
 /// dropped, by when it must have let go of all by itself.
 void Server::EndLeases(std::int64_t now_us) {
-  const PeerSet withholding = authority_.Withholding(now_us);
+  const PeerSet withholding = authority_.OverdueHolders(now_us);
   sessions_.ForEachReady(0, [&](Session& session) {
     if (withholding.Has(session.peer) && session.ending_us < 0) {
       session.lapsed = true;

@@ -49,7 +49,7 @@ class Group {
   /// Steps the members that are due; returns the next due time.
   std::int64_t TickDue(std::int64_t* cpu_us);
 
-  SceneShelf scenes_;  // outlives the members
+  SceneCache scenes_;  // outlives the members
   std::vector<std::unique_ptr<Member>> members_;
   std::vector<bool> first_of_room_;   // by member
   std::vector<std::int64_t> due_us_;  // by member

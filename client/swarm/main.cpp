@@ -133,7 +133,7 @@ int RunSwarm(const Flags& f) {
   Swarm swarm(config);
   ProgressLine line(f.quiet);
   swarm.Start();
-  ServerTold told;
+  ServerLoads told;
   if (WaitUntilJoined(f, swarm, &line)) {
     const std::int64_t begin_us = SteadyClockUs();
     swarm.BeginToMeasure(begin_us);

@@ -24,7 +24,7 @@ struct Heard {
 };
 
 /// Returns the counts of all rooms, between the first and the last load of each.
-BucketHistogram Counted(const ServerTold& told, BucketHistogram RoomLoad::*of) {
+BucketHistogram Counted(const ServerLoads& told, BucketHistogram RoomLoad::*of) {
   std::map<std::string, std::pair<BucketHistogram, BucketHistogram>> rooms;  // first and last
   for (const auto* loads : {&told.before, &told.meanwhile, &told.after}) {
     for (const RoomLoad& load : *loads) {
@@ -43,7 +43,7 @@ std::string P99(const BucketHistogram& counted) {
 
 }  // namespace
 
-std::string ServerReport(const ServerTold& told) {
+std::string ServerReport(const ServerLoads& told) {
   if (told.meanwhile.empty()) {
     return "server: not heard (--metrics HOST:PORT of a server with --metrics, or a bus)\n";
   }
@@ -89,7 +89,7 @@ std::string ServerReport(const ServerTold& told) {
   return text;
 }
 
-std::string SwarmReport(const Swarm& swarm, const ServerTold& told) {
+std::string SwarmReport(const Swarm& swarm, const ServerLoads& told) {
   const MemberFigures figures = swarm.Figures();
   const Swarm::Traffic traffic = swarm.TrafficOfAll();
   const MovingBodies moving = swarm.Moving();

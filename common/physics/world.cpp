@@ -78,7 +78,7 @@ void World::Write(int body, const BodyState& state, bool wake) {
   if (!SameBits(now.spin, state.spin)) b->SetAngularVelocity(state.spin);
   if (wake && !was_awake) b->SetAwake(true);
   if (!wake && !was_awake) b->SetAwake(false);
-  if (IsAside(*b)) impl_->NoteAside(body);
+  if (IsAside(*b)) impl_->MarkAside(body);
 }
 
 bool World::awake(int body) const { return impl_->moving(body).body->IsAwake(); }
@@ -87,7 +87,7 @@ void World::SetAwake(int body, bool awake) {
   const bool sleeps = impl_->scene.solver.sleep || motion(body) != Motion::kDynamic;
   if (!awake && !sleeps) return;
   b->SetAwake(awake);
-  if (IsAside(*b)) impl_->NoteAside(body);
+  if (IsAside(*b)) impl_->MarkAside(body);
 }
 
 std::pair<Vec2, Vec2> World::Bounds(int body) const {
@@ -136,7 +136,7 @@ void World::Act(int player, int action) {
   if (assembly < 0) return;  // the part is gone
   impl_->built.bodies[static_cast<std::size_t>(assembly)]->ApplyLinearImpulseToCenter(
       ToB2(a.impulse), true);
-  impl_->NoteAllAside();
+  impl_->MarkAllAside();
 }
 
 void World::Step() {
@@ -149,16 +149,16 @@ void World::Step() {
   for (const auto& stage : w.stages) stage->BeforeTick();
   for (int i = 0; i < solver.substeps; ++i) {
     for (const auto& stage : w.stages) stage->BeforeStep(h);
-    if (w.led_count > 0) w.LetLedBodiesMove();
+    if (w.prescribed_count > 0) w.BeginPrescribedStep();
     if (w.exact) {
       w.exact->Step(h, solver.velocity_iterations, solver.position_iterations);
     } else {
       w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
     }
     if (w.ordered) OrderNewContacts(&*w.world);
-    if (w.led_count > 0) w.PutLedBodiesOnTheirPath(h);
+    if (w.prescribed_count > 0) w.EndPrescribedStep(h);
   }
-  if (!w.scene.seats.empty()) w.NoteAllAside();  // a stage may have moved an absent body
+  if (!w.scene.seats.empty()) w.MarkAllAside();  // a stage may have moved an absent body
   w.MoveAbsentBodies();
   ++w.tick;
   for (const auto& stage : w.stages) stage->AfterTick();

@@ -45,10 +45,10 @@ struct BlockedDirection {
 
 /// Role of a body in a step.
 enum class Motion {
-  kDynamic,    ///< moved by contacts and joints
-  kKinematic,  ///< acts like infinite mass: moves by its velocity, unaffected by contacts
-  kLed,        ///< on a prescribed path, by its velocity; collides with its real mass
-  kAbsent,     ///< not in the Box2D world: moves by its velocity, touches nothing, skipped by steps
+  kDynamic,     ///< moved by contacts and joints
+  kKinematic,   ///< acts like infinite mass: moves by its velocity, unaffected by contacts
+  kPrescribed,  ///< on a prescribed path, by its velocity; collides with its real mass
+  kAbsent,  ///< not in the Box2D world: moves by its velocity, touches nothing, skipped by steps
 };
 
 /// The state from which a world continues, except the order of its contacts and its inputs. Only a
@@ -207,7 +207,7 @@ class World {
   Status Restore(const WorldSnapshot& snapshot);
   /// Returns the bodies that may differ from the snapshot, ascending: all present ones, and absent
   /// ones by whole pages of which any body has changed. Requires as many bodies as it has.
-  std::vector<int> ApartFrom(const WorldSnapshot& snapshot) const;
+  std::vector<int> MayDifferFrom(const WorldSnapshot& snapshot) const;
 
   /// Returns FNV-1a over tick, poses, velocities and sleep flags of all bodies, bit for bit.
   std::uint64_t Hash() const;

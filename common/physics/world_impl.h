@@ -43,13 +43,13 @@ struct World::Impl {
       body_of_id[static_cast<std::size_t>(built.moving[i].id)] = static_cast<int>(i);
     }
     motions.assign(built.moving.size(), Motion::kDynamic);
-    led_count = 0;
+    prescribed_count = 0;
     lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
-    gives_all = GivesAll(scene);
+    has_elastic = HasElastic(scene);
     joints_hash.reset();
     remembered.clear();
-    ForgetPages();
+    InvalidatePages();
     Built();
   }
 
@@ -57,8 +57,8 @@ struct World::Impl {
   void Built() {
     meter.Set(scene.solver.substeps, lightest);
     if (scene.solver.joints == JointSolving::kIterative) return;
-    if (memory.joints.empty() && !gives_all) return exact.reset();
-    exact.emplace(scene, &*world, built, memory, gives_all);
+    if (memory.joints.empty() && !has_elastic) return exact.reset();
+    exact.emplace(scene, &*world, built, memory, has_elastic);
     if (!exact->needed()) exact.reset();
   }
 
@@ -116,7 +116,7 @@ struct World::Impl {
   /// Before a rebuild: decides which bodies will be aside.
   void Arrange(const std::vector<Motion>& wanted);
   void ArrangeCrossed();
-  void KnowJoints(bool any_absent);
+  void SaveAllJoints(bool any_absent);
   /// Returns a hash of the existing joints, absent bodies' joints included.
   std::uint64_t JointsHash() const;
   /// True if the joint exists, or would if its bodies were not absent.
@@ -124,15 +124,15 @@ struct World::Impl {
   std::vector<Pin> FindPins() const;
 
   /// Called before and after one of the engine's steps of h seconds.
-  void LetLedBodiesMove();
-  void PutLedBodiesOnTheirPath(float h);
+  void BeginPrescribedStep();
+  void EndPrescribedStep(float h);
   /// Called after a tick.
   void MoveAbsentBodies();
   /// Finds the present bodies by their motions. Absent ones are to be moved aside if not `aside`.
   void FindPresent(bool aside);
   void Cross(int body, bool goes);
   /// Marks all pages as changed.
-  void ForgetPages();
+  void InvalidatePages();
   /// Marks the body, and so its page of `kept`, as possibly changed.
   void NoteChanged(int body) {
     const auto i = static_cast<std::size_t>(body);
@@ -142,11 +142,11 @@ struct World::Impl {
     change_log[last_stamp & (change_log.size() - 1)] = body;
   }
   /// Marks a body that is aside as changed.
-  void NoteAside(int body);
+  void MarkAside(int body);
   /// Marks all bodies as possibly changed, if any is absent.
-  void NoteAllAside();
+  void MarkAllAside();
   /// Marks all present bodies as possibly changed.
-  void NotePresent();
+  void MarkPresent();
   /// Returns the remembered contact points of present bodies in the remembered pose; ascending.
   std::vector<WorldSnapshot::Point> Remembered(const WorldSnapshot& snapshot) const;
 
@@ -167,15 +167,16 @@ struct World::Impl {
   std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
   std::vector<Motion> motions;         // by moving body
   mutable std::int64_t looks = 0;      // calls of moving()
-  int led_count = 0;                   // number of kLed bodies
-  std::vector<BodyState> led_path;     // by moving body: state of a kLed one before the step
+  int prescribed_count = 0;            // number of kPrescribed bodies
+  std::vector<BodyState>
+      prescribed_from;                 // by moving body: state of a kPrescribed one before the step
   bool ordered = false;                // true once contacts are sorted (contact_order.h)
   std::optional<WorldSnapshot> still;  // the state last built from, if nothing moved then
   bool unsettled = false;              // a change to or from kAbsent is pending
   std::vector<int> present;            // moving bodies that are not absent, ascending
   std::vector<int> crossed;            // moving bodies that have come or gone since the last build
   std::vector<int> awake_aside;        // moving bodies that are aside and may be awake
-  std::vector<char> noted_awake;       // by moving body: it is in awake_aside
+  std::vector<char> listed_awake;      // by moving body: it is in awake_aside
   Paged<WorldSnapshot::Body> kept;     // of the last Keep
   std::vector<char> stale;             // by page of `kept`: may have changed since
   std::vector<char> changed;           // by moving body of a stale page: may have changed
@@ -189,7 +190,7 @@ struct World::Impl {
   };
   std::map<int, Contacts> remembered;                // by moving body, see RememberContacts
   float lightest = FLT_MAX;                          // kg, of the moving bodies
-  bool gives_all = false;                            // GivesAll of the scene
+  bool has_elastic = false;                          // HasElastic of the scene
   mutable std::optional<std::uint64_t> joints_hash;  // for the revision below
   mutable int joints_hash_revision = -1;
   /// While bodies are absent: the joints as they were when none was.

@@ -1,7 +1,7 @@
 /// World: motion of bodies that are displayed and not simulated. A kinematic body hits like a wall
 /// of infinite mass, and in a closed room that pumps energy into everything that it touches. A body
-/// on a prescribed path (kLed) is solved like any other, with its own mass, and put back on its
-/// path afterwards.
+/// on a prescribed path (kPrescribed) is solved like any other, with its own mass, and put back on
+/// its path afterwards.
 
 #include <algorithm>
 
@@ -58,7 +58,7 @@ void World::SetMotion(int body, Motion motion) {
   blocked_directions();
   const MovingBody& m = impl_->moving(body);
   Motion& now = impl_->motions[static_cast<std::size_t>(body)];
-  b2Vec2 origin_velocity = m.body->GetLinearVelocity();  // as for kinematic and kLed bodies
+  b2Vec2 origin_velocity = m.body->GetLinearVelocity();  // as for kinematic and kPrescribed bodies
   if (now == Motion::kDynamic) {
     origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   }
@@ -77,7 +77,8 @@ void World::SetMotion(int body, Motion motion) {
     if (dynamic && (lay_on_nothing || !impl_->scene.solver.sleep)) m.body->SetAwake(true);
     m.body->SetLinearVelocity(dynamic ? AtCentre(*m.body, origin_velocity) : origin_velocity);
   }
-  impl_->led_count += (motion == Motion::kLed ? 1 : 0) - (now == Motion::kLed ? 1 : 0);
+  impl_->prescribed_count +=
+      (motion == Motion::kPrescribed ? 1 : 0) - (now == Motion::kPrescribed ? 1 : 0);
   now = motion;
 }
 
@@ -88,7 +89,7 @@ void World::Impl::FindPresent(bool aside) {
   present.clear();
   crossed.clear();
   awake_aside.clear();
-  noted_awake.assign(motions.size(), 0);
+  listed_awake.assign(motions.size(), 0);
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const bool absent = motions[i] == Motion::kAbsent;
     if (!absent) present.push_back(static_cast<int>(i));
@@ -100,7 +101,7 @@ void World::Impl::FindPresent(bool aside) {
 void World::Impl::Cross(int body, bool goes) {
   unsettled = true;
   crossed.push_back(body);
-  NoteAside(body);
+  MarkAside(body);
   const auto at = std::lower_bound(present.begin(), present.end(), body);
   if (goes) {
     present.erase(at);
@@ -109,7 +110,7 @@ void World::Impl::Cross(int body, bool goes) {
   }
 }
 
-void World::Impl::ForgetPages() {
+void World::Impl::InvalidatePages() {
   kept.Resize(built.moving.size());
   stale.assign(kept.page_count(), 1);
   changed.assign(kept.size(), 1);
@@ -120,20 +121,20 @@ void World::Impl::ForgetPages() {
   log_from = last_stamp;
 }
 
-void World::Impl::NoteAside(int body) {
+void World::Impl::MarkAside(int body) {
   const auto i = static_cast<std::size_t>(body);
   NoteChanged(body);
-  if (noted_awake[i] != 0 || !built.moving[i].body->IsAwake()) return;
-  noted_awake[i] = 1;
+  if (listed_awake[i] != 0 || !built.moving[i].body->IsAwake()) return;
+  listed_awake[i] = 1;
   awake_aside.push_back(body);
 }
 
-void World::Impl::NoteAllAside() {
+void World::Impl::MarkAllAside() {
   if (present.size() == motions.size()) return;
-  for (std::size_t i = 0; i < motions.size(); ++i) NoteAside(static_cast<int>(i));
+  for (std::size_t i = 0; i < motions.size(); ++i) MarkAside(static_cast<int>(i));
 }
 
-void World::Impl::NotePresent() {
+void World::Impl::MarkPresent() {
   for (const int body : present) NoteChanged(body);
 }
 
@@ -142,7 +143,7 @@ std::uint64_t World::still(int body) const {
   SEAM_ASSERT(body >= 0 && i < impl_->motions.size());
   const bool aside = impl_->motions[i] == Motion::kAbsent && i < impl_->memory.absent.size() &&
                      impl_->memory.absent[i] != 0;
-  return aside && impl_->noted_awake[i] == 0 ? impl_->stamps[i] : 0;
+  return aside && impl_->listed_awake[i] == 0 ? impl_->stamps[i] : 0;
 }
 
 std::uint64_t World::last_change() const { return impl_->last_stamp; }
@@ -161,26 +162,26 @@ Motion World::motion(int body) const {
   return impl_->motions[static_cast<std::size_t>(body)];
 }
 
-void World::Impl::LetLedBodiesMove() {
-  led_path.resize(built.moving.size());
+void World::Impl::BeginPrescribedStep() {
+  prescribed_from.resize(built.moving.size());
   for (const int index : present) {
     const auto i = static_cast<std::size_t>(index);
-    if (motions[i] != Motion::kLed) continue;
+    if (motions[i] != Motion::kPrescribed) continue;
     b2Body* body = built.moving[i].body;
     const b2Vec2 velocity = body->GetLinearVelocity();
-    led_path[i] = {FromB2(body->GetPosition()), body->GetAngle(), FromB2(velocity),
-                   body->GetAngularVelocity()};
+    prescribed_from[i] = {FromB2(body->GetPosition()), body->GetAngle(), FromB2(velocity),
+                          body->GetAngularVelocity()};
     if (body->IsAwake()) body->SetLinearVelocity(AtCentre(*body, velocity));
   }
 }
 
-void World::Impl::PutLedBodiesOnTheirPath(float h) {
+void World::Impl::EndPrescribedStep(float h) {
   for (const int index : present) {
     const auto i = static_cast<std::size_t>(index);
-    if (motions[i] != Motion::kLed) continue;
+    if (motions[i] != Motion::kPrescribed) continue;
     b2Body* body = built.moving[i].body;
     if (!body->IsAwake()) continue;
-    const BodyState& from = led_path[i];
+    const BodyState& from = prescribed_from[i];
     body->SetTransform(ToB2(from.position + h * from.velocity), from.angle + h * from.spin);
     body->SetLinearVelocity(ToB2(from.velocity));
     body->SetAngularVelocity(from.spin);
@@ -194,7 +195,7 @@ void World::Impl::MoveAbsentBodies() {
   for (const int index : awake_aside) {
     b2Body* body = moving(index).body;
     const auto i = static_cast<std::size_t>(index);
-    noted_awake[i] = 0;
+    listed_awake[i] = 0;
     if (!IsAside(*body) || !body->IsAwake()) continue;
     NoteChanged(index);
     const bool turns = body->GetAngularVelocity() != 0;
@@ -202,7 +203,7 @@ void World::Impl::MoveAbsentBodies() {
     body->SetTransform(body->GetPosition() + dt * body->GetLinearVelocity(),
                        body->GetAngle() + dt * body->GetAngularVelocity());
     if (!body->IsAwake()) continue;
-    noted_awake[i] = 1;
+    listed_awake[i] = 1;
     awake_aside[awake++] = index;
   }
   awake_aside.resize(awake);
@@ -223,7 +224,7 @@ BodyState World::AfterFlight(int body, const BodyState& from, float seconds) con
 }
 
 /// Stores the joints as they are while no body is absent.
-void World::Impl::KnowJoints(bool any_absent) {
+void World::Impl::SaveAllJoints(bool any_absent) {
   if (!any_absent) return all_present.reset();
   if (all_present) return;
   all_present.emplace();

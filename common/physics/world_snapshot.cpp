@@ -68,7 +68,7 @@ WorldSnapshot World::Impl::Keep() {
   out.tick = tick;
   out.composition = composition.hash;
   out.joints_there = JointsHash();
-  NotePresent();
+  MarkPresent();
   for (std::size_t page = 0; page < kept.page_count(); ++page) {
     if (stale[page] == 0) continue;
     const auto noted = [this](std::size_t i) { return std::exchange(changed[i], 0) != 0; };
@@ -171,7 +171,7 @@ void World::Impl::Arrange(const std::vector<Motion>& wanted) {
     all_present.reset();
     return;
   }
-  KnowJoints(any);
+  SaveAllJoints(any);
   memory.absent.assign(wanted.size(), 0);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     memory.absent[i] = wanted[i] == Motion::kAbsent ? 1 : 0;
@@ -181,7 +181,7 @@ void World::Impl::Arrange(const std::vector<Motion>& wanted) {
 /// Likewise, before a rebuild of the present bodies.
 void World::Impl::ArrangeCrossed() {
   unsettled = false;
-  KnowJoints(present.size() < motions.size());
+  SaveAllJoints(present.size() < motions.size());
   for (const int body : crossed) {
     const auto i = static_cast<std::size_t>(body);
     memory.absent[i] = motions[i] == Motion::kAbsent ? 1 : 0;
@@ -210,7 +210,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     motions = std::move(wanted);
     FindPresent(!unsettled);
   }
-  NotePresent();
+  MarkPresent();
   SEAM_ASSERT(snapshot.bodies.size() == built.moving.size());
   Listen();
   for (const auto& stage : stages) stage->Rebuilt(&*world);
@@ -231,11 +231,11 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
       }
     }
   };
-  led_count = 0;
+  prescribed_count = 0;
   each([&](std::size_t i, const WorldSnapshot::Body& body) {
     b2Body* b = built.moving[i].body;
     if (motions[i] == Motion::kKinematic) b->SetType(b2_kinematicBody);
-    if (motions[i] == Motion::kLed) ++led_count;
+    if (motions[i] == Motion::kPrescribed) ++prescribed_count;
     const BodyState& state = body.state;
     const bool there = b->GetPosition() == ToB2(state.position) && b->GetAngle() == state.angle;
     if (!there) b->SetTransform(ToB2(state.position), state.angle);
@@ -265,7 +265,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     b->SetAngularVelocity(body.state.spin);
     b->SetAwake(body.awake);
     b->*Member(SleepTime()) = body.quiet_s;
-    if (IsAside(*b)) NoteAside(static_cast<int>(i));
+    if (IsAside(*b)) MarkAside(static_cast<int>(i));
   });
   if (exact && snapshot.composition == composition.hash) exact->Leave(snapshot.left);
   std::size_t taken = 0;
@@ -317,9 +317,9 @@ WorldSnapshot World::Barrier() {
   return snapshot;
 }
 
-std::vector<int> World::ApartFrom(const WorldSnapshot& snapshot) const {
+std::vector<int> World::MayDifferFrom(const WorldSnapshot& snapshot) const {
   SEAM_ASSERT(snapshot.bodies.size() == impl_->kept.size());
-  impl_->NotePresent();
+  impl_->MarkPresent();
   std::vector<int> apart;
   for (std::size_t page = 0; page < impl_->kept.page_count(); ++page) {
     if (impl_->stale[page] == 0 && snapshot.bodies.Shares(impl_->kept, page)) continue;

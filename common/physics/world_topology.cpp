@@ -30,7 +30,7 @@ int AssemblyIndex(const Composition& c, PartId part) {
 }
 
 /// Converts the velocity of a body's origin to that of its centre of mass, or back with `sign` -1.
-/// The states of kLed and kinematic bodies have the former; momentum needs the latter.
+/// The states of kPrescribed and kinematic bodies have the former; momentum needs the latter.
 void ShiftVelocity(const Vector2d& centre, double sign, BodyState* state) {
   const Vector2d arm = Turned(centre, static_cast<double>(state->angle));
   const double spin = sign * static_cast<double>(state->spin);
@@ -304,7 +304,7 @@ void World::Do(const Edit& edit) {
     Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // stops its motors
   }
   for (const auto& stage : w.stages) stage->Edited(edit);
-  w.NoteAllAside();
+  w.MarkAllAside();
 }
 
 void World::Push(const PushEdit& edit) {

@@ -95,7 +95,8 @@ void EachBrick(const BrickField& field, const std::function<bool(int, int)>& vis
   }
 }
 
-void EachStoreys(const BrickField& field, const std::function<void(const Storeys&)>& visit) {
+void EachBuildingBlock(const BrickField& field,
+                       const std::function<void(const BuildingBlock&)>& visit) {
   const auto block = [&](int building, int x, int columns, int row, int rows) {
     const int y = field.y + row * field.height;
     if (columns <= 0 || rows <= 0) return;

@@ -44,14 +44,15 @@ void EachBrick(const BrickField& field, const std::function<bool(int, int)>& vis
 
 /// A rectangle filled with bricks of one field, except for windows. Units; the upper right corner
 /// is exclusive.
-struct Storeys {
+struct BuildingBlock {
   int building = 0;  ///< index of the tower; 0 for a rectangle of bricks
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
 /// Calls `visit` with each block, building by building: a rectangle has one block; a tower has one,
 /// or two if its upper part is set back.
-void EachStoreys(const BrickField& field, const std::function<void(const Storeys&)>& visit);
+void EachBuildingBlock(const BrickField& field,
+                       const std::function<void(const BuildingBlock&)>& visit);
 
 /// Return the number of buildings of a field, and the building of its brick with left side `x`.
 int BuildingsOf(const BrickField& field);

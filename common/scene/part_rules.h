@@ -30,7 +30,7 @@ struct ScriptSource {
 struct PartRules {
   float health = 0;                 ///< at the start; 0: invulnerable
   float hurt_above = 5;             ///< m/s: an impact that changes its velocity by more hurts
-  float hurt_factor = 10;           ///< health lost for each m/s above that
+  float damage_factor = 10;         ///< health lost for each m/s above that
   float score = 0;                  ///< points for the driver of the vehicle that destroys it
   PlayerMask drive = kEveryPlayer;  ///< players with axes that may turn motors on it
   PlayerMask push = kEveryPlayer;   ///< players that may push it by actions, and may own it

@@ -112,7 +112,7 @@ int FindPlayer(const SceneReader& reader, const char* key, const std::string& na
 
 /// Reads `player` and `axis` (default: drive). Returns the driver as FindDriver does; -1 without
 /// `player`.
-int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
+int ReadAxisDriver(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
 
 /// Returns the players named at `key`; "bot-*" names all copies of a repeated player.
 std::vector<int> FindPlayers(const SceneReader& reader, const char* key, const SceneDraft& draft);
@@ -122,7 +122,7 @@ std::vector<int> FindPlayers(const SceneReader& reader, const char* key, const S
 int FindDriver(const SceneReader& reader, const char* key, const std::string& name,
                const SceneDraft& draft);
 /// See above.
-int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
+int ReadAxisDriver(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
 
 /// Checks that need the whole scene (its composition). Throws OperatorError.
 void CheckScene(const Scene& scene, const std::string& file);

@@ -28,7 +28,7 @@ Thrust ReadThrust(const TomlNode& node, const SceneDraft& draft) {
   thrust.part = FindPart(r, "part", draft);
   thrust.at = r.Vector("at", {-kSizeMaxMax, kSizeMaxMax}, Vec2(0, 0));
   thrust.force = r.Vector("force", kForce);
-  thrust.player = ReadFollowed(r, draft, &thrust.axis);
+  thrust.player = ReadAxisDriver(r, draft, &thrust.axis);
   if (!r.Has("button")) return thrust;
   if (thrust.player < 0) r.FailAt("button", "a button needs a player");
   if (r.Has("axis")) r.FailAt("button", "has both axis and button");
@@ -54,7 +54,7 @@ Thrust ReadPropeller(const TomlNode& node, const SceneDraft& draft) {
   screw.turns = r.Number("turns", {-1000, 1000});
   screw.solidity = r.Number("solidity", {0.001, 1}, screw.solidity);
   screw.torque = r.Number("torque", {0, 1e6}, 0.0f);
-  thrust.player = ReadFollowed(r, draft, &thrust.axis);
+  thrust.player = ReadAxisDriver(r, draft, &thrust.axis);
   return thrust;
 }
 
@@ -71,7 +71,7 @@ void ReadConveyor(const SceneReader& r, const SceneDraft& draft, Part* part) {
                       {"player", "axis", "speed"});
   Conveyor conveyor;
   conveyor.speed = c.Number("speed", kBelt);
-  conveyor.player = ReadFollowed(c, draft, &conveyor.axis);
+  conveyor.player = ReadAxisDriver(c, draft, &conveyor.axis);
   part->conveyor.Set(conveyor);
 }
 

@@ -106,7 +106,7 @@ void ReadMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const SceneReader m(*table, draft.file, r.what() + ": motor", {"player", "axis", "speed", most});
   joint->motor_speed = m.Number("speed", {-1000, 1000});
   joint->motor_torque = m.Number(most, {1e-6, 1e7});
-  joint->motor_player = ReadFollowed(m, draft, &joint->motor_axis);
+  joint->motor_player = ReadAxisDriver(m, draft, &joint->motor_axis);
 }
 
 void ReadPoseMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
@@ -118,7 +118,7 @@ void ReadPoseMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) 
                       {"player", "axis", "reach", "swing"});
   joint->reach = f.Vector("reach", {-1000, 1000}, Vec2(0, 0));
   joint->swing = f.Number("swing", {-100, 100}, 0.0f);
-  joint->motor_player = ReadFollowed(f, draft, &joint->motor_axis);
+  joint->motor_player = ReadAxisDriver(f, draft, &joint->motor_axis);
   if (joint->motor_player < 0) f.Fail("player is missing");
 }
 
@@ -312,7 +312,7 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
 
 }  // namespace
 
-int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis) {
+int ReadAxisDriver(const SceneReader& r, const SceneDraft& draft, InputAxis* axis) {
   if (!r.Has("player")) {
     if (r.Has("axis")) r.FailAt("axis", "an axis needs a player");
     return -1;

@@ -60,8 +60,8 @@ TriggerKind ReadKind(const SceneReader& r) {
 
 /// Returns the parts that a trigger reacts to by default: the players' vehicles; for a hazard, all
 /// movable parts with health as well.
-std::vector<PartId> UsualParts(const Trigger& trigger, const SceneDraft& draft,
-                               const std::vector<PartId>& vehicles) {
+std::vector<PartId> DefaultParts(const Trigger& trigger, const SceneDraft& draft,
+                                 const std::vector<PartId>& vehicles) {
   std::vector<PartId> parts = vehicles;
   for (const Part& part : draft.scene.parts) {
     const bool hurt = trigger.kind == TriggerKind::kHazard && part.rules->health > 0;
@@ -107,7 +107,7 @@ void ReadTrigger(const TomlNode& node, const std::vector<PartId>& vehicles, Scen
   for (const std::string& name : r.Texts("for")) {
     for (const PartId part : FindParts(r, "for", name, *draft)) trigger.parts.push_back(part);
   }
-  if (!r.Has("for")) trigger.parts = UsualParts(trigger, *draft, vehicles);
+  if (!r.Has("for")) trigger.parts = DefaultParts(trigger, *draft, vehicles);
   std::sort(trigger.parts.begin(), trigger.parts.end());
   trigger.parts.erase(std::unique(trigger.parts.begin(), trigger.parts.end()), trigger.parts.end());
   if (trigger.parts.empty()) r.Fail("nobody can enter: say 'for' which parts it is");
@@ -128,7 +128,7 @@ PartRules ReadPartRules(const SceneReader& r, const SceneDraft& draft) {
     if (rules.health <= 0) r.FailAt("damage", "damage needs health");
     const SceneReader d(*node, draft.file, r.what() + ": damage", {"above", "factor"});
     rules.hurt_above = d.Number("above", {0, 1000}, rules.hurt_above);
-    rules.hurt_factor = d.Number("factor", {0, 1e6}, rules.hurt_factor);
+    rules.damage_factor = d.Number("factor", {0, 1e6}, rules.damage_factor);
   }
   if (const TomlNode* node = r.Table("permissions")) {
     const SceneReader p(*node, draft.file, r.what() + ": permissions", {"drive", "push", "take"});

@@ -25,7 +25,7 @@ class ConveyorStage : public Stage {
         std::equal_range(belts_.begin(), belts_.end(), Belt{player, 0},
                          [](const Belt& x, const Belt& y) { return x.player < y.player; });
     for (auto belt = first; belt != end; ++belt) {
-      if (Set(PartAt(belt->part))) WakeWhatLiesOn(PartAt(belt->part));
+      if (Set(PartAt(belt->part))) WakeTouchingBodies(PartAt(belt->part));
     }
   }
   bool listens() const override { return true; }
@@ -69,7 +69,7 @@ class ConveyorStage : public Stage {
     const std::size_t part = PartOf(fixture);
     return part < speeds_.size() ? speeds_[part] : 0;  // fixtures of stages are not parts
   }
-  void WakeWhatLiesOn(const Part& part) {
+  void WakeTouchingBodies(const Part& part) {
     const int assembly = world_.composition.assembly_of_part[static_cast<std::size_t>(part.id)];
     if (assembly < 0) return;
     b2Body* body = world_.built.bodies[static_cast<std::size_t>(assembly)];

@@ -59,7 +59,7 @@ class SeatLeaveStage : public Stage {
 
   void BeforeStep(float h) override {
     for (std::size_t s = 0; s < departures_.size(); ++s) {
-      if (departures_[s].ticks >= 0) DrawOut(s, h);
+      if (departures_[s].ticks >= 0) PullOut(s, h);
     }
   }
 
@@ -120,7 +120,7 @@ class SeatLeaveStage : public Stage {
     return At(out).mechanism != At(in).mechanism;
   }
 
-  void DrawOut(std::size_t seat, float h) {
+  void PullOut(std::size_t seat, float h) {
     const int out = MechanismOf(departures_[seat].part);
     const auto there = static_cast<std::size_t>(AssemblyOf(SeatOf(seat).part));
     b2Body* vehicle = w_.built.bodies[there];

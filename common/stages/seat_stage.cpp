@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector2d;
 
 /// Longest wait for the bond, s; then the player is released.
-constexpr int kHeldMost = 4;
+constexpr int kHeldSecondsMax = 4;
 
 /// In saved memory, the ticks of a late approach count downwards from here.
 constexpr int kLateTicks = -2;
@@ -80,7 +80,7 @@ class SeatStage : public Stage {
     if (edit.As<BondEdit>() == nullptr) return;
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
       if (approaches_[s].ticks < 0 || IsApart(s)) continue;
-      Repay(s);
+      RestoreMomentum(s);
       approaches_[s] = Approach();
     }
   }
@@ -111,7 +111,7 @@ class SeatStage : public Stage {
       Approach& a = approaches_[s];
       if (Leads(s) && !a.late) a.owed = a.came - MomentumOf(MechanismOf(s));
       if (a.ticks >= 0) ++a.ticks;
-      if (a.ticks > kHeldMost * w_.scene.solver.tick_hz) a = Approach();
+      if (a.ticks > kHeldSecondsMax * w_.scene.solver.tick_hz) a = Approach();
     }
   }
 
@@ -273,7 +273,7 @@ class SeatStage : public Stage {
     const b2Vec2 speed = BodyOf(own).GetLinearVelocityFromWorldPoint(at) -
                          BodyOf(there).GetLinearVelocityFromWorldPoint(at);
     const Vector2d seen = vehicle.Inverse().Turned(FromB2(speed).cast<double>());
-    FindWay(SeatOf(seat), w_.scene.solver, {place, seen}, &approaches_[seat]);
+    EstimateWay(SeatOf(seat), w_.scene.solver, {place, seen}, &approaches_[seat]);
   }
 
   /// Sets all bodies' velocities so that, as one rigid body, they are in place after the step, as
@@ -317,7 +317,7 @@ class SeatStage : public Stage {
 
   /// Distributes the momentum over the whole joined mechanism in proportion to mass, which does not
   /// strain its joints.
-  void Repay(std::size_t seat) {
+  void RestoreMomentum(std::size_t seat) {
     const int whole = AssemblyOf(SeatOf(seat).part);
     if (whole < 0 || At(whole).anchored) return;
     float mass = 0;

@@ -19,7 +19,7 @@ struct SeatWay {
 };
 
 /// Observation of a player on the way.
-struct SeatSight {
+struct SeatObservation {
   Transform2 place;             ///< the player's part in the seat's frame
   Eigen::Vector2d speed{0, 0};  ///< m/s, of that part there, in that frame, against the seat's
 };
@@ -30,7 +30,7 @@ struct SeatSight {
 /// With the share x of the time T elapsed, on a way of length d, the speed is d 6x(1 - x)/T and the
 /// remaining way d (1 - x)^2 (1 + 2x). So speed/remaining T = 6x/((1 - x)(1 + 2x)), with one
 /// solution in 0..1.
-void FindWay(const Seat& seat, const Solver& solver, const SeatSight& seen, SeatWay* way);
+void EstimateWay(const Seat& seat, const Solver& solver, const SeatObservation& seen, SeatWay* way);
 
 /// Rounds to single precision, so that a pose is the same before and after saving as floats.
 Transform2 Rounded(const Transform2& pose);

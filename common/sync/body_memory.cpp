@@ -65,7 +65,7 @@ BodyState BodyMemory::MovedOn(int body, std::int64_t tick) const {
                             Snapshots::Forward(from, tick, world_.dt(), kReckonMax));
 }
 
-void BodyMemory::NoteContacts(const AuthorityTable& table) {
+void BodyMemory::RecordContacts(const AuthorityTable& table) {
   for (const Impact& impact : world_.impacts()) {
     if (impact.dv < kMajorImpact) continue;
     for (const int body : {impact.body_a, impact.body_b}) {

@@ -77,7 +77,7 @@ class BodyMemory {
   BodyState MovedOn(int body, std::int64_t tick) const;
 
   /// Call after a step. Records major impacts and contacts between authorities.
-  void NoteContacts(const AuthorityTable& table);
+  void RecordContacts(const AuthorityTable& table);
   /// Call at the end of a tick. Records all poses as past.
   void Record();
 
@@ -98,10 +98,10 @@ class BodyMemory {
   }
   /// Marks that the body was heard of or moved along its path: only then does an absent body need
   /// checking.
-  void NoteNews(int body) { news_.push_back(body); }
-  /// Bodies marked since ForgetNews, in any order, some twice.
+  void MarkUpdated(int body) { news_.push_back(body); }
+  /// Bodies marked since ClearUpdated, in any order, some twice.
   const std::vector<int>& news() const { return news_; }
-  void ForgetNews() { news_.clear(); }
+  void ClearUpdated() { news_.clear(); }
 
   /// Forgets all poses. Call when the world was set to another tick.
   void StartAnew();

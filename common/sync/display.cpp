@@ -180,7 +180,7 @@ MovingBox Display::FarBox(int mechanism) const {
   return box;
 }
 
-void Display::LookAtParkedOne(int mechanism, const MovingBox& seen) {
+void Display::CheckParkedMechanism(int mechanism, const MovingBox& seen) {
   MovingBox& far = far_[static_cast<std::size_t>(mechanism)];
   if (!Overlap(far, seen)) return;
   far = Nowhere();
@@ -193,18 +193,18 @@ void Display::LookAtParkedOne(int mechanism, const MovingBox& seen) {
 }
 
 /// Checks a share of the parked mechanisms per tick, and those that were heard of.
-void Display::LookAtParked(std::int64_t next, const MovingBox& seen) {
+void Display::CheckParked(std::int64_t next, const MovingBox& seen) {
   back_.clear();
   if (config_.shows_far) return;
   const auto count = static_cast<std::int64_t>(far_.size()), part = next % kParkedEvery;
   for (auto m = part * count / kParkedEvery; m < (part + 1) * count / kParkedEvery; ++m) {
-    LookAtParkedOne(static_cast<int>(m), seen);
+    CheckParkedMechanism(static_cast<int>(m), seen);
   }
   for (const int body : memory_.news()) {
     if (!memory_.parked(body)) continue;
     const int m = world_.mechanism(body);
     far_[static_cast<std::size_t>(m)] = FarBox(m);
-    LookAtParkedOne(m, seen);
+    CheckParkedMechanism(m, seen);
   }
   std::sort(back_.begin(), back_.end());
 }
@@ -223,7 +223,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   if (config_.mode == Mode::kOracle) return;  // no body is only displayed
   const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // it has none
   reckoner_.Begin(next);
-  LookAtParked(next, seen);
+  CheckParked(next, seen);
   leaving_.clear();
   FindDriven(world_, memory_, joints_, back_, next, &driven_);
   for (const int body : driven_) {
@@ -245,7 +245,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     }
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);
-    if (absent) memory_.NoteNews(body);
+    if (absent) memory_.MarkUpdated(body);
   }
   for (const int body : leaving_) Leave(body);
 }

@@ -65,8 +65,8 @@ class Display {
   template <class Visit>
   void EachShown(const Roles& roles, bool all, const Visit& visit) const;
   MovingBox FarBox(int mechanism) const;
-  void LookAtParked(std::int64_t next, const MovingBox& seen);
-  void LookAtParkedOne(int mechanism, const MovingBox& seen);
+  void CheckParked(std::int64_t next, const MovingBox& seen);
+  void CheckParkedMechanism(int mechanism, const MovingBox& seen);
   void Leave(int body);
 
   const SyncConfig& config_;

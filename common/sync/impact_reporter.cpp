@@ -27,7 +27,7 @@ void ImpactReporter::NoteOne(const Impact& impact, int body, int by, bool again)
   const float dv = ChangeOfVelocity(world_, impact, body);
   if (!Hurts(body, dv)) return;
   const PartId id = world_.id(body), of_by = by < 0 ? -1 : world_.id(by);
-  if (again && WasTold(world_.tick(), id, of_by)) return;
+  if (again && WasReported(world_.tick(), id, of_by)) return;
   if (reports_.empty() || reports_.back().tick != world_.tick()) {
     reports_.emplace_back();
     reports_.back().tick = world_.tick();
@@ -54,7 +54,7 @@ bool ImpactReporter::Hurts(int body, float dv) const {
   });
 }
 
-bool ImpactReporter::WasTold(std::int64_t tick, PartId id, PartId by) const {
+bool ImpactReporter::WasReported(std::int64_t tick, PartId id, PartId by) const {
   return std::any_of(told_.begin(), told_.end(), [&](const Told& told) {
     return told.id == id && told.by == by && std::llabs(told.tick - tick) <= kSameImpactTicks;
   });

@@ -35,7 +35,7 @@ class ImpactReporter {
 
   /// True if a velocity change of `dv` hurts any part of the body.
   bool Hurts(int body, float dv) const;
-  bool WasTold(std::int64_t tick, PartId id, PartId by) const;
+  bool WasReported(std::int64_t tick, PartId id, PartId by) const;
   void NoteOne(const Impact& impact, int body, int by, bool again);
 
   const World& world_;

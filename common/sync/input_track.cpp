@@ -56,7 +56,7 @@ Input InputTrack::At(std::int64_t tick) const {
   return known == nullptr ? Input{} : known->input;
 }
 
-bool InputTrack::Surprises(std::int64_t from) const {
+bool InputTrack::DiffersFromPrediction(std::int64_t from) const {
   if (newest_ < 0 || from > newest_) return false;
   // In constant time, because servers ask for every player and receiver. A peer that knows nothing
   // before the oldest input assumes a neutral one.

@@ -20,7 +20,7 @@ class InputTrack {
   Input At(std::int64_t tick) const;
   /// True if a known input of `from` or later differs from the prediction of a peer that knows only
   /// the earlier ones.
-  bool Surprises(std::int64_t from) const;
+  bool DiffersFromPrediction(std::int64_t from) const;
   std::int64_t newest() const { return newest_; }  ///< -1: none
 
   /// Returns the buttons that went down in known ticks <= `tick`, each once. They may be late: a

@@ -15,7 +15,7 @@ constexpr std::int64_t kSilentUs = 250000;
 /// merely lags (of ten pings a second at least one arrives); longer drives into something.
 constexpr std::int64_t kDriverSilentUs = 1000000;
 /// m/s; a slower body comes to rest without the server's help and must be allowed to.
-constexpr float kMissed = 0.5f;
+constexpr float kStandInSpeed = 0.5f;
 /// The client's lease, us: if the newest ping that the server answered is older, the client
 /// releases its mechanisms, whichever direction of the path failed.
 constexpr std::int64_t kLeaseUs = 3000000;

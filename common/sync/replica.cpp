@@ -10,7 +10,7 @@ namespace seam {
 namespace {
 
 /// Most impacts sent per tick; further ones are not displayed.
-constexpr std::size_t kImpactsToldMax = 64;
+constexpr std::size_t kImpactsSentMax = 64;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       impact_reporter_(world_, roles_),
       pressed_now_(topology.scene().players.size(), 0),
       pressed_missed_(topology.scene().players.size(), 0) {
-  replay_.OnSteppedAgain([this] {
+  replay_.OnReplayedTick([this] {
     impact_reporter_.Note(true);
     FindEdits();
   });
@@ -61,22 +61,22 @@ void Replica::Step() {
   const std::int64_t next = tick() + 1;
   replay_.Run();
   ApplyInputs(next);
-  if (presence_.LookIfAsked()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
+  if (presence_.CheckIfRequested()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
   display_.Drive(next, presence_.around());
   corrector_.PullCopies();
   rest_.BeforeStep();
-  memory_.ForgetNews();
+  memory_.ClearUpdated();
   world_.Step();
-  memory_.NoteContacts(roles_.table());
+  memory_.RecordContacts(roles_.table());
   if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   rest_.AfterStep();
   impact_reporter_.Note();
   FindEdits();
   ProposeFound();
-  QueueAppointed();
+  QueueOutsideEdits();
   scheduler_.Collect();
   memory_.Record();
-  if (presence_.LookIfDue()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
+  if (presence_.CheckIfDue()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
   replay_.TakeBarrier();
   display_.Glide(roles_);
   corrector_.ReceiveWaiting();
@@ -87,17 +87,17 @@ void Replica::FollowRoles() {
   if (corrector_.FollowRoles()) presence_.Ask();
 }
 
-void Replica::NoteInput(int player, std::int64_t tick, const Input& input) {
+void Replica::RecordInput(int player, std::int64_t tick, const Input& input) {
   Inputs one;
   one.player = player;
   one.first_tick = tick;
   one.drive.push_back(input.drive);
   one.lift.push_back(input.lift);
   one.buttons.push_back(input.buttons);
-  NoteInputs(one);
+  RecordInputs(one);
 }
 
-void Replica::NoteInputs(const Inputs& inputs) {
+void Replica::RecordInputs(const Inputs& inputs) {
   InputTrack& track = inputs_[static_cast<std::size_t>(inputs.player)];
   std::vector<std::int64_t> late;  // ticks stepped without these inputs
   std::int64_t wrong = -1;
@@ -164,7 +164,7 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
     const bool all = config_.mode == Mode::kOracle;
     if (stamped ? roles_.RoleOf(m) == kRoleRemote : !all && !roles_.IsAuthority(m)) return;
     world_.Act(player, a);
-    replay_.NoteAction(next, player, a);
+    replay_.RecordAction(next, player, a);
   });
   if (pressed_missed_[p] != 0) NeedDriven(player);
   EachAction(world_, player, std::exchange(pressed_missed_[p], 0), [&](int a, int m) {
@@ -224,7 +224,7 @@ Impacts Replica::MakeImpacts() const {
   out.peer = roles_.self();
   out.tick = tick();
   for (const Impact& impact : world_.impacts()) {
-    if (impact.dv < kMajorImpact || out.id_a.size() >= kImpactsToldMax) continue;
+    if (impact.dv < kMajorImpact || out.id_a.size() >= kImpactsSentMax) continue;
     out.id_a.push_back(impact.body_a < 0 ? -1 : world_.id(impact.body_a));
     out.id_b.push_back(impact.body_b < 0 ? -1 : world_.id(impact.body_b));
     out.x.push_back(impact.point.x());

@@ -3,7 +3,7 @@
 /// keep all copies near each other. Server and clients each have one. It knows nothing of time,
 /// sockets or files.
 ///
-///   Queue, ApplyGrants, Receive, NoteInputs      between steps
+///   Queue, ApplyGrants, Receive, RecordInputs      between steps
 ///   Step: edits -> replay -> inputs -> displayed bodies -> pulls -> World::Step -> contacts noted,
 ///         proposals, own States collected -> history -> States that waited
 ///   TakeStates, TakeProposals, MakeView, MakeImpacts      after it
@@ -88,9 +88,10 @@ class Replica {
   BodyState TakeOver(const ExactStates& exact);
   /// Calls `call(body, off)` with the difference between received states and this peer's copies,
   /// for bodies that it simulated at that tick.
-  void EachOff(const States& states, const std::function<void(int, const BodyState&)>& call) const;
-  /// Server only; see Roles::SpeakFor.
-  void SpeakFor(const PeerSet& silent) { roles_.SpeakFor(silent); }
+  void EachDifference(const States& states,
+                      const std::function<void(int, const BodyState&)>& call) const;
+  /// Server only; see Roles::SetSilentHolders.
+  void SetSilentHolders(const PeerSet& silent) { roles_.SetSilentHolders(silent); }
   /// Gives up all authority (the server has not been heard for too long).
   void ReleaseAll();
 
@@ -133,8 +134,8 @@ class Replica {
 
   const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
   /// Records a player's input of a future tick, or a late one of a past tick.
-  void NoteInput(int player, std::int64_t tick, const Input& input);
-  void NoteInputs(const Inputs& inputs);
+  void RecordInput(int player, std::int64_t tick, const Input& input);
+  void RecordInputs(const Inputs& inputs);
   /// Returns the buttons of this player that went down since the last call, as far as known.
   int TakePressed(int player) {
     return std::exchange(pressed_now_[static_cast<std::size_t>(player)], 0);
@@ -184,12 +185,12 @@ class Replica {
   void FollowRoles();
   /// Returns body indices, ascending.
   std::vector<int> BodiesOf(const std::vector<int>& mechanisms) const;
-  void QueueAppointed();
+  void QueueOutsideEdits();
   /// Call after a step, also one of a replay. Finds edits proposed by physics.
   void FindEdits();
   /// True if another edit of the edit's mechanism is pending: this one was found in a world without
   /// that edit.
-  bool IsHeldBack(const Edit& edit, std::int64_t found);
+  bool AwaitsOtherEdit(const Edit& edit, std::int64_t found);
   /// Proposes the edits found. Where inputs are stamped, an edit waits until its tick is
   /// input-complete: before that it rests on an assumption, and an edit cannot be undone.
   void ProposeFound();
@@ -229,7 +230,8 @@ class Replica {
   std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
   std::vector<Awaited> awaited_;                     // pending proposals; only if this peer rolls
                                                      // back
-  std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: edits from outside, by tick
+  std::map<std::int64_t, std::vector<Edit>>
+      outside_edits_;                                    // mode oracle: edits from outside, by tick
   std::vector<ExactStates> released_;                    // states that ApplyGrants released, not
                                                          // yet sent
 };

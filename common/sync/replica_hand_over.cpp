@@ -54,12 +54,12 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
 BodyState Replica::TakeOver(const ExactStates& exact) {
   ApplyEdits();
   const BodyState off = corrector_.TakeOver(exact);
-  rest_.NoteHandedOver(exact);
+  rest_.ProlongHandedOver(exact);
   return off;
 }
 
-void Replica::EachOff(const States& states,
-                      const std::function<void(int, const BodyState&)>& call) const {
+void Replica::EachDifference(const States& states,
+                             const std::function<void(int, const BodyState&)>& call) const {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || world_.motion(body) != Motion::kDynamic) continue;

@@ -26,7 +26,7 @@ void ForgetBonds(const Scene& scene, std::int32_t broken, ProposalQueue* proposa
 bool Replica::Queue(const EditOrder& order) {
   const Edit edit = ToEdit(order);
   if (config_.mode == Mode::kOracle) {
-    if (edit.cause == EditCause::kOutside) appointed_[order.tick].push_back(edit);
+    if (edit.cause == EditCause::kOutside) outside_edits_[order.tick].push_back(edit);
     return true;
   }
   if (order.number != revision() + static_cast<int>(queued_.size())) return false;
@@ -35,10 +35,10 @@ bool Replica::Queue(const EditOrder& order) {
   return true;
 }
 
-void Replica::QueueAppointed() {
-  while (!appointed_.empty() && appointed_.begin()->first <= tick()) {
-    for (Edit& edit : appointed_.begin()->second) queued_.push_back({std::move(edit), tick()});
-    appointed_.erase(appointed_.begin());
+void Replica::QueueOutsideEdits() {
+  while (!outside_edits_.empty() && outside_edits_.begin()->first <= tick()) {
+    for (Edit& edit : outside_edits_.begin()->second) queued_.push_back({std::move(edit), tick()});
+    outside_edits_.erase(outside_edits_.begin());
   }
 }
 
@@ -64,7 +64,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   replay_.GoBackTo(next.tick);
   std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);
-  rest_.NoteEdit();
+  rest_.MarkEdited();
   if (change) {
     Remap(*change);
   } else {
@@ -117,14 +117,14 @@ bool Replica::IsComplete(const Edit& edit, std::int64_t found) const {
 }
 
 bool Replica::Propose(Edit edit, std::int64_t found) {
-  if (!world_.topology().Validate(edit).ok() || IsHeldBack(edit, found)) return false;
+  if (!world_.topology().Validate(edit).ok() || AwaitsOtherEdit(edit, found)) return false;
   Awaited awaited{KeyOf(edit), world_.topology().PartsOf(edit), found};
   if (!proposals_.Add(std::move(edit), found)) return false;
   awaited_.push_back(std::move(awaited));
   return true;
 }
 
-bool Replica::IsHeldBack(const Edit& edit, std::int64_t found) {
+bool Replica::AwaitsOtherEdit(const Edit& edit, std::int64_t found) {
   if (!config_.GoesBack(roles_.self())) return false;
   const std::int64_t old = replay_.now() - config_.tick_hz / 2;
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),

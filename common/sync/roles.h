@@ -38,9 +38,9 @@ class Roles {
   bool IsAuthority(int mechanism) const { return table_.at(mechanism).authority == self_; }
   /// Sets the holders that have fallen silent. For mechanisms that it follows, the server sends
   /// states in their names.
-  void SpeakFor(const PeerSet& silent) { silent_ = silent; }
+  void SetSilentHolders(const PeerSet& silent) { silent_ = silent; }
   /// True if this peer may send states of a mechanism in its silent holder's name.
-  bool StandsIn(int mechanism) const {
+  bool SpeaksForHolder(int mechanism) const {
     const AuthorityRecord& record = table_.at(mechanism);
     return silent_.Has(record.authority) && record.secondaries.Has(self_);
   }

@@ -36,7 +36,7 @@ void SendScheduler::Collect() {
   std::map<std::pair<std::int64_t, int>, std::vector<PackedBody>> told;  // by tick and authority
   for (const int body : ChooseBodies()) {
     const int authority = roles_.table().at(world_.mechanism(body)).authority;
-    const std::int64_t tick = ToldTick(body);
+    const std::int64_t tick = TickToSend(body);
     told[{tick, authority}].push_back(Tell(body, tick));
     NoteTold(body, tick);
   }
@@ -51,7 +51,7 @@ void SendScheduler::Collect() {
 /// that is the newest tick that they cannot have changed: our assumption must not overwrite the
 /// better knowledge of other peers. States in a silent holder's name are of now: no peer knows
 /// better.
-std::int64_t SendScheduler::ToldTick(int body) const {
+std::int64_t SendScheduler::TickToSend(int body) const {
   const std::int64_t now = world_.tick();
   const int m = world_.mechanism(body);
   if (!config_.rolls_back || !roles_.IsAuthority(m)) return now;
@@ -91,10 +91,10 @@ bool SendScheduler::Due(int body) {
 
 /// True if this peer sends the body's state. In a silent holder's name only for moving bodies:
 /// others come to rest without help.
-bool SendScheduler::Speaks(int body) const {
+bool SendScheduler::SendsStateOf(int body) const {
   const int m = world_.mechanism(body);
   if (roles_.IsAuthority(m)) return true;
-  return roles_.StandsIn(m) && world_.Read(body).velocity.norm() > kMissed;
+  return roles_.SpeaksForHolder(m) && world_.Read(body).velocity.norm() > kStandInSpeed;
 }
 
 /// Returns body indices, ascending.
@@ -102,7 +102,7 @@ std::vector<int> SendScheduler::ChooseBodies() {
   std::vector<int> due;
   for (const int body : world_.present()) {  // no peer sends states of absent bodies
     BodyTrack& track = memory_.track(body);
-    if (!Speaks(body) || !track.placed || !Due(body)) continue;
+    if (!SendsStateOf(body) || !track.placed || !Due(body)) continue;
     const bool hit = world_.awake(body) && memory_.Struck(body);
     track.priority += hit ? kPriorityImpact : kPriorityAwake;
     due.push_back(body);

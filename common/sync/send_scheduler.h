@@ -37,13 +37,13 @@ class SendScheduler {
 
  private:
   bool Due(int body);
-  bool Speaks(int body) const;
+  bool SendsStateOf(int body) const;
   std::vector<int> ChooseBodies();
   PackedBody Describe(int body) const;
   PackedBody Tell(int body, std::int64_t tick);
   void NoteTold(int body, std::int64_t tick);
   /// Tick for which a body's state is sent.
-  std::int64_t ToldTick(int body) const;
+  std::int64_t TickToSend(int body) const;
   std::int64_t FinalTick(int mechanism) const;
   States Header() const;
 

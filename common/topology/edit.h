@@ -57,7 +57,7 @@ struct PushEdit {
 };
 
 /// Value of PushEdit::limp, s: limp until another push ends it.
-constexpr float kLimpForGood = 1e9f;
+constexpr float kLimpUntilReleased = 1e9f;
 
 /// Puts a player into a seat; the player then drives everything that the seat drives.
 struct SeatEdit {

@@ -36,8 +36,8 @@ bool Before(const Brick& a, const Brick& b) {
 }
 
 /// Returns all bricks that the blast would free, sorted by kind, then y, then x.
-std::vector<Brick> Loosened(const FeatureList<BrickField>& fields, const FeatherStore& left,
-                            const Blast& blast) {
+std::vector<Brick> FreeableBricks(const FeatureList<BrickField>& fields, const FeatherStore& left,
+                                  const Blast& blast) {
   if (blast.speed <= 0) return {};
   const auto unit = [](float metres) {
     return static_cast<int>(std::floor(static_cast<double>(metres) / kUnit));
@@ -125,7 +125,7 @@ Part FreedPart(const BrickField& field, const Brick& first, int columns, int row
 Freed BlastBricks(const FeatureList<BrickField>& fields, const FeatherStore& left,
                   const Blast& blast) {
   Freed freed;
-  const std::vector<Brick> loose = Loosened(fields, left, blast);
+  const std::vector<Brick> loose = FreeableBricks(fields, left, blast);
   for (const Piece& piece : Pieces(fields, loose, blast)) {
     const BrickField& field = fields[static_cast<std::size_t>(piece.first.kind)];
     Part part = FreedPart(field, piece.first, piece.columns, piece.rows);

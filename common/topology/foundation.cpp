@@ -15,7 +15,7 @@ std::tuple<int, int, int> OrderOf(const Brick& b) { return {b.kind, b.y, b.x}; }
 
 /// Calls `visit` with each brick that lies on the floor, some of them more than once.
 template <class Visit>
-void EachOn(const Floor& floor, const FeatherStore& whole, const Visit& visit) {
+void EachBrickOn(const Floor& floor, const FeatherStore& whole, const Visit& visit) {
   constexpr std::int64_t step = FeatherStore::kCell * kUnitMillimetres;
   if (whole.cell_count() == 0) return;
   const std::int64_t from = std::max(floor.x0, whole.cell_x_min() * step);
@@ -43,7 +43,7 @@ void EachOn(const Floor& floor, const FeatherStore& whole, const Visit& visit) {
 
 /// A block and its tower.
 struct Node {
-  Storeys block;
+  BuildingBlock block;
   std::size_t tower = 0;
   int begins = 0, height = 0;  // units: start of its [[bricks]], and height of one brick
 };
@@ -63,10 +63,10 @@ void EachPair(const std::vector<Node>& by_x0, const Visit& visit) {
   }
 }
 
-bool Beside(const Storeys& a, const Storeys& b) { return a.y0 < b.y1 && b.y0 < a.y1; }
-bool Over(const Storeys& a, const Storeys& b) { return a.x0 < b.x1 && b.x0 < a.x1; }
+bool Beside(const BuildingBlock& a, const BuildingBlock& b) { return a.y0 < b.y1 && b.y0 < a.y1; }
+bool Over(const BuildingBlock& a, const BuildingBlock& b) { return a.x0 < b.x1 && b.x0 < a.x1; }
 
-bool Touch(const Storeys& a, const Storeys& b) {
+bool Touch(const BuildingBlock& a, const BuildingBlock& b) {
   const bool near = a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
   return near && (Beside(a, b) || Over(a, b));
 }
@@ -97,7 +97,7 @@ Foundations::Foundations(const FeatherStore& whole, const FeatureList<BrickField
     : fields_(fields) {
   for (const Part& part : ground) {
     for (const Floor& floor : FloorsOf(part)) {
-      EachOn(floor, whole, [&](const Brick& b) { rests_.push_back({b, part.id}); });
+      EachBrickOn(floor, whole, [&](const Brick& b) { rests_.push_back({b, part.id}); });
     }
   }
   const auto order = [](const Rest& r) { return std::pair(OrderOf(r.brick), r.part); };
@@ -110,7 +110,7 @@ Foundations::Foundations(const FeatherStore& whole, const FeatureList<BrickField
   std::size_t towers = 0;
   for (const BrickField& field : fields) {
     first_.push_back(towers);
-    EachStoreys(field, [&](const Storeys& block) {
+    EachBuildingBlock(field, [&](const BuildingBlock& block) {
       nodes.push_back(
           {block, towers + static_cast<std::size_t>(block.building), field.y, field.height});
     });
@@ -124,17 +124,17 @@ Foundations::Foundations(const FeatherStore& whole, const FeatureList<BrickField
   });
   std::vector<bool> on_ground(towers, false);  // by building, at the index of its first tower
   for (const Rest& rest : rests_) on_ground[buildings.Find(TowerOf(rest.brick))] = true;
-  by_itself_.assign(towers, true);
-  for (std::size_t t = 0; t < towers; ++t) by_itself_[t] = !on_ground[buildings.Find(t)];
+  own_foundation_.assign(towers, true);
+  for (std::size_t t = 0; t < towers; ++t) own_foundation_[t] = !on_ground[buildings.Find(t)];
   const auto look = [&](const Node& node, const Node& other) {
     if (node.block.y0 != node.begins || buildings.Find(node.tower) != buildings.Find(other.tower)) {
       return;
     }
-    Storeys row = node.block;
+    BuildingBlock row = node.block;
     row.y1 = row.y0 + node.height;
     const bool rests = other.begins < node.begins && Touch(row, other.block);
     const bool hangs = Over(row, other.block) && other.block.y1 <= row.y0;
-    if (rests || hangs) by_itself_[node.tower] = false;
+    if (rests || hangs) own_foundation_[node.tower] = false;
   };
   EachPair(nodes, [&](const Node& a, const Node& b) {
     look(a, b);
@@ -148,7 +148,7 @@ std::size_t Foundations::TowerOf(const Brick& brick) const {
 }
 
 bool Foundations::Holds(const Brick& brick, const std::vector<Part>& parts) const {
-  if (by_itself_[TowerOf(brick)]) {
+  if (own_foundation_[TowerOf(brick)]) {
     return brick.y == fields_[static_cast<std::size_t>(brick.kind)].y;
   }
   auto at = std::lower_bound(

@@ -56,8 +56,8 @@ class Foundations {
   std::size_t TowerOf(const Brick& brick) const;
 
   FeatureList<BrickField> fields_;
-  std::vector<std::size_t> first_;  // by field: index of its first tower in by_itself_
-  std::vector<bool> by_itself_;     // by tower: its lowest row is a foundation
+  std::vector<std::size_t> first_;    // by field: index of its first tower in own_foundation_
+  std::vector<bool> own_foundation_;  // by tower: its lowest row is a foundation
   std::vector<Rest> rests_;         // ascending by kind, y, x, part
 };
 

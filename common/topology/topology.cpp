@@ -294,7 +294,7 @@ void Topology::Free(PartId part) {
   if (!anchored) return;
   anchored = false;
   stale_ = true;
-  NoteHanging(part);
+  RecordHanging(part);
 }
 
 void Topology::Remove(PartId part) {
@@ -305,7 +305,7 @@ void Topology::Remove(PartId part) {
     if (held && !joint.gone) Break(static_cast<std::int32_t>(j));
   }
   stale_ = true;
-  NoteHanging(part);
+  RecordHanging(part);
 }
 
 }  // namespace seam

@@ -93,7 +93,7 @@ class Topology {
   void KeepGround();
   /// Records the bricks that lay on a part and now hang, after it has left or is no longer
   /// anchored.
-  void NoteHanging(PartId part);
+  void RecordHanging(PartId part);
   void SetHanging(std::vector<Brick> hanging);
   bool Has(PartId part) const;
   bool RoomFor(std::size_t more) const;

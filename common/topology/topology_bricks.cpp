@@ -70,7 +70,7 @@ void Topology::FreeBricks(const BlastEdit& edit) {
   SetHanging(std::move(fallen.hanging));
 }
 
-void Topology::NoteHanging(PartId part) {
+void Topology::RecordHanging(PartId part) {
   if (ground_ == nullptr) return;
   const auto found = std::lower_bound(ground_->begin(), ground_->end(), part, IdBefore);
   if (found == ground_->end() || found->id != part) return;

@@ -44,7 +44,7 @@ TopologyEntry Count(Kind kind, std::size_t count) {
 }
 
 /// Returns true if the topology's last edit made a bond.
-bool MadeABond(const Topology& now) {
+bool LastEditMadeBond(const Topology& now) {
   for (std::size_t j = 0; j < now.scene().joints.size(); ++j) {
     const auto index = static_cast<std::int32_t>(j);
     if (now.IsBond(index) && now.JointMadeAt(index) == now.revision()) return true;
@@ -61,26 +61,32 @@ void AddCount(Kind kind, std::size_t count, std::vector<TopologyEntry>* entries)
 }  // namespace
 
 TopologyFold::TopologyFold(const Topology& begin) : first_joints_(begin.scene().joints.size()) {
-  NoteGrowth(begin);
+  RecordGrowth(begin);
   for (const Seat& seat : begin.scene().seats) first_players_.push_back(seat.player);
 }
 
-void TopologyFold::NoteGrowth(const Topology& now) {
+void TopologyFold::RecordGrowth(const Topology& now) {
   const Scene& scene = now.scene();
-  for (std::size_t p = born_.size(); p < scene.parts.size(); ++p) {
-    born_.push_back({scene.parts[p].position, scene.parts[p].angle});
+  for (std::size_t p = first_poses_.size(); p < scene.parts.size(); ++p) {
+    first_poses_.push_back({scene.parts[p].position, scene.parts[p].angle});
   }
-  for (std::size_t j = born_joints_.size(); j < scene.joints.size(); ++j) {
-    born_joints_.push_back(now.IsBond(static_cast<std::int32_t>(j)) ? Joint() : scene.joints[j]);
+  for (std::size_t j = first_joint_data_.size(); j < scene.joints.size(); ++j) {
+    first_joint_data_.push_back(now.IsBond(static_cast<std::int32_t>(j)) ? Joint()
+                                                                         : scene.joints[j]);
   }
   left_.resize(scene.parts.size(), false);
   freed_.resize(scene.parts.size(), false);
   broken_.resize(scene.joints.size(), false);
 }
 
-void TopologyFold::NoteInsert(const InsertEdit& insert, const Topology& now) {
+void TopologyFold::RecordInsert(const InsertEdit& insert, const Topology& now) {
   const Scene& scene = now.scene();
-  Step step{insert, born_.size(), scene.parts.size(), born_joints_.size(), scene.joints.size(), {}};
+  Step step{insert,
+            first_poses_.size(),
+            scene.parts.size(),
+            first_joint_data_.size(),
+            scene.joints.size(),
+            {}};
   for (std::size_t j = step.joints_before; j < step.joints_after; ++j) {
     for (const PartId part : {scene.joints[j].a, scene.joints[j].b}) {
       if (static_cast<std::size_t>(part) >= step.parts_before) continue;
@@ -90,7 +96,7 @@ void TopologyFold::NoteInsert(const InsertEdit& insert, const Topology& now) {
   steps_.push_back(std::move(step));
 }
 
-void TopologyFold::NoteGearsOf(std::int32_t joint, const Scene& scene) {
+void TopologyFold::RecordGearsOf(std::int32_t joint, const Scene& scene) {
   for (std::size_t j = 0; j < broken_.size(); ++j) {
     const auto& coupled = scene.joints[j].coupled;
     if (coupled[0] == joint || coupled[1] == joint) broken_[j] = true;
@@ -103,26 +109,27 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
     if ((*noted)[static_cast<std::size_t>(index)]) return;
     (*noted)[static_cast<std::size_t>(index)] = true;
     steps_.push_back({std::move(what),
-                      born_.size(),
-                      born_.size(),
-                      born_joints_.size(),
-                      born_joints_.size(),
+                      first_poses_.size(),
+                      first_poses_.size(),
+                      first_joint_data_.size(),
+                      first_joint_data_.size(),
                       {}});
   };
   // An edit that failed left no trace in `now`.
   const auto is_part = [&](PartId part) {
     return part >= 0 && static_cast<std::size_t>(part) < scene.parts.size();
   };
-  const bool grown = scene.parts.size() > born_.size() || scene.joints.size() > born_joints_.size();
+  const bool grown =
+      scene.parts.size() > first_poses_.size() || scene.joints.size() > first_joint_data_.size();
   std::visit(
       Overloaded{[](const std::monostate&) {}, [](const PushEdit&) {}, [](const SeatEdit&) {},
                  [&](const BondEdit&) {
-                   if (MadeABond(now)) measured_ = scene.joints.size();
+                   if (LastEditMadeBond(now)) measured_ = scene.joints.size();
                  },
                  [&](const BreakEdit& broken) {
                    if (!now.HasJoint(broken.joint) || now.IsBond(broken.joint)) return;
                    once(broken, &broken_, broken.joint);
-                   NoteGearsOf(broken.joint, scene);
+                   RecordGearsOf(broken.joint, scene);
                  },
                  [&](const RemoveEdit& removed) {
                    if (!is_part(removed.part)) return;
@@ -132,7 +139,7 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
                      const bool held = joint.a == removed.part || joint.b == removed.part;
                      if (!held) continue;
                      broken_[j] = true;  // the removal implies it
-                     NoteGearsOf(static_cast<std::int32_t>(j), scene);
+                     RecordGearsOf(static_cast<std::int32_t>(j), scene);
                    }
                  },
                  [&](const FreeEdit& freed) {
@@ -141,19 +148,19 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
                    if (there) once(freed, &freed_, freed.part);
                  },
                  [&](const InsertEdit& insert) {
-                   if (grown) NoteInsert(insert, now);
+                   if (grown) RecordInsert(insert, now);
                  },
                  [&](const BlastEdit& blast) {
                    if (!grown) return;
                    steps_.push_back({blast,
-                                     born_.size(),
+                                     first_poses_.size(),
                                      scene.parts.size(),
-                                     born_joints_.size(),
-                                     born_joints_.size(),
+                                     first_joint_data_.size(),
+                                     first_joint_data_.size(),
                                      {}});
                  }},
       edit.what);
-  NoteGrowth(now);
+  RecordGrowth(now);
   if (steps_.size() > 2 * pruned_ + kPruneSlack) Prune(now);
 }
 
@@ -270,7 +277,7 @@ void TopologyFold::AddSteps(const Topology& now, std::vector<TopologyEntry>* ent
 }
 
 void TopologyFold::AddPlaces(const Topology& now, std::vector<TopologyEntry>* entries) const {
-  std::vector<Place> placed = born_;
+  std::vector<Place> placed = first_poses_;
   for (const TopologyEntry& entry : *entries) {
     if (entry.kind != Kind::kPlace) continue;
     placed[static_cast<std::size_t>(entry.a)] = {{entry.value[0], entry.value[1]}, entry.value[2]};
@@ -291,7 +298,7 @@ void TopologyFold::AddJoints(const Topology& now, std::vector<TopologyEntry>* en
     const Joint& joint = scene.joints[j];
     if (joint.gone) continue;
     const auto index = static_cast<std::int32_t>(j);
-    Joint given = born_joints_[j];
+    Joint given = first_joint_data_[j];
     if (now.IsBond(index)) {
       TopologyEntry bond;
       bond.kind = Kind::kBond;

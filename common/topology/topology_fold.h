@@ -44,9 +44,9 @@ class TopologyFold {
   };
 
   /// Records the gears that end with a joint.
-  void NoteGearsOf(std::int32_t joint, const Scene& scene);
-  void NoteInsert(const InsertEdit& insert, const Topology& now);
-  void NoteGrowth(const Topology& now);
+  void RecordGearsOf(std::int32_t joint, const Scene& scene);
+  void RecordInsert(const InsertEdit& insert, const Topology& now);
+  void RecordGrowth(const Topology& now);
   /// Returns by step: its parts and joints have left, and no kept step refers to them.
   std::vector<bool> Dropped(const Topology& now) const;
   void Prune(const Topology& now);
@@ -56,8 +56,8 @@ class TopologyFold {
 
   std::size_t first_joints_ = 0;  // number of joints of the scene
   std::vector<Step> steps_;
-  std::vector<Place> born_;         // by part: pose at its first appearance
-  std::vector<Joint> born_joints_;  // by joint, as first made; default for bonds
+  std::vector<Place> first_poses_;       // by part: pose at its first appearance
+  std::vector<Joint> first_joint_data_;  // by joint, as first made; default for bonds
   std::vector<bool> left_, freed_;  // by part: a step records it
   std::vector<bool> broken_;        // by joint, likewise; unused for bonds
   std::vector<int> first_players_;  // by seat: the scene's player

@@ -24,7 +24,7 @@ void AuthorityManager::EachBody(int m, const Visit& visit) const {
   EachIdOf(world.composition(), m, [&](PartId id) { visit(world.BodyOfId(id)); });
 }
 
-bool AuthorityManager::LeavesOut(const AuthorityView& view) {
+bool AuthorityManager::MayLeaveOut(const AuthorityView& view) {
   if (see_all_ > 0) {
     --see_all_;
     return false;
@@ -40,7 +40,7 @@ void AuthorityManager::SeeAll() {
 }
 
 /// True if the server alone has the mechanism, by plan and by record, and nobody can drive it.
-bool AuthorityManager::MayLie(int m) const {
+bool AuthorityManager::MayBeIndexed(int m) const {
   const auto i = static_cast<std::size_t>(m);
   const Memory& memory = memory_[i];
   const AuthorityRecord& record = table().at(m);
@@ -55,12 +55,12 @@ bool AuthorityManager::MayLie(int m) const {
 /// True if all of it sleeps and, if indexed already, has not moved since.
 bool AuthorityManager::Lies(int m) {
   const World& world = replica_.world();
-  const bool lay = lying_.Has(m);
+  const bool lay = sleeping_index_.Has(m);
   bool lies = !replica_.drivers().Driven(m);
   char& doubtful = doubtful_[static_cast<std::size_t>(m)];
   doubtful = 0;
   EachBody(m, [&](int body) {
-    Lay& then = lay_[static_cast<std::size_t>(body)];
+    Lay& then = at_rest_[static_cast<std::size_t>(body)];
     const std::uint64_t still = world.still(body);
     if (still == 0) doubtful = 1;  // the World does not report changes of it
     if (!lies || (lay && still != 0 && still == then.still)) return;
@@ -73,59 +73,59 @@ bool AuthorityManager::Lies(int m) {
   return lies;
 }
 
-void AuthorityManager::PutLying(int m) {
+void AuthorityManager::IndexSleeping(int m) {
   const World& world = replica_.world();
   MovingBox around;
   bool first = true;
   EachBody(m, [&](int body) {
     const BodyState state = world.Read(body);
-    lay_[static_cast<std::size_t>(body)] = {world.still(body), state.position, state.angle};
+    at_rest_[static_cast<std::size_t>(body)] = {world.still(body), state.position, state.angle};
     const MovingBox box = BoxOf(world, body);
     around.min = first ? box.min : around.min.cwiseMin(box.min);
     around.max = first ? box.max : around.max.cwiseMax(box.max);
     first = false;
   });
-  lying_.Put(m, around);
+  sleeping_index_.Put(m, around);
 }
 
 /// Marks the sleeping mechanisms that may have changed since the last call.
-void AuthorityManager::FindDoubtful() {
+void AuthorityManager::FindDisturbed() {
   const World& world = replica_.world();
   stirred_.clear();
-  if (world.ChangedSince(lay_change_, &stirred_)) {
+  if (world.ChangedSince(index_change_, &stirred_)) {
     for (const int body : stirred_) doubtful_[static_cast<std::size_t>(world.mechanism(body))] = 1;
   } else {
     doubtful_.assign(doubtful_.size(), 1);
   }
-  lay_change_ = world.last_change();
+  index_change_ = world.last_change();
 }
 
-void AuthorityManager::SeeWithoutLying(const AuthorityView& view) {
-  if (lying_.size() != memory_.size()) {
-    lying_.Clear(memory_.size());
-    lay_.assign(static_cast<std::size_t>(replica_.world().body_count()), {});
+void AuthorityManager::SeeAwakeAndNear(const AuthorityView& view) {
+  if (sleeping_index_.size() != memory_.size()) {
+    sleeping_index_.Clear(memory_.size());
+    at_rest_.assign(static_cast<std::size_t>(replica_.world().body_count()), {});
     doubtful_.assign(memory_.size(), 1);
   }
-  FindDoubtful();
+  FindDisturbed();
   seen_.clear();
   std::vector<int> bodies, joined;
   for (const std::vector<int>& mechanisms : view.together) {
     joined.insert(joined.end(), mechanisms.begin(), mechanisms.end());
   }
-  for (const int m : joined) lying_.Take(m);
+  for (const int m : joined) sleeping_index_.Take(m);
   for (int m = 0; m < static_cast<int>(memory_.size()); ++m) {
-    if (lying_.Has(m)) {
+    if (sleeping_index_.Has(m)) {
       if (doubtful_[static_cast<std::size_t>(m)] == 0 || Lies(m)) continue;
-      lying_.Take(m);
-    } else if (MayLie(m) && Lies(m) && std::count(joined.begin(), joined.end(), m) == 0) {
-      PutLying(m);
+      sleeping_index_.Take(m);
+    } else if (MayBeIndexed(m) && Lies(m) && std::count(joined.begin(), joined.end(), m) == 0) {
+      IndexSleeping(m);
       continue;
     }
     seen_.push_back(m);
     EachBody(m, [&](int body) { bodies.push_back(body); });
   }
   const std::vector<int> near =
-      lying_.Near(BoxesOf(replica_.world(), replica_.drivers(), bodies), SightOf(view));
+      sleeping_index_.Near(BoxesOf(replica_.world(), replica_.drivers(), bodies), SightOf(view));
   const auto middle = static_cast<std::ptrdiff_t>(seen_.size());
   seen_.insert(seen_.end(), near.begin(), near.end());
   std::inplace_merge(seen_.begin(), seen_.begin() + middle, seen_.end());

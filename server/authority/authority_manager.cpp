@@ -54,10 +54,10 @@ AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config,
   }
 }
 
-std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situation& situation) {
+std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const PlannerInputs& situation) {
   plan_due_ = plan_due_ || !(silent_ == situation.silent);
   silent_ = situation.silent;
-  replica_.SpeakFor(silent_);
+  replica_.SetSilentHolders(silent_);
   round_trip_us_.clear();
   for (std::size_t p = 0; p < situation.one_way_s.size(); ++p) {
     const auto peer = static_cast<std::size_t>(std::max(0, situation.peer_of_player[p]));
@@ -88,7 +88,7 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
   return std::move(grants_);
 }
 
-void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
+void AuthorityManager::Plan(std::int64_t now_us, const PlannerInputs& situation) {
   Look(situation);
   LookAtCapacity(now_us, situation, &view_);
   const auto limited = [](const PlayerView& p) { return p.limited(); };
@@ -98,12 +98,12 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
     LookAtCapacity(now_us, situation, &view_);
   }
   const AuthorityPlan plan = PlanAuthority(view_);
-  // Left-out mechanisms have no followers and belong to the server, also by record: MayLie.
+  // Left-out mechanisms have no followers and belong to the server, also by record: MayBeIndexed.
   plan_.resize(static_cast<std::size_t>(table().count()));
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     plan_[static_cast<std::size_t>(seen_[i])] = plan[i];
   }
-  replica_.LeaveUnwatched(Unwatched(view_), Doubtful(view_));
+  replica_.LeaveUnwatched(Unwatched(view_), UncertainPeers(view_));
   for (const int m : seen_) {
     const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
     const AuthorityRecord& record = table().at(m);
@@ -116,7 +116,7 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
 
 void AuthorityManager::Open(int m) {
   Memory& memory = memory_[static_cast<std::size_t>(m)];
-  lying_.Take(m);
+  sleeping_index_.Take(m);
   if (memory.open) return;
   memory.open = true;
   sort_open_ = sort_open_ || (!open_.empty() && open_.back() > m);
@@ -210,8 +210,8 @@ void AuthorityManager::ForgetQuestions(int m) {
   memory.held_from = -1;
 }
 
-AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism,
-                                                      std::int32_t epoch) {
+AuthorityManager::Right AuthorityManager::AcceptRelease(int peer, PartId mechanism,
+                                                        std::int32_t epoch) {
   const int m = table().IndexOf(mechanism);
   if (m < 0) return Right::kNo;
   const AuthorityRecord& record = table().at(m);
@@ -230,7 +230,7 @@ AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism
   return Right::kYes;
 }
 
-bool AuthorityManager::GivesUp(int peer, PartId mechanism, std::int32_t epoch) const {
+bool AuthorityManager::HoldsInEpoch(int peer, PartId mechanism, std::int32_t epoch) const {
   const int m = table().IndexOf(mechanism);
   if (m < 0 || peer <= 0) return false;
   const AuthorityRecord& record = table().at(m);
@@ -250,7 +250,7 @@ AuthorityManager::Right AuthorityManager::RightToRelease(int peer, int body,
   return asked && epoch == WithoutHolder(record).epoch ? Right::kYes : Right::kNo;
 }
 
-void AuthorityManager::NoteJump(int body, const BodyState& off) {
+void AuthorityManager::NoteCopyError(int body, const BodyState& off) {
   if (off.position.norm() <= kJump && off.velocity.norm() <= kJumpVelocity) return;
   const int m = replica_.world().mechanism(body);
   memory_[static_cast<std::size_t>(m)].keep_until_tick =
@@ -296,7 +296,7 @@ void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {
   open_.clear();
   for (Memory& each : memory_) each.open = false;
   restricted_ = RestrictedParts(replica_.world().scene());
-  lying_.Clear(0);
+  sleeping_index_.Clear(0);
   plan_due_ = true;
 }
 

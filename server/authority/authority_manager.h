@@ -22,7 +22,7 @@ class AuthorityManager {
   AuthorityManager(const Scene& scene, const SyncConfig& config, Replica& replica);
 
   /// Per-tick inputs of the planner that come from outside.
-  struct Situation {
+  struct PlannerInputs {
     std::vector<int> peer_of_player;         ///< by player; -1: no client is ready to drive it
     std::vector<float> one_way_s;            ///< s, by player, from the server; empty: all 0
     PeerSet silent;                          ///< peers not heard from for kSilentUs
@@ -39,7 +39,7 @@ class AuthorityManager {
 
   /// Called after each tick. Replans if due, advances every hand-over as far as possible, and
   /// returns the grants for everyone in sending order.
-  std::vector<Grants> Update(std::int64_t now_us, const Situation& situation);
+  std::vector<Grants> Update(std::int64_t now_us, const PlannerInputs& situation);
   /// Exact states of the mechanisms that the last Update took from the server, for the new
   /// authority. Send these before the grants.
   struct Given {
@@ -51,7 +51,7 @@ class AuthorityManager {
   /// answered. The caller drops them and calls TakeBack once their lease must have ended. Nothing
   /// of theirs may be taken back earlier: the question may have been lost, and they hold everything
   /// in good faith.
-  PeerSet Withholding(std::int64_t now_us) const;
+  PeerSet OverdueHolders(std::int64_t now_us) const;
   /// Makes the next Update replan. Called when a client comes or goes.
   void PlanSoon() { plan_due_ = true; }
   /// Returns authority over everything a departed peer had to the server. States of that peer's
@@ -84,17 +84,17 @@ class AuthorityManager {
   /// Handles a peer's answer that it has released a mechanism (by id), as the grant of that epoch
   /// asked. Accepted only from the holder and for exactly that grant; the next Update acts on it.
   /// An answer to a withdrawn grant has no effect.
-  Right NoteRelease(int peer, PartId mechanism, std::int32_t epoch);
+  Right AcceptRelease(int peer, PartId mechanism, std::int32_t epoch);
   /// True if a peer that reports an unasked release (its lease has ended) holds the mechanism in
   /// that epoch. The caller then calls TakeBack.
-  bool GivesUp(int peer, PartId mechanism, std::int32_t epoch) const;
+  bool HoldsInEpoch(int peer, PartId mechanism, std::int32_t epoch) const;
   /// Decides if a peer may report the state in which it released a body, as the grant of that epoch
   /// asked.
   Right RightToRelease(int peer, int body, std::int32_t epoch) const;
   /// Records the error of the server's copy of a body that is being handed over. If it is above
   /// kJump or kJumpVelocity, the server keeps the mechanism for kConvergeS before the successor
   /// gets it.
-  void NoteJump(int body, const BodyState& off);
+  void NoteCopyError(int body, const BodyState& off);
   /// True if NoteTold has an effect; see AuthorityView::exact.
   bool WatchesAgreement() const { return view_.exact; }
   /// Records the error of the server's copy of a body against its holder's state of the same tick.
@@ -134,35 +134,35 @@ class AuthorityManager {
 
   const AuthorityTable& table() const { return replica_.authority(); }
   /// Fills in the planner's input (authority_view.cpp).
-  void Look(const Situation& situation);
-  void LookAtPlayers(const Situation& situation, AuthorityView* view) const;
-  void LookAtMechanisms(const Situation& situation, AuthorityView* view);
-  void LookAtMechanism(int m, const Situation& situation, AuthorityView* view);
+  void Look(const PlannerInputs& situation);
+  void LookAtPlayers(const PlannerInputs& situation, AuthorityView* view) const;
+  void LookAtMechanisms(const PlannerInputs& situation, AuthorityView* view);
+  void LookAtMechanism(int m, const PlannerInputs& situation, AuthorityView* view);
   void LookAtBoxes(AuthorityView* view) const;
   /// True if the view may leave out mechanisms asleep far from all else.
-  bool LeavesOut(const AuthorityView& view);
+  bool MayLeaveOut(const AuthorityView& view);
   /// Choose the mechanisms of the view (authority_lying.cpp).
   void SeeAll();
-  void SeeWithoutLying(const AuthorityView& view);
-  bool MayLie(int m) const;
-  void FindDoubtful();
+  void SeeAwakeAndNear(const AuthorityView& view);
+  bool MayBeIndexed(int m) const;
+  void FindDisturbed();
   bool Lies(int m);
-  void PutLying(int m);
+  void IndexSleeping(int m);
   /// Returns a mechanism's index in the view; -1: left out.
   int PlaceOf(int m) const;
   template <class Visit>
   void EachBody(int m, const Visit& visit) const;
-  void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
-  void Plan(std::int64_t now_us, const Situation& situation);
+  void LookAtCapacity(std::int64_t now_us, const PlannerInputs& situation, AuthorityView* view);
+  void Plan(std::int64_t now_us, const PlannerInputs& situation);
   /// Returns by mechanism: 1 if it sleeps at the server and a plan will give it to a player before
   /// anything touches it. Other peers' bodies near it then need not be in the Box2D world on its
   /// account.
   std::vector<char> Unwatched(const AuthorityView& view) const;
   /// Returns peers that may lack authority over bodies they are about to touch.
-  PeerSet Doubtful(const AuthorityView& view) const;
+  PeerSet UncertainPeers(const AuthorityView& view) const;
   std::vector<Grants> TakeBack(std::int64_t now_us, const std::vector<int>& mechanisms);
   /// True if the holder was asked to release the mechanism long ago and has not answered.
-  bool Withheld(std::int64_t now_us, int m) const;
+  bool IsOverdue(std::int64_t now_us, int m) const;
   /// Withdraws an unanswered question: the holder keeps the mechanism in a new epoch.
   void Withdraw(int m);
   void ForgetQuestions(int m);
@@ -185,16 +185,16 @@ class AuthorityManager {
   std::vector<int> seen_;  // mechanisms in view_, ascending
   bool limited_ = false;   // the last plan had a player of limited capacity
   int see_all_ = 0;        // plans left that view all, as most of it is awake
-  Lying lying_;
+  Lying sleeping_index_;
   struct Lay {
     std::uint64_t still = 0;  // World::still
     Vec2 position{0, 0};
     float angle = 0;
   };
-  std::vector<Lay> lay_;          // by body of a sleeping mechanism
+  std::vector<Lay> at_rest_;      // by body of a sleeping mechanism
   std::vector<char> doubtful_;    // by sleeping mechanism: it may have been woken
-  std::vector<int> stirred_;      // scratch of FindDoubtful: bodies
-  std::uint64_t lay_change_ = 0;  // World::last_change at the last FindDoubtful
+  std::vector<int> stirred_;      // scratch of FindDisturbed: bodies
+  std::uint64_t index_change_ = 0;  // World::last_change at the last FindDisturbed
   CapacityWatch capacity_;
   std::vector<int> restricted_;  // parts that not every player may push
   bool sort_open_ = false;

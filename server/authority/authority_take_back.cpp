@@ -5,7 +5,7 @@
 
 namespace seam {
 
-bool AuthorityManager::Withheld(std::int64_t now_us, int m) const {
+bool AuthorityManager::IsOverdue(std::int64_t now_us, int m) const {
   const Memory& memory = memory_[static_cast<std::size_t>(m)];
   if (memory.hand_over != HandOver::kRevoking) return false;
   const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
@@ -13,10 +13,10 @@ bool AuthorityManager::Withheld(std::int64_t now_us, int m) const {
   return !answers;
 }
 
-PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
+PeerSet AuthorityManager::OverdueHolders(std::int64_t now_us) const {
   PeerSet peers;
   for (const int m : open_) {
-    if (Withheld(now_us, m)) peers.Add(table().at(m).authority);
+    if (IsOverdue(now_us, m)) peers.Add(table().at(m).authority);
   }
   return peers;
 }
@@ -40,7 +40,7 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us,
     record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation used up one
     memory.hand_over = HandOver::kNone;
     replica_.authority().Set(m, record);
-    lying_.Take(m);
+    sleeping_index_.Take(m);
     ForgetQuestions(m);
   }
   if (mechanisms.empty()) return {};

@@ -32,7 +32,7 @@ std::vector<int> RestrictedParts(const Scene& scene) {
   return restricted;
 }
 
-void AuthorityManager::Look(const Situation& situation) {
+void AuthorityManager::Look(const PlannerInputs& situation) {
   AuthorityView& view = view_;
   view.players.clear();
   view.mechanisms.clear();
@@ -52,7 +52,7 @@ void AuthorityManager::Look(const Situation& situation) {
   view.rules = *scene_.planner;
   view.together = situation.together;
   LookAtPlayers(situation, &view);
-  LeavesOut(view) ? SeeWithoutLying(view) : SeeAll();
+  MayLeaveOut(view) ? SeeAwakeAndNear(view) : SeeAll();
   for (std::vector<int>& mechanisms : view.together) {
     for (int& m : mechanisms) m = PlaceOf(m);
   }
@@ -73,7 +73,7 @@ void AuthorityManager::Look(const Situation& situation) {
   }
 }
 
-void AuthorityManager::LookAtPlayers(const Situation& situation, AuthorityView* view) const {
+void AuthorityManager::LookAtPlayers(const PlannerInputs& situation, AuthorityView* view) const {
   view->players.reserve(scene_.players.size());
   for (std::size_t p = 0; p < scene_.players.size(); ++p) {
     const Player& player = scene_.players[p];
@@ -89,7 +89,7 @@ void AuthorityManager::LookAtPlayers(const Situation& situation, AuthorityView* 
   }
 }
 
-void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situation,
+void AuthorityManager::LookAtCapacity(std::int64_t now_us, const PlannerInputs& situation,
                                       AuthorityView* view) {
   if (situation.load.empty()) return;
   for (std::size_t p = 0; p < view->players.size(); ++p) {
@@ -108,7 +108,7 @@ void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situ
   }
 }
 
-void AuthorityManager::LookAtMechanisms(const Situation& situation, AuthorityView* view) {
+void AuthorityManager::LookAtMechanisms(const PlannerInputs& situation, AuthorityView* view) {
   view->mechanisms.reserve(seen_.size());
   for (const int m : seen_) LookAtMechanism(m, situation, view);
   if (!islands_) return;
@@ -122,7 +122,7 @@ void AuthorityManager::LookAtMechanisms(const Situation& situation, AuthorityVie
   }
 }
 
-void AuthorityManager::LookAtMechanism(int m, const Situation& situation, AuthorityView* view) {
+void AuthorityManager::LookAtMechanism(int m, const PlannerInputs& situation, AuthorityView* view) {
   const World& world = replica_.world();
   const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
   Memory& memory = memory_[static_cast<std::size_t>(m)];
@@ -131,7 +131,7 @@ void AuthorityManager::LookAtMechanism(int m, const Situation& situation, Author
   const BodyState state = world.Read(root);
   seen.position = state.position;
   seen.owner = seen.driver = mechanism.owner;
-  seen.moves = world.awake(root) && state.velocity.norm() > kMissed;
+  seen.moves = world.awake(root) && state.velocity.norm() > kStandInSpeed;
   seen.asleep = !world.awake(root);
   if (situation.falls && situation.falls(mechanism.id)) memory.fell_tick = world.tick();
   seen.falls = world.tick() - memory.fell_tick <= config_.tick_hz / kBouncePart;
@@ -167,7 +167,7 @@ std::vector<char> AuthorityManager::Unwatched(const AuthorityView& view) const {
   return unwatched;
 }
 
-PeerSet AuthorityManager::Doubtful(const AuthorityView& view) const {
+PeerSet AuthorityManager::UncertainPeers(const AuthorityView& view) const {
   PeerSet doubtful;
   for (const PlayerView& p : view.players) {
     if (p.limited() || (p.silent && p.peer > 0)) doubtful.Add(p.peer);

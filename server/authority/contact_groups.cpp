@@ -24,11 +24,11 @@ float LongestWay(const AuthorityView& view) {
 
 class Look {
  public:
-  Look(const PlanGround& ground, const AuthorityPlan& plan, bool by_ways)
+  Look(const PlanGround& ground, const AuthorityPlan& plan, bool by_path)
       : view_(ground.view()),
         clusters_(ground.clusters()),
         plan_(plan),
-        fall_(by_ways ? FallAxisOf(view_.gravity) : FallAxis{}),
+        fall_(by_path ? FallAxisOf(view_.gravity) : FallAxis{}),
         one_way_(plan.size(), 0),
         servers_(plan.size(), 0),
         soon_(plan.size()),
@@ -37,7 +37,7 @@ class Look {
         server_later_(plan.size(), 0) {
     const PlayerOfPeer players(view_);
     for (std::size_t m = 0; m < plan.size(); ++m) {
-      servers_[m] = IsServers(m) ? 1 : 0;
+      servers_[m] = NeedsServer(m) ? 1 : 0;
       const int player = players.At(plan[m].authority);
       if (player >= 0) one_way_[m] = view_.players[static_cast<std::size_t>(player)].one_way_s;
     }
@@ -77,7 +77,7 @@ class Look {
 
   /// True if the server has to simulate the mechanism. When planning by islands, a sleeping one
   /// does not count: it costs nothing, and a player gets it before anything touches it.
-  bool IsServers(std::size_t m) const {
+  bool NeedsServer(std::size_t m) const {
     return plan_[m].authority == 0 && !(view_.islands && view_.mechanisms[m].asleep);
   }
 
@@ -115,13 +115,13 @@ class Look {
       server_later_[x] = server_later_[y] = 1;
       if (may_soon) server_soon_[x] = server_soon_[y] = 1;
     }
-    if (!OnTheirWays(a, b, later)) return;
+    if (!OnTheirPaths(a, b, later)) return;
     later_.Unite(a.group, b.group);
-    if (may_soon && OnTheirWays(a, b, soon)) soon_.Unite(a.group, b.group);
+    if (may_soon && OnTheirPaths(a, b, soon)) soon_.Unite(a.group, b.group);
   }
 
-  bool OnTheirWays(const MovingBox& a, const MovingBox& b, float seconds) const {
-    return (!Falls(a) && !Falls(b)) || MayMeetOnTheirWays(a, b, fall_, seconds);
+  bool OnTheirPaths(const MovingBox& a, const MovingBox& b, float seconds) const {
+    return (!Falls(a) && !Falls(b)) || MayMeetInFall(a, b, fall_, seconds);
   }
   bool Falls(const MovingBox& box) const {
     return fall_.axis >= 0 && view_.mechanisms[static_cast<std::size_t>(box.group)].falls;
@@ -139,8 +139,8 @@ class Look {
 
 }  // namespace
 
-ContactGroups FindContactGroups(const PlanGround& ground, const AuthorityPlan& plan, bool by_ways) {
-  return Look(ground, plan, by_ways).Sweep();
+ContactGroups FindContactGroups(const PlanGround& ground, const AuthorityPlan& plan, bool by_path) {
+  return Look(ground, plan, by_path).Sweep();
 }
 
 }  // namespace seam

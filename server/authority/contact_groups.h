@@ -14,9 +14,9 @@ struct ContactGroups {
   std::vector<char> server_soon, server_later;
 };
 
-/// Groups mechanisms with their planned authorities by MayMeet. With `by_ways`, and if gravity has
-/// an axis, a freely falling mechanism must also pass MayMeetOnTheirWays; pairs with the server's
+/// Groups mechanisms with their planned authorities by MayMeet. With `by_path`, and if gravity has
+/// an axis, a freely falling mechanism must also pass MayMeetInFall; pairs with the server's
 /// mechanisms need not.
-ContactGroups FindContactGroups(const PlanGround& ground, const AuthorityPlan& plan, bool by_ways);
+ContactGroups FindContactGroups(const PlanGround& ground, const AuthorityPlan& plan, bool by_path);
 
 }  // namespace seam

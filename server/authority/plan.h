@@ -45,7 +45,7 @@ struct MechanismView {
   int owner = -1;       ///< player that owns it as a vehicle; -1: none
   AuthorityRecord now;
   std::int64_t held_ticks = 0;         ///< since its authority last changed
-  bool moves = true;                   ///< faster than kMissed
+  bool moves = true;                   ///< faster than kStandInSpeed
   bool asleep = false;                 ///< all of its bodies sleep
   int driver = -1;                     ///< player that drives it: vehicle, character, seat
   PlayerMask may_have = kEveryPlayer;  ///< players that may get its authority
@@ -89,7 +89,7 @@ struct AuthorityView {
 ///   its boxes; peers with a mechanism that it may touch, directly or through others, before a
 ///   grant could reach them (ZoneSeconds); and every peer in a room of at most follow_bodies. In a
 ///   larger room a freely falling mechanism counts only if it may touch on its path
-///   (MayMeetOnTheirWays). If eight or more peers have mechanisms of a group, and less than three
+///   (MayMeetInFall). If eight or more peers have mechanisms of a group, and less than three
 ///   quarters of the group touch, indirect contacts count only within 24 m or along a chain of
 ///   touching bodies.
 ///   The server follows everything in a room of at most server_follow bodies, and in a scene where

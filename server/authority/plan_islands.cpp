@@ -63,16 +63,16 @@ class IslandPlan {
     for (std::size_t c = 0; c < clusters.count(); ++c) {
       const int p = islands_.driver(clusters.GroupOf(c));
       if (p >= 0 && !player(p).silent) LookAhead(c, p);
-      if (p < 0) clusters.Each(c, [&](std::size_t i) { LookAheadLoose(view_.boxes[i]); });
+      if (p < 0) clusters.Each(c, [&](std::size_t i) { ClaimForUndriven(view_.boxes[i]); });
     }
   }
 
   /// Claims for the holder of a moving mechanism without driver the sleeping islands it will hit.
-  void LookAheadLoose(const MovingBox& box) {
+  void ClaimForUndriven(const MovingBox& box) {
     const MechanismView& mechanism = view_.mechanisms[static_cast<std::size_t>(box.group)];
     const int p = players_.At(mechanism.now.authority);
     if (p < 0 || !mechanism.moves || player(p).silent) return;
-    const float ahead = SecondsAhead(p, box), way = box.velocity.norm() * ahead + kTouchGap;
+    const float ahead = LookAheadSeconds(p, box), way = box.velocity.norm() * ahead + kTouchGap;
     const Vec2 reach(way, way);
     grid_.Near(box.min - reach, box.max + reach, [&](int b) {
       const MovingBox& other = view_.boxes[static_cast<std::size_t>(b)];
@@ -97,7 +97,7 @@ class IslandPlan {
       if (p == island.holder) {
         island.holder_gap = std::min(island.holder_gap, gap);
         if (!island.awake && !island.holder_keeps) {
-          const float seconds = SecondsAhead(p, vehicle) + kTouchKeep;
+          const float seconds = LookAheadSeconds(p, vehicle) + kTouchKeep;
           island.holder_keeps = SecondsToTouch(vehicle, box, kTouchGap, seconds) != FLT_MAX;
         }
       }
@@ -110,12 +110,12 @@ class IslandPlan {
 
   /// Returns the look-ahead within which player p's peer must get what `own` will touch, s. Shorter
   /// for standing vehicles: these may be driven in any direction.
-  float SecondsAhead(int p, const MovingBox& own) const {
+  float LookAheadSeconds(int p, const MovingBox& own) const {
     const float ahead = own.velocity.norm() > kSettles ? kTouchAhead : kStandingAhead;
     return 2 * player(p).one_way_s + kPlanPeriod + ahead;
   }
 
-  /// Claims the island for player p if it will touch within `ahead` s, see SecondsAhead.
+  /// Claims the island for player p if it will touch within `ahead` s, see LookAheadSeconds.
   static void Claim(const MovingBox& own, float ahead, const MovingBox& other, int p,
                     Island* island) {
     const float after = SecondsToTouch(own, other, kTouchGap, ahead);
@@ -134,7 +134,7 @@ class IslandPlan {
     float way = 0, own_way = 0, longest = 0;
     clusters.Each(cluster, [&](std::size_t i) {
       const MovingBox& own = view_.boxes[i];
-      const float seconds = SecondsAhead(p, own);
+      const float seconds = LookAheadSeconds(p, own);
       ahead[i - clusters.begin(cluster)] = seconds;
       const float speeds = own.velocity.norm() + std::min(speed_, kApproachMax);
       const float more = kTouchGap + own.acceleration * seconds * seconds / 2;

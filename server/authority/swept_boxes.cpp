@@ -31,8 +31,7 @@ FallAxis FallAxisOf(const Vec2& gravity) {
   return {};
 }
 
-bool MayMeetOnTheirWays(const MovingBox& a, const MovingBox& b, const FallAxis& fall,
-                        float seconds) {
+bool MayMeetInFall(const MovingBox& a, const MovingBox& b, const FallAxis& fall, float seconds) {
   const float slack = kPressGap + (a.acceleration + b.acceleration) * seconds * seconds / 2;
   const int across = 1 - fall.axis, along = fall.axis;
   const float low = b.min[across] - slack - a.max[across];

@@ -21,7 +21,6 @@ FallAxis FallAxisOf(const Vec2& gravity);
 /// constant velocity across gravity, and along gravity anywhere within reach of a fall, rise or
 /// bounce. Requires an axis. Stricter than MayMeet, which allows any change of direction: a body
 /// deflected by another body or a wall is found only after that.
-bool MayMeetOnTheirWays(const MovingBox& a, const MovingBox& b, const FallAxis& fall,
-                        float seconds);
+bool MayMeetInFall(const MovingBox& a, const MovingBox& b, const FallAxis& fall, float seconds);
 
 }  // namespace seam

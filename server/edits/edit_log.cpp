@@ -18,9 +18,9 @@ constexpr double kBackSeconds = 1;
 
 /// Joints that edits of a batch remove, before any of them is applied. A later bond may reuse their
 /// indices: a second break of the same index would break the new bond.
-class TakenAway {
+class RemovedJoints {
  public:
-  explicit TakenAway(const Topology& topology) : topology_(topology) {}
+  explicit RemovedJoints(const Topology& topology) : topology_(topology) {}
 
   /// True if the edit would break a joint that another edit of the batch puts in that place.
   bool Misses(const Edit& edit) const {
@@ -145,9 +145,9 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
   std::vector<Pending> waiting;
   Batch batch;
   TakenParts taken;
-  TakenAway taken_away(topology);
+  RemovedJoints removed_joints(topology);
   for (Pending& pending : pending_) {
-    if (IsStale(pending) || taken_away.Misses(pending.edit)) {
+    if (IsStale(pending) || removed_joints.Misses(pending.edit)) {
       if (pending.peer > 0) ++batch.stale;
       continue;
     }
@@ -163,7 +163,7 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
     }
     if (physics && !PlausibleProposal(world_, pending.edit)) continue;  // the parts have moved on
     taken.Add(parts, by);
-    taken_away.Add(pending.edit);
+    removed_joints.Add(pending.edit);
     EditOrder order = ToOrder(pending.edit);
     order.utime = now_us;
     order.tick = last_tick_ = TickOf(pending);
@@ -197,7 +197,7 @@ std::vector<Edit> EditLog::TakePending() {
   return edits;
 }
 
-EditOrder EditLog::NoteAlone(const Edit& edit, std::int64_t now_us) {
+EditOrder EditLog::RecordLocalEdit(const Edit& edit, std::int64_t now_us) {
   EditOrder order = ToOrder(edit);
   order.utime = now_us;
   order.tick = world_.tick();

@@ -60,7 +60,7 @@ class EditLog {
   /// Returns and clears the pending edits, without numbers. Used instead of OrderPending.
   std::vector<Edit> TakePending();
   /// Call after an applied edit, instead of NoteApplied. Returns its order, for the record.
-  EditOrder NoteAlone(const Edit& edit, std::int64_t now_us);
+  EditOrder RecordLocalEdit(const Edit& edit, std::int64_t now_us);
 
   /// True if the composition after `revision` edits is known and is not `composition`.
   bool Differs(int revision, std::int64_t composition) const;

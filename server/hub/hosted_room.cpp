@@ -45,7 +45,7 @@ void HostedRoom::Run(std::int64_t now_us) {
   watch_.NoteCall(server_, now_us, wall_us, tick, due_us);
   if (!plan_.alone) watch_.NoteCpu(ThreadCpuUs() - cpu_us);
   if (server_.tick() != tick) NoteTicks();
-  CollectNews();
+  CollectReports();
   if (watch_.Due(now_us)) Tell(now_us);
   EndIfDone(now_us);
 }
@@ -86,9 +86,9 @@ void HostedRoom::Tell(std::int64_t now_us) {
 }
 
 /// Prefixes each event with its time: "12.3 s: bob is gone: left".
-void HostedRoom::CollectNews() {
+void HostedRoom::CollectReports() {
   std::vector<std::string> told = server_.TakeWarnings();
-  const std::vector<std::string> come_and_gone = server_.TakeNews();
+  const std::vector<std::string> come_and_gone = server_.TakeReports();
   if (plan_.news && !come_and_gone.empty()) {
     char when[40] = "";
     if (server_.started()) {
@@ -97,8 +97,8 @@ void HostedRoom::CollectNews() {
     }
     for (const std::string& news : come_and_gone) told.push_back(when + news);
   }
-  if (!trouble_said_ && !sink_.trouble().ok()) {
-    trouble_said_ = true;
+  if (!trouble_reported_ && !sink_.trouble().ok()) {
+    trouble_reported_ = true;
     told.push_back(sink_.trouble().why() + "; the room runs on");
   }
   if (told.empty()) return;
@@ -118,7 +118,7 @@ bool HostedRoom::done() const {
   return done_;
 }
 
-std::vector<std::string> HostedRoom::TakeNews() {
+std::vector<std::string> HostedRoom::TakeReports() {
   const std::lock_guard<std::mutex> lock(mutex_);
   return std::exchange(news_, {});
 }

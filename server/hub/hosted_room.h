@@ -53,7 +53,7 @@ class HostedRoom : public Runnable {
   bool done() const;
   /// Thread-safe: returns the lines for the operator since the last call: warnings, and players
   /// that came and went.
-  std::vector<std::string> TakeNews();
+  std::vector<std::string> TakeReports();
 
   // Only while no thread runs the room:
   /// Says goodbye to the clients, unless done, and closes the recording.
@@ -71,7 +71,7 @@ class HostedRoom : public Runnable {
   std::int64_t CpuForStats(std::int64_t now_us) const;
   void NoteTicks();
   void Tell(std::int64_t now_us);
-  void CollectNews();
+  void CollectReports();
   void EndIfDone(std::int64_t now_us);
 
   const RoomPlan plan_;
@@ -84,7 +84,7 @@ class HostedRoom : public Runnable {
   LoadWatch watch_;
   TickTimes tick_times_;
   std::int64_t ran_us_ = 0;
-  bool trouble_said_ = false;
+  bool trouble_reported_ = false;
   mutable std::mutex mutex_;  // guards all below
   RoomLoad newest_;
   bool done_ = false;

@@ -67,7 +67,7 @@ void Hub::Take(std::int64_t now_us) {
 }
 
 void Hub::Poll(std::int64_t now_us) {
-  gather_.NotePolled(now_us);
+  wake_policy_.NotePolled(now_us);
   Take(now_us);
   for (std::size_t r = 0; r < rooms_.size(); ++r) {
     const bool mail = mail_[r];
@@ -85,9 +85,9 @@ void Hub::Wait() {
   if (lanes_ == nullptr) {
     for (const auto& room : rooms_) due_us = std::min(due_us, room->due_us());
   }
-  SleepUs(gather_.SleepsUntil(due_us) - SteadyClockUs());
+  SleepUs(wake_policy_.SleepsUntil(due_us) - SteadyClockUs());
   const bool came = udp_.Wait(std::max<std::int64_t>(0, due_us - SteadyClockUs()));
-  gather_.NoteWaited(SteadyClockUs(), came);
+  wake_policy_.NoteWaited(SteadyClockUs(), came);
 }
 
 bool Hub::done() const {
@@ -114,10 +114,10 @@ std::vector<RoomLoad> Hub::Loads() const {
   return loads;
 }
 
-std::vector<std::string> Hub::TakeNews() {
+std::vector<std::string> Hub::TakeReports() {
   std::vector<std::string> all;
   for (const auto& room : rooms_) {
-    for (std::string& news : room->TakeNews()) all.push_back(std::move(news));
+    for (std::string& news : room->TakeReports()) all.push_back(std::move(news));
   }
   return all;
 }

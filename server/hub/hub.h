@@ -43,7 +43,7 @@ class Hub {
   /// Returns the newest Load of each room that has published one.
   std::vector<RoomLoad> Loads() const;
   /// Returns the lines for the operator of all rooms.
-  std::vector<std::string> TakeNews();
+  std::vector<std::string> TakeReports();
   /// Datagrams that belong to no room.
   std::int64_t strangers() const { return strangers_; }
   /// Threads that run rooms now; 0 without workers.
@@ -60,7 +60,7 @@ class Hub {
   std::vector<std::unique_ptr<HostedRoom>> rooms_;
   std::vector<bool> mail_;  // by room: got a datagram in this Take
   std::int64_t strangers_ = 0;
-  Gather gather_;
+  Gather wake_policy_;
   std::unique_ptr<Lanes> lanes_;
 };
 

@@ -24,7 +24,7 @@ std::string OneRoom(const HostedRoom& room) {
 
 }  // namespace
 
-bool HubTells(const Hub& hub) {
+bool HasReport(const Hub& hub) {
   if (hub.lane_count() == 0) return true;
   const std::vector<RoomLoad> loads = hub.Loads();
   return std::any_of(loads.begin(), loads.end(),

@@ -8,7 +8,7 @@
 namespace seam {
 
 /// True if there is something to report: no worker threads, or a room that has started.
-bool HubTells(const Hub& hub);
+bool HasReport(const Hub& hub);
 
 /// Returns the progress line: for one room as ServerProgress, for several "64 rooms, 980 player(s),
 /// worst p99 tick 2.1 ms, lateness 4.0 ms, 2 thread(s)". Adds the speed of the slowest clock if the

@@ -4,7 +4,7 @@
 
 namespace seam {
 
-std::vector<Blow> BlowsOf(const World& world) {
+std::vector<Blow> ImpactsOf(const World& world) {
   std::vector<Blow> blows;
   for (const Impact& impact : world.impacts()) {
     const int a = impact.body_a, b = impact.body_b;

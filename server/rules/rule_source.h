@@ -29,13 +29,13 @@ class RuleSource {
   /// Returns the tick of that state. It never decreases from one call to the next of a later tick.
   virtual std::int64_t TickOf(int body, std::int64_t tick) const = 0;
   /// Marks all known ticks as processed.
-  virtual void NoteLooked() = 0;
+  virtual void MarkProcessed() = 0;
   /// Returns the impacts on bodies since the last call, each once.
-  virtual std::vector<Blow> TakeBlows() = 0;
+  virtual std::vector<Blow> TakeImpacts() = 0;
 };
 
 /// Returns the impacts of the world's last tick: one Blow for each moving body of an impact.
-std::vector<Blow> BlowsOf(const World& world);
+std::vector<Blow> ImpactsOf(const World& world);
 
 /// Source for a world that no other peer simulates.
 class WorldSource : public RuleSource {
@@ -46,8 +46,8 @@ class WorldSource : public RuleSource {
   std::vector<std::int64_t> Ticks() const override { return {world_.tick()}; }
   BodyState ReadAt(int body, std::int64_t) const override { return Read(body); }
   std::int64_t TickOf(int, std::int64_t tick) const override { return tick; }
-  void NoteLooked() override {}
-  std::vector<Blow> TakeBlows() override { return BlowsOf(world_); }
+  void MarkProcessed() override {}
+  std::vector<Blow> TakeImpacts() override { return ImpactsOf(world_); }
 
  private:
   const World& world_;

@@ -13,7 +13,7 @@ namespace {
 
 /// Hazards wait at most this long for a state of a body inside, ticks: 0.5 s. A smaller value hurts
 /// bodies that have already left; a larger one hurts sleeping bodies late.
-constexpr std::int64_t kSilentMost = 30;
+constexpr std::int64_t kSilentTicksMax = 30;
 
 }  // namespace
 
@@ -84,7 +84,7 @@ std::string Rules::PlayerName(int player) const {
 void Rules::RunTriggers() {
   if (scene().triggers.empty()) return;
   for (const std::int64_t tick : source_.Ticks()) RunTriggersAt(tick);
-  source_.NoteLooked();
+  source_.MarkProcessed();
 }
 
 void Rules::RunTriggersAt(std::int64_t tick) {
@@ -181,7 +181,7 @@ void Rules::RunHazards() {
     auto& [index_part, stay] = *it;
     const Trigger& trigger = scene().triggers[static_cast<std::size_t>(index_part.first)];
     const bool is_inside = triggers_.inside().count(index_part) != 0;
-    const bool is_silent = is_inside && stay.silent++ > kSilentMost;
+    const bool is_silent = is_inside && stay.silent++ > kSilentTicksMax;
     const std::int64_t known = stay.last - stay.first + 1 + (is_silent ? stay.silent : 0);
     const std::int64_t ticks = std::max<std::int64_t>(0, known - stay.hurt);
     stay.hurt += ticks;

@@ -93,7 +93,7 @@ class Rules {
   void Die(PartId part);
   // rules_scripts.cpp
   void RunScripts();
-  void SayStopped(Script& script);
+  void ReportStopped(Script& script);
 
   const Scene& scene() const { return world_.scene(); }
   bool Exists(PartId part) const;
@@ -122,7 +122,7 @@ class Rules {
   std::vector<PlayerEvent> player_events_;
   std::unique_ptr<ScriptRoom> room_;  // host of the scripts
   std::vector<std::unique_ptr<Script>> scripts_;
-  std::set<std::string> stopped_said_;
+  std::set<std::string> stopped_reported_;
   std::vector<PartTouch> touching_;  // after the last tick
 };
 

@@ -22,7 +22,7 @@ bool OfActiveCharacter(const Scene& scene, PartId id) {
 }  // namespace
 
 void Rules::RunDamage() {
-  for (const Blow& blow : source_.TakeBlows()) Strike(blow);
+  for (const Blow& blow : source_.TakeImpacts()) Strike(blow);
 }
 
 void Rules::Strike(const Blow& blow) {
@@ -45,7 +45,7 @@ void Rules::Strike(const Blow& blow) {
   const PartRules& rules = *scene().parts[static_cast<std::size_t>(hurt)].rules;
   if (blow.dv <= rules.hurt_above) return;
   const int player = blow.by >= 0 ? PlayerOf(world_, world_.mechanism(blow.by)) : -1;
-  Hurt(hurt, (blow.dv - rules.hurt_above) * rules.hurt_factor, player);
+  Hurt(hurt, (blow.dv - rules.hurt_above) * rules.damage_factor, player);
 }
 
 void Rules::Hurt(PartId part, float amount, int by_player) {
@@ -69,7 +69,7 @@ void Rules::Die(PartId id) {
   const bool person = OfActiveCharacter(scene(), id);
   if (person) {
     try {
-      commands_.Limp(id, kLimpForGood);
+      commands_.Limp(id, kLimpUntilReleased);
     } catch (const ScriptRefusal&) {
       return;  // too many edits are pending: retried in the next tick
     }

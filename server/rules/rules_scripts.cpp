@@ -36,12 +36,12 @@ void Rules::RunScripts() {
       }
       script->OnTick(t);
     }
-    if (script->stopped()) SayStopped(*script);
+    if (script->stopped()) ReportStopped(*script);
   }
 }
 
-void Rules::SayStopped(Script& script) {
-  if (!stopped_said_.insert(script.name()).second) return;
+void Rules::ReportStopped(Script& script) {
+  if (!stopped_reported_.insert(script.name()).second) return;
   commands_.Warn("script " + script.name() + " is stopped: " + script.error());
 }
 

@@ -13,15 +13,15 @@ namespace {
 /// A part this near to its place in a seat, m and rad, can be fastened without a visible jump.
 constexpr float kFastenWithin = 0.05f, kFastenTurn = 0.2f;
 /// A part that has not arrived this long after the normal time of the way is released, s.
-constexpr int kComeWithin = 2;
+constexpr int kArrivalMargin = 2;
 /// Least speed at which peers that heard late show the part catching up, m/s.
-constexpr float kComesAfter = 2;
+constexpr float kCatchUpSpeed = 2;
 /// Time until a body has settled in the view of a peer that has just joined, s.
 constexpr double kSettles = 0.6;
 /// Way::heard_at while a peer is joining.
 constexpr int kComingIn = -2;
 /// Longest wait for such peers after the end of the way, s.
-constexpr double kPeersWithin = 1.5;
+constexpr double kPeerWaitMax = 1.5;
 
 bool PlayerSits(const World& world, int player) {
   for (const Seat& seat : world.scene().seats) {
@@ -122,7 +122,7 @@ std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
       if (way.ticks < Due(world, s)) continue;
       edits.push_back(bond);
       asked_[s] = own;
-    } else if (over > kComeWithin * scene.solver.tick_hz) {
+    } else if (over > kArrivalMargin * scene.solver.tick_hz) {
       edits.emplace_back(SeatEdit{static_cast<std::int32_t>(s), -1}, EditCause::kOutside);
       asked_[s] = own;
     }
@@ -135,12 +135,12 @@ std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
 /// the displayed part arrives would make it jump.
 int SeatBonds::Due(const World& world, std::size_t seat) const {
   const int hz = world.scene().solver.tick_hz;
-  const int last = SeatTicks(hz) + static_cast<int>(kPeersWithin * hz);
+  const int last = SeatTicks(hz) + static_cast<int>(kPeerWaitMax * hz);
   const Way& way = ways_[seat];
   if (way.heard_at < 0) return last;
   const float late = static_cast<float>(std::max(0, way.heard_at - SeatWaitTicks(hz)));
   const float speed = PartPose(world, world.scene().seats[seat].part).velocity.norm();
-  const float behind = std::min(speed * late / kComesAfter, 1e6f);
+  const float behind = std::min(speed * late / kCatchUpSpeed, 1e6f);
   return std::min(last, way.heard_at + static_cast<int>(behind));
 }
 

@@ -34,7 +34,7 @@ std::int64_t StateTrail::FirstOf(const Trail& trail, std::size_t i) const {
   const Seen &before = trail[i - 1], &state = trail[i];
   const std::int64_t ticks = state.tick - before.tick;
   const float way = (state.state.position - before.state.position).norm();
-  const bool moved = ticks <= kWayMost && way <= kPutThere * static_cast<float>(ticks);
+  const bool moved = ticks <= kMaxGapTicks && way <= kMaxStep * static_cast<float>(ticks);
   return moved ? before.tick + 1 : state.tick;
 }
 
@@ -74,7 +74,7 @@ std::int64_t StateTrail::TickOf(int body, std::int64_t tick) const {
   return std::min(at, trail.back().tick);
 }
 
-void StateTrail::NoteLooked() {
+void StateTrail::MarkProcessed() {
   for (std::size_t b = 0; b < trails_.size(); ++b) {
     if (!trails_[b].empty()) looked_[b] = trails_[b].back().tick;
   }

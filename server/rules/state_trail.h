@@ -30,7 +30,7 @@ class StateTrail {
   /// Returns the states of a body around a range of ticks: the last one before `from`, and all from
   /// `from` to `to`. Empty if all known states are later.
   std::vector<Seen> Between(int body, std::int64_t from, std::int64_t to) const;
-  /// Returns the ticks that became known for any body since NoteLooked, each once, ascending:
+  /// Returns the ticks that became known for any body since MarkProcessed, each once, ascending:
   /// the ticks of new states, and those between a new state and the one before it.
   std::vector<std::int64_t> NewTicks() const;
   /// Returns the pose at a tick, interpolated linearly between the states around it; the newest
@@ -40,17 +40,17 @@ class StateTrail {
   /// Returns the tick of the state that At returns; -1 if all known states are later.
   std::int64_t TickOf(int body, std::int64_t tick) const;
   /// Marks all states as processed.
-  void NoteLooked();
+  void MarkProcessed();
   /// Renumbers after the bodies have changed; a body that is no longer the same loses its past.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
   static constexpr std::size_t kKept = 128;  ///< states: two seconds of every tick
   /// Longest gap between two states that is interpolated, ticks; after a longer silence only the
   /// reported states count.
-  static constexpr std::int64_t kWayMost = 60;
+  static constexpr std::int64_t kMaxGapTicks = 60;
   /// A body that moves further than this per tick was teleported, m: 120 m/s, twice the speed of
   /// fast throws.
-  static constexpr float kPutThere = 2;
+  static constexpr float kMaxStep = 2;
 
  private:
   using Trail = std::deque<Seen>;

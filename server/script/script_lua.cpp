@@ -207,7 +207,7 @@ struct Script::Impl {
     if (guard.line > 0) line = guard.line;
     if (guard.spent) return Stop(line, guard.why);
     if (status == LUA_ERRMEM) {
-      LuaExplain(&guard);
+      LuaDescribeLimit(&guard);
       return Stop(line, guard.why);
     }
     // Nothing here may run the script's code or raise: only an error that is a string is read.

@@ -23,7 +23,7 @@ constexpr std::int64_t kCatchUnits = 20;
 const char kCopies = 0;
 
 int FinishCall(lua_State* L, int status, lua_KContext /*context*/) {
-  LuaAfter(L, status);
+  LuaCheckStatus(L, status);
   if (status == LUA_OK || status == LUA_YIELD) return lua_gettop(L);
   lua_pushboolean(L, 0);
   lua_insert(L, -2);
@@ -48,7 +48,7 @@ int Run(lua_State* L, lua_State* co, int count) {
   lua_xmove(L, co, count);
   int results = 0;
   const int status = lua_resume(co, L, count, &results);
-  LuaAfter(L, status);
+  LuaCheckStatus(L, status);
   if (status != LUA_OK && status != LUA_YIELD) {
     lua_xmove(co, L, 1);
     return -1;

@@ -21,7 +21,7 @@ constexpr std::int64_t kErrorUnits = 200;
 void Look(lua_State* L, lua_Debug* /*where*/) {
   LuaGuard& guard = GuardOf(L);
   guard.work -= guard.spent ? 1 : kLookEvery;
-  if (guard.work < 0 || guard.spent) LuaSpend(L);
+  if (guard.work < 0 || guard.spent) LuaStopScript(L);
 }
 
 /// Returns the largest block of memory, which bounds the time of a single instruction (a call with
@@ -67,14 +67,14 @@ void LuaWatch(lua_State* L) { lua_sethook(L, Look, LUA_MASKCOUNT, kLookEvery); }
 void LuaCharge(lua_State* L, std::int64_t units) {
   LuaGuard& guard = GuardOf(L);
   guard.work -= units;
-  if (guard.work < 0 || guard.spent) LuaSpend(L);
+  if (guard.work < 0 || guard.spent) LuaStopScript(L);
 }
 
-void LuaSpend(lua_State* L) {
+void LuaStopScript(lua_State* L) {
   LuaGuard& guard = GuardOf(L);
   if (!guard.spent) {
     guard.spent = true;
-    LuaExplain(&guard);
+    LuaDescribeLimit(&guard);
     // Takes the line of the running function, or of the Lua function that called a C function.
     lua_Debug where;
     for (int level = 0; level < 4 && lua_getstack(L, level, &where) != 0; ++level) {
@@ -101,13 +101,13 @@ void LuaRefuse(lua_State* L, const char* what) {
   std::abort();  // lua_error does not return
 }
 
-void LuaAfter(lua_State* L, int status) {
+void LuaCheckStatus(lua_State* L, int status) {
   LuaGuard& guard = GuardOf(L);
-  if (guard.spent || status == LUA_ERRMEM) LuaSpend(L);
+  if (guard.spent || status == LUA_ERRMEM) LuaStopScript(L);
   if (status != LUA_OK && status != LUA_YIELD) LuaCharge(L, kErrorUnits);
 }
 
-void LuaExplain(LuaGuard* guard) {
+void LuaDescribeLimit(LuaGuard* guard) {
   if (guard->work < 0) {
     std::snprintf(guard->why, sizeof guard->why, "more than %lld instructions in a tick",
                   static_cast<long long>(guard->limits.instructions));

@@ -49,12 +49,12 @@ void LuaWatch(lua_State* L);
 /// Charges `units` of work, one per instruction; raises if none is left.
 void LuaCharge(lua_State* L, std::int64_t units);
 /// Ends the script: raises an error that no pcall catches.
-[[noreturn]] void LuaSpend(lua_State* L);
+[[noreturn]] void LuaStopScript(lua_State* L);
 /// Writes the exceeded limit as one line to guard.why: memory, unless the work is used up.
-void LuaExplain(LuaGuard* guard);
+void LuaDescribeLimit(LuaGuard* guard);
 /// Handles the `status` of a protected call inside the script: raises again an error that must not
 /// be caught, and charges for one that may.
-void LuaAfter(lua_State* L, int status);
+void LuaCheckStatus(lua_State* L, int status);
 
 /// Raises `what` with the script's line as prefix, unless it already begins with the scene and a
 /// line.

@@ -100,9 +100,9 @@ int Push(lua_State* L, float scale, const char* why) {
 /// limp(character [, seconds | true | false])
 int Limp(lua_State* L) {
   const char* character = luaL_checkstring(L, 1);
-  float seconds = kLimpForGood;
+  float seconds = kLimpUntilReleased;
   if (lua_isboolean(L, 2)) {
-    seconds = lua_toboolean(L, 2) != 0 ? kLimpForGood : -1;
+    seconds = lua_toboolean(L, 2) != 0 ? kLimpUntilReleased : -1;
   } else if (!lua_isnoneornil(L, 2)) {
     seconds = LuaNumber(L, 2);
     luaL_argcheck(L, seconds > 0, 2, "seconds above 0, true or false");

@@ -54,7 +54,7 @@ class AHeldWorld : public ::testing::Test {
 
   SyncConfig config_;
   std::unique_ptr<Replica> replica_;
-  HeldWorld held_;
+  JoinBuffer held_;
 };
 
 TEST_F(AHeldWorld, WhatLayOnceAndMovesSinceMoves) {
@@ -113,7 +113,7 @@ TEST_F(AHeldWorld, WhatIsKnownOnlyOfALaterTickIsThereAtOnce) {
 }
 
 TEST_F(AHeldWorld, OfALongWaitTheNewestIsKept) {
-  const auto ticks = static_cast<std::int64_t>(HeldWorld::kHeldMax);
+  const auto ticks = static_cast<std::int64_t>(JoinBuffer::kHeldMax);
   Lies(1, 3, 5);
   for (std::int64_t tick = 1; tick <= 2 * ticks; ++tick) Moves(0, tick, 0.1f);
   Moves(0, 2 * ticks + 1, 7);
@@ -126,9 +126,9 @@ TEST_F(AHeldWorld, OfALongWaitTheNewestIsKept) {
 }
 
 TEST_F(AHeldWorld, NoServerFillsTheMemoryOfAClient) {
-  const auto most = static_cast<PartId>(HeldWorld::kHeldMax);
+  const auto most = static_cast<PartId>(JoinBuffer::kHeldMax);
   for (PartId id = 0; id < 2 * most; ++id) Moves(id, 5, 0);
-  EXPECT_EQ(held_.size(), HeldWorld::kHeldMax);
+  EXPECT_EQ(held_.size(), JoinBuffer::kHeldMax);
 }
 
 /// The wire's angles have lost their turns: nearest to where the scene had it, the second was six
@@ -151,7 +151,7 @@ TEST(AHeldMechanism, HasTheTurnsThatItsHingesAllow) {
   bodies[1].state.angle = 3.6f;
   const Vec2 elbow = Turned(Vec2(0.5f, 0), 3.0f);
   bodies[1].state.position = elbow + Turned(Vec2(0.5f, 0), 3.6f);
-  HeldWorld held;
+  JoinBuffer held;
   for (const States& states : Pack(header, bodies)) held.Add(states);
   replica.StartAt(70);
   held.GiveTo(replica);

@@ -1,4 +1,4 @@
-/// SceneShelf: the same text is one scene, and what is no scene is refused as ParseScene does.
+/// SceneCache: the same text is one scene, and what is no scene is refused as ParseScene does.
 
 #include "client/scene_shelf.h"
 
@@ -11,8 +11,8 @@ namespace scene_shelf_test {
 
 const char* const kBall = "[[part]]\nname = \"ball\"\ncircle = 0.5\n";
 
-TEST(SceneShelf, TheSameTextIsOneSceneForAsLongAsSomebodyHasIt) {
-  SceneShelf shelf;
+TEST(SceneCache, TheSameTextIsOneSceneForAsLongAsSomebodyHasIt) {
+  SceneCache shelf;
   auto one = shelf.Of(kBall, "ball.toml");
   auto other = shelf.Of(kBall, "ball.toml");
   EXPECT_EQ(one, other);
@@ -25,8 +25,8 @@ TEST(SceneShelf, TheSameTextIsOneSceneForAsLongAsSomebodyHasIt) {
   EXPECT_EQ(shelf.Of(kBall, "ball.toml")->parts.size(), 1u);
 }
 
-TEST(SceneShelf, AnotherTextOrNameIsAnotherScene) {
-  SceneShelf shelf;
+TEST(SceneCache, AnotherTextOrNameIsAnotherScene) {
+  SceneCache shelf;
   const auto ball = shelf.Of(kBall, "ball.toml");
   const auto named = shelf.Of(kBall, "disc.toml");
   const auto larger = shelf.Of("[[part]]\nname = \"ball\"\ncircle = 0.7\n", "ball.toml");
@@ -35,8 +35,8 @@ TEST(SceneShelf, AnotherTextOrNameIsAnotherScene) {
   EXPECT_NE(ball, larger);
 }
 
-TEST(SceneShelf, WhatIsNoSceneIsRefusedEachTime) {
-  SceneShelf shelf;
+TEST(SceneCache, WhatIsNoSceneIsRefusedEachTime) {
+  SceneCache shelf;
   for (int i = 0; i < 2; ++i) EXPECT_THROW(shelf.Of("[[part]]\n", "x.toml"), OperatorError);
 }
 

@@ -27,7 +27,7 @@ void Add(int n, std::int64_t tick_us, std::int64_t late_us, RoomLoad* told) {
 }
 
 TEST(SwarmReport, P99IsOfTheWholeMeasuredTimeAndOfAllRooms) {
-  ServerTold told;
+  ServerLoads told;
   RoomLoad a = Told("a", 1), b = Told("b", 1);
   Add(1000, 200000, 200000, &a);  // while they joined
   told.before = {a, b};
@@ -43,7 +43,7 @@ TEST(SwarmReport, P99IsOfTheWholeMeasuredTimeAndOfAllRooms) {
 }
 
 TEST(SwarmReport, WhatDidNotAnswerAtTheBeginningIsCountedFromWhereItDid) {
-  ServerTold told;
+  ServerLoads told;
   RoomLoad a = Told("a", 1);
   Add(1000, 200000, 200000, &a);
   told.meanwhile = {a};
@@ -56,7 +56,7 @@ TEST(SwarmReport, WhatDidNotAnswerAtTheBeginningIsCountedFromWhereItDid) {
 }
 
 TEST(SwarmReport, OnABusOnlyTheWorstSecondIsKnown) {
-  ServerTold told;
+  ServerLoads told;
   told.meanwhile = {Told("a", 1), Told("a", 2)};
   const std::string said = ServerReport(told);
   EXPECT_EQ(said.substr(0, said.find('\n')),

@@ -219,7 +219,7 @@ TEST(EditTick, AReplayDoesAgainWhatEditsDidThatChangeNoBodies) {
     for (std::int64_t t = from; t <= to; ++t) {
       Input input;
       input.drive = t <= 20 ? 127 : -127;
-      replica->NoteInput(0, t, input);
+      replica->RecordInput(0, t, input);
     }
   };
   for (std::int64_t tick = 1; tick <= 90; ++tick) {
@@ -267,7 +267,7 @@ TEST(EditTick, WhatIsSaidOfATickByWhoLackedAnEditBeforeItIsNoNews) {
     server.Step();
     Input input;
     input.drive = 127;
-    client.NoteInput(0, tick, input);
+    client.RecordInput(0, tick, input);
     client.Step();
     for (const States& states : client.TakeStates()) {
       const Received received = server.Receive(states);

@@ -135,8 +135,8 @@ void Fail(bool large, std::int64_t seed, double from_s, double for_s, const std:
   cluster.RunToTick(static_cast<std::int64_t>((from_s + for_s + 8) * 60));
   onlooker.ExpectOneAuthority();
   EXPECT_GT(onlooker.withdrawn, 0) << "nobody was asked in vain: this shows nothing";
-  // In a large room the server follows of a silent holder's only what moves (kMissed): what was at
-  // the end of its swing then waits there.
+  // In a large room the server follows of a silent holder's only what moves (kStandInSpeed): what
+  // was at the end of its swing then waits there.
   EXPECT_LT(onlooker.longest_still, large ? 180 : 60) << "it stands";
   ExpectAgreed(cluster);
 }

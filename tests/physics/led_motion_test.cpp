@@ -42,14 +42,14 @@ TEST(LedBody, IsFeltWithItsOwnMassAndNotAsAWall) {
   for (const double mass : {2.0, 3.0, 10.0}) {
     const double free = 6 * (1 - mass) / (1 + mass);
     EXPECT_NEAR(Rebound(mass, Motion::kDynamic), free, 0.01) << mass << " kg";
-    EXPECT_NEAR(Rebound(mass, Motion::kLed), free, 0.01) << mass << " kg";
+    EXPECT_NEAR(Rebound(mass, Motion::kPrescribed), free, 0.01) << mass << " kg";
     EXPECT_NEAR(Rebound(mass, Motion::kKinematic), -6, 0.01) << mass << " kg";
   }
 }
 
 TEST(LedBody, StrikesWithItsOwnMassToo) {
   const std::unique_ptr<World> world = TwoDiscs(1.0 / 3);
-  world->SetMotion(kShown, Motion::kLed);
+  world->SetMotion(kShown, Motion::kPrescribed);
   BodyState shown = world->Read(kShown);
   shown.velocity = {-8, 0};
   world->Write(kShown, shown);
@@ -60,7 +60,7 @@ TEST(LedBody, StrikesWithItsOwnMassToo) {
 
 TEST(LedBody, IsWhereItsPathTakesItWhateverHitsIt) {
   const std::unique_ptr<World> world = TwoDiscs(3);
-  world->SetMotion(kShown, Motion::kLed);
+  world->SetMotion(kShown, Motion::kPrescribed);
   const BodyState start{{3, 0}, 0.25f, {-1, 0.125f}, 2};
   world->Write(kShown, start);
   BodyState ball = world->Read(kBall);
@@ -83,7 +83,7 @@ TEST(LedBody, GravityDoesNotMoveItNorDoesWhatItStandsIn) {
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"ground\"\nchain = [[-9, 0], [9, 0]]\n"
       "[[part]]\nname = \"shown\"\nbox = [1, 1]\nposition = [0, 0.2]\n");
-  world->SetMotion(0, Motion::kLed);
+  world->SetMotion(0, Motion::kPrescribed);
   world->Write(0, BodyState{{0, 0.2f}, 0.1f, {0, 0}, 0});
   Steps(world.get(), 30);
   EXPECT_EQ(world->Read(0).position, Vec2(0, 0.2f));
@@ -99,7 +99,7 @@ const char* const kLopsided =
 TEST(LedBody, ThePathIsThatOfItsOriginAlsoWhenItsMassLiesElsewhere) {
   const std::unique_ptr<World> world = SmallWorld(kLopsided, "substeps = 4", kNoGravity);
   ASSERT_EQ(world->body_count(), 1);
-  world->SetMotion(0, Motion::kLed);
+  world->SetMotion(0, Motion::kPrescribed);
   const BodyState start{{10, 5}, 0, {2, -1}, 4};
   world->Write(0, start);
   for (int tick = 1; tick <= 60; ++tick) {
@@ -115,7 +115,8 @@ TEST(LedBody, AChangeOfMotionCarriesTheMotionOver) {
   const std::unique_ptr<World> world = SmallWorld(kLopsided, "substeps = 4", kNoGravity);
   const BodyState free{{10, 5}, 0.3f, {2, -1}, 4};  // of the centre of mass
   world->Write(0, free);
-  for (const Motion motion : {Motion::kLed, Motion::kKinematic, Motion::kLed, Motion::kDynamic}) {
+  for (const Motion motion :
+       {Motion::kPrescribed, Motion::kKinematic, Motion::kPrescribed, Motion::kDynamic}) {
     world->SetMotion(0, motion);
     EXPECT_EQ(world->motion(0), motion);
   }
@@ -124,25 +125,25 @@ TEST(LedBody, AChangeOfMotionCarriesTheMotionOver) {
   EXPECT_NEAR((again.velocity - free.velocity).norm(), 0, 1e-5);
   EXPECT_EQ(again.spin, free.spin);
   // The origin of what turns is not as fast as its centre of mass.
-  world->SetMotion(0, Motion::kLed);
+  world->SetMotion(0, Motion::kPrescribed);
   EXPECT_NEAR((world->Read(0).velocity - free.velocity).norm(), 0.5 * 4, 1e-5);
 }
 
 TEST(LedBody, ABarrierKeepsItLedAndGoingBackDoesTheSameAgain) {
   const std::unique_ptr<World> world = TwoDiscs(3);
-  world->SetMotion(kShown, Motion::kLed);
+  world->SetMotion(kShown, Motion::kPrescribed);
   world->Write(kShown, BodyState{{3, 0}, 0, {-1, 0}, 1});
   BodyState ball = world->Read(kBall);
   ball.velocity = {4, 0.1f};
   world->Write(kBall, ball);
   Steps(world.get(), 10);
   const WorldSnapshot snapshot = world->Barrier();
-  EXPECT_EQ(world->motion(kShown), Motion::kLed);
+  EXPECT_EQ(world->motion(kShown), Motion::kPrescribed);
   Steps(world.get(), 50);
   const std::uint64_t once = world->Hash();
   EXPECT_LT(world->Read(kBall).velocity.x(), 0) << "the two have met since";
   ASSERT_TRUE(world->Restore(snapshot).ok());
-  EXPECT_EQ(world->motion(kShown), Motion::kLed);
+  EXPECT_EQ(world->motion(kShown), Motion::kPrescribed);
   Steps(world.get(), 50);
   EXPECT_EQ(world->Hash(), once);
   EXPECT_NEAR(world->Read(kShown).position.x(), 2, 1e-5);
@@ -153,20 +154,20 @@ TEST(LedBody, WhatBreaksElsewhereLeavesItLed) {
                                    "[[part]]\nname = \"shown\"\nbox = [1, 1]\nposition = [0, 0]\n",
                                "test.toml"));
   World& world = run.world;
-  world.SetMotion(run.Body("shown"), Motion::kLed);
+  world.SetMotion(run.Body("shown"), Motion::kPrescribed);
   world.Write(run.Body("shown"), BodyState{{0, 0}, 0, {3, 0}, 0});
   run.StepTo(6);
   ASSERT_EQ(world.body_count(), 2);
   ASSERT_TRUE(world.Apply({Edit(BreakEdit{0})}).has_value());
   ASSERT_EQ(world.body_count(), 3);
-  EXPECT_EQ(world.motion(run.Body("shown")), Motion::kLed);
+  EXPECT_EQ(world.motion(run.Body("shown")), Motion::kPrescribed);
   EXPECT_EQ(world.motion(run.Body("light")), Motion::kDynamic);
   run.StepTo(60);
   EXPECT_NEAR(run.Read("shown").position.x(), 3, 1e-5);
 }
 
 TEST(LedBody, HalvesOfOneThatTurnsMoveAsTheirPlacesInItMoved) {
-  for (const Motion motion : {Motion::kDynamic, Motion::kLed, Motion::kKinematic}) {
+  for (const Motion motion : {Motion::kDynamic, Motion::kPrescribed, Motion::kKinematic}) {
     ScriptedWorld run(ParseScene(std::string(kNoGravity) + kLopsided, "test.toml"));
     BodyState turning{{10, 5}, 0, {3, 1}, 4};  // of the centre of mass, 0.5 m right of the root's
     run.world.Write(0, turning);
@@ -184,11 +185,11 @@ TEST(LedBody, HalvesOfOneThatTurnsMoveAsTheirPlacesInItMoved) {
 
 TEST(LedBody, BothHalvesOfOneThatBreaksAreLed) {
   ScriptedWorld run(ParseScene(std::string(kNoGravity) + kLopsided, "test.toml"));
-  run.world.SetMotion(0, Motion::kLed);
+  run.world.SetMotion(0, Motion::kPrescribed);
   run.world.Write(0, BodyState{{10, 5}, 0, {3, 0}, 0});
   ASSERT_TRUE(run.world.Apply({Edit(BreakEdit{0})}).has_value());
   for (const char* half : {"heavy", "light"}) {
-    EXPECT_EQ(run.world.motion(run.Body(half)), Motion::kLed) << half;
+    EXPECT_EQ(run.world.motion(run.Body(half)), Motion::kPrescribed) << half;
   }
   run.StepTo(60);
   EXPECT_NEAR(run.Read("heavy").position.x(), 13, 1e-4);
@@ -213,7 +214,7 @@ float FallsOnceSimulated(Motion shown, const std::string& sleep) {
 }
 
 TEST(LedBody, WhereNothingSleepsNothingHangsInTheAirAsItWasShown) {
-  for (const Motion shown : {Motion::kKinematic, Motion::kLed, Motion::kAbsent}) {
+  for (const Motion shown : {Motion::kKinematic, Motion::kPrescribed, Motion::kAbsent}) {
     EXPECT_NEAR(FallsOnceSimulated(shown, "false"), 10 * 0.5 * 0.5 / 2, 0.1);
     EXPECT_EQ(FallsOnceSimulated(shown, "true"), 0) << "it sleeps on, as it is told";
   }

@@ -50,7 +50,7 @@ region = [[0, -100], [100, 100]]
   Scene scene_;
   Replica replica_;
   AuthorityManager manager_;
-  AuthorityManager::Situation situation_;
+  AuthorityManager::PlannerInputs situation_;
 };
 
 TEST_F(AuthorityManagerTest, AtFirstTheServerHasAndFollowsEverything) {
@@ -77,10 +77,10 @@ TEST_F(AuthorityManagerTest, AHandOverWaitsUntilTheHolderHasConfirmed) {
   EXPECT_EQ(revocation[0].epoch.at(0), 2);
   EXPECT_TRUE(manager_.Has(kAnn, 0)) << "told to let go, but not known to have done so";
   EXPECT_FALSE(manager_.InOneHand({0}));
-  EXPECT_EQ(manager_.NoteRelease(kBob, kBall, 2), Right::kNo) << "not bob's word counts";
+  EXPECT_EQ(manager_.AcceptRelease(kBob, kBall, 2), Right::kNo) << "not bob's word counts";
   EXPECT_TRUE(Update().empty());
   EXPECT_TRUE(manager_.Has(kAnn, 0));
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kYes);
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kYes);
   Update();
   EXPECT_TRUE(manager_.Has(0, 0));
   EXPECT_EQ(Ball().epoch, 2) << "the epoch that the revocation named";
@@ -89,20 +89,20 @@ TEST_F(AuthorityManagerTest, AHandOverWaitsUntilTheHolderHasConfirmed) {
 
 TEST_F(AuthorityManagerTest, AReleaseCountsOnlyForTheGrantThatAskedForIt) {
   Update();
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 1), Right::kStale) << "the grant that gave it";
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kNo) << "nobody asked";
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 1), Right::kStale) << "the grant that gave it";
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kNo) << "nobody asked";
   situation_.peer_of_player = {-1, kBob};
   Update();
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 1), Right::kStale);
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 3), Right::kNo) << "an epoch still to come";
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, -1), Right::kStale);
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall + 1, 2), Right::kNo) << "no such mechanism";
-  EXPECT_EQ(manager_.NoteRelease(kBob, kBall, 2), Right::kNo);
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 1), Right::kStale);
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 3), Right::kNo) << "an epoch still to come";
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, -1), Right::kStale);
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall + 1, 2), Right::kNo) << "no such mechanism";
+  EXPECT_EQ(manager_.AcceptRelease(kBob, kBall, 2), Right::kNo);
   EXPECT_TRUE(Update().empty());
   EXPECT_TRUE(manager_.Has(kAnn, 0)) << "none of them counted";
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kYes);
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kYes);
   Update();
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kStale) << "said again";
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kStale) << "said again";
 }
 
 TEST_F(AuthorityManagerTest, WhoDoesNotAnswerIsNamedWhenPatienceEndsAndLosesItTwoEpochsOn) {
@@ -110,17 +110,17 @@ TEST_F(AuthorityManagerTest, WhoDoesNotAnswerIsNamedWhenPatienceEndsAndLosesItTw
   situation_.peer_of_player = {-1, kBob};
   Update();
   const std::int64_t told_us = 1;
-  EXPECT_EQ(manager_.Withholding(told_us + kReleasePatienceUs), PeerSet());
+  EXPECT_EQ(manager_.OverdueHolders(told_us + kReleasePatienceUs), PeerSet());
   PeerSet ann;
   ann.Add(kAnn);
-  EXPECT_EQ(manager_.Withholding(told_us + kReleasePatienceUs + 1), ann);
+  EXPECT_EQ(manager_.OverdueHolders(told_us + kReleasePatienceUs + 1), ann);
   EXPECT_TRUE(manager_.Has(kAnn, 0)) << "one authority, until it is taken back";
   manager_.TakeBack(2, kAnn);
-  EXPECT_EQ(manager_.Withholding(2 * kReleasePatienceUs), PeerSet());
+  EXPECT_EQ(manager_.OverdueHolders(2 * kReleasePatienceUs), PeerSet());
   EXPECT_TRUE(manager_.Has(0, 0));
   EXPECT_EQ(Ball().epoch, 3);
   EXPECT_EQ(manager_.RightToMove(kAnn, 0, 1), Right::kStale);
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kStale) << "too late";
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kStale) << "too late";
 }
 
 TEST_F(AuthorityManagerTest, AHolderThatDoesNotAnswerKeepsItAnEpochOnAndIsAskedAgain) {
@@ -136,7 +136,7 @@ TEST_F(AuthorityManagerTest, AHolderThatDoesNotAnswerKeepsItAnEpochOnAndIsAskedA
   EXPECT_EQ(manager_.RightToMove(kAnn, 0, 1), Right::kYes) << "it may not know the third yet";
   EXPECT_EQ(manager_.RightToMove(kAnn, 0, 2), Right::kStale) << "nobody had it in the second";
   EXPECT_EQ(manager_.RightToMove(kAnn, 0, 3), Right::kYes);
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kYes) << "late, and void";
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kYes) << "late, and void";
   Update(kWithdrawUs + 3);
   EXPECT_TRUE(manager_.Has(kAnn, 0));
   const std::vector<Grants> again = Update(kWithdrawUs + kAskAgainUs + 3);
@@ -144,11 +144,11 @@ TEST_F(AuthorityManagerTest, AHolderThatDoesNotAnswerKeepsItAnEpochOnAndIsAskedA
   EXPECT_EQ(again[0].authority.at(0), 0);
   EXPECT_EQ(again[0].epoch.at(0), 4);
   EXPECT_TRUE(Update(3 * kWithdrawUs).empty()) << "this one stands";
-  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 4), Right::kYes);
+  EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 4), Right::kYes);
   Update(3 * kWithdrawUs + 1);
   EXPECT_TRUE(manager_.Has(0, 0));
   EXPECT_EQ(manager_.RightToMove(kAnn, 0, 3), Right::kStale);
-  EXPECT_EQ(manager_.Withholding(10 * kReleasePatienceUs), PeerSet());
+  EXPECT_EQ(manager_.OverdueHolders(10 * kReleasePatienceUs), PeerSet());
 }
 
 TEST_F(AuthorityManagerTest, WhoIsSilentIsNotAskedAgainBeforeItIsHeard) {
@@ -182,27 +182,27 @@ TEST_F(AuthorityManagerTest, WithdrawalsDoNotLengthenThePatience) {
   ann.Add(kAnn);
   for (std::int64_t now_us = 1; now_us < kReleasePatienceUs; now_us += 10000) {
     Update(now_us);
-    EXPECT_EQ(manager_.Withholding(now_us), PeerSet()) << now_us;
+    EXPECT_EQ(manager_.OverdueHolders(now_us), PeerSet()) << now_us;
   }
   EXPECT_EQ(Ball().epoch, 3) << "it was withdrawn once";
-  EXPECT_EQ(manager_.Withholding(kReleasePatienceUs + 20000), ann);
+  EXPECT_EQ(manager_.OverdueHolders(kReleasePatienceUs + 20000), ann);
 }
 
 TEST_F(AuthorityManagerTest, WhoseLeaseEndsGivesUpWhatItHasAndNothingElse) {
   Update();
-  EXPECT_TRUE(manager_.GivesUp(kAnn, kBall, 1));
-  EXPECT_FALSE(manager_.GivesUp(kAnn, kBall, 2)) << "nobody has it in that epoch";
-  EXPECT_FALSE(manager_.GivesUp(kBob, kBall, 1)) << "it is not bob's";
-  EXPECT_FALSE(manager_.GivesUp(0, kBall, 1));
-  EXPECT_FALSE(manager_.GivesUp(kAnn, kBall + 1, 1)) << "no such mechanism";
+  EXPECT_TRUE(manager_.HoldsInEpoch(kAnn, kBall, 1));
+  EXPECT_FALSE(manager_.HoldsInEpoch(kAnn, kBall, 2)) << "nobody has it in that epoch";
+  EXPECT_FALSE(manager_.HoldsInEpoch(kBob, kBall, 1)) << "it is not bob's";
+  EXPECT_FALSE(manager_.HoldsInEpoch(0, kBall, 1));
+  EXPECT_FALSE(manager_.HoldsInEpoch(kAnn, kBall + 1, 1)) << "no such mechanism";
 }
 
 TEST_F(AuthorityManagerTest, WhoAnsweredInTimeIsNotAccusedBeforeTheNextPlan) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
-  manager_.NoteRelease(kAnn, kBall, 2);
-  EXPECT_EQ(manager_.Withholding(2 * kReleasePatienceUs), PeerSet());
+  manager_.AcceptRelease(kAnn, kBall, 2);
+  EXPECT_EQ(manager_.OverdueHolders(2 * kReleasePatienceUs), PeerSet());
 }
 
 TEST_F(AuthorityManagerTest, WhoJoinsDuringARevocationIsToldWhatTheOthersWere) {
@@ -224,7 +224,7 @@ TEST_F(AuthorityManagerTest, EpochsGoOnPastSixteenBits) {
     for (const Grants& g : Update()) client.Apply(g);  // revocation, but for the first time
     const AuthorityRecord record = Ball();
     if (record.authority != holder) {
-      ASSERT_EQ(manager_.NoteRelease(record.authority, kBall, record.epoch + 1), Right::kYes);
+      ASSERT_EQ(manager_.AcceptRelease(record.authority, kBall, record.epoch + 1), Right::kYes);
       for (const Grants& g : Update()) client.Apply(g);
     }
     ASSERT_EQ(Ball().authority, holder) << n;
@@ -307,7 +307,7 @@ TEST(AuthorityManager, WhoFollowsWhatFallsIsPlannedByItsWayForAMomentMore) {
   const SyncConfig config = MakeSyncConfig("buffer", "");
   Replica replica(scene, config, 0, -1);
   AuthorityManager manager(scene, config, replica);
-  AuthorityManager::Situation situation;
+  AuthorityManager::PlannerInputs situation;
   situation.peer_of_player = {kAnn, kBob};
   const auto ann_follows_his = [&] {
     manager.PlanSoon();

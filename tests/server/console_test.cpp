@@ -66,7 +66,7 @@ class ServerConsole : public ::testing::Test {
     return config;
   }
   void Take() {
-    for (const std::string& line : cluster_.server().TakeNews()) news_.push_back(line);
+    for (const std::string& line : cluster_.server().TakeReports()) news_.push_back(line);
   }
   bool Told(const std::string& line) const {
     return std::find(news_.begin(), news_.end(), line) != news_.end();
@@ -88,7 +88,7 @@ TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
   EXPECT_TRUE(Told("bob is gone: not heard for 4 s; 1 of 2 players, missing: bob"))
       << ::testing::PrintToString(news_);
   EXPECT_EQ(MissingPlayers(cluster_.server()), "bob");
-  EXPECT_EQ(cluster_.server().TakeNews(), Lines{}) << "taken";
+  EXPECT_EQ(cluster_.server().TakeReports(), Lines{}) << "taken";
   TickTimes times;
   times.Note(1500, 1);
   const std::string line = ServerProgress(cluster_.server(), 1800, times);

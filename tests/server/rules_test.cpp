@@ -152,7 +152,7 @@ end
   int limp = 0, broken = 0;
   for (const std::string& asked : game.commands.asked) {
     limp += asked == "limp " + std::to_string(game.IdOf("hero.head")) + " " +
-                         std::to_string(kLimpForGood)
+                         std::to_string(kLimpUntilReleased)
                 ? 1
                 : 0;
     broken += asked.rfind("break ", 0) == 0 ? 1 : 0;

@@ -65,7 +65,7 @@ TEST(Script, MakesACharacterLimpForSecondsOrUntilItSaysOtherwise) {
     print(pcall(world.limp, "hero", 0 / 0))
   )");
   EXPECT_EQ(room.script.error(), "");
-  const std::string good = "limp hero " + std::to_string(kLimpForGood);
+  const std::string good = "limp hero " + std::to_string(kLimpUntilReleased);
   EXPECT_EQ(room.host.asked, (Lines{"limp hero 2.500000", good, good, "limp hero -1.000000"}));
   ASSERT_EQ(room.host.said.size(), 2u);
   for (const std::string& said : room.host.said) EXPECT_EQ(said.rfind("false ", 0), 0u) << said;

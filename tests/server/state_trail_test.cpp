@@ -23,7 +23,7 @@ TEST(StateTrail, TellsTheTicksOfAllBodiesEachOnceAndInOrder) {
   trail.Add(0, 12, At(1));
   trail.Add(0, 14, At(2));
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{10, 11, 12, 13, 14}));
-  trail.NoteLooked();
+  trail.MarkProcessed();
   EXPECT_TRUE(trail.NewTicks().empty());
   trail.Add(1, 13, At(3));
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13}));
@@ -33,7 +33,7 @@ TEST(StateTrail, ABodyThatWasLookedAtLaterDoesNotGoBackForOneThatIsToldLater) {
   StateTrail trail(2);
   trail.Add(0, 20, At(5));
   trail.Add(0, 21, At(6));
-  trail.NoteLooked();
+  trail.MarkProcessed();
   trail.Add(1, 11, At(1));
   trail.Add(1, 12, At(2));
   ASSERT_TRUE(trail.At(0, 11).has_value());
@@ -49,7 +49,7 @@ TEST(StateTrail, WhatOthersBecameIsNewAndWhatStayedIsNot) {
   StateTrail trail(2);
   trail.Add(0, 10, At(0));
   trail.Add(1, 10, At(0));
-  trail.NoteLooked();
+  trail.MarkProcessed();
   BodyOrigin stays;
   stays.body = 1;
   stays.same = true;
@@ -62,7 +62,7 @@ TEST(StateTrail, WhatOthersBecameIsNewAndWhatStayedIsNot) {
 TEST(StateTrail, TheWayBetweenTwoStatesIsLookedAtTickByTick) {
   StateTrail trail(1);
   trail.Add(0, 10, At(1));
-  trail.NoteLooked();
+  trail.MarkProcessed();
   trail.Add(0, 14, At(3));
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{11, 12, 13, 14}));
   EXPECT_FLOAT_EQ(trail.At(0, 11)->position.x(), 1.5f);
@@ -75,12 +75,12 @@ TEST(StateTrail, TheWayBetweenTwoStatesIsLookedAtTickByTick) {
 TEST(StateTrail, WhatWasPutElsewhereOrWasLongSilentHasNoWayThere) {
   StateTrail trail(1);
   trail.Add(0, 10, At(0));
-  trail.NoteLooked();
+  trail.MarkProcessed();
   trail.Add(0, 12, At(50));
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{12}));
-  trail.NoteLooked();
-  trail.Add(0, 13 + StateTrail::kWayMost, At(51));
-  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13 + StateTrail::kWayMost}));
+  trail.MarkProcessed();
+  trail.Add(0, 13 + StateTrail::kMaxGapTicks, At(51));
+  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13 + StateTrail::kMaxGapTicks}));
 }
 
 /// Six states come at once; a coin lies between the first and the last.

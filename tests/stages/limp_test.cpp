@@ -57,7 +57,7 @@ TEST(Limp, ACommandMakesItLimpForItsSecondsOrUntilAnotherEndsIt) {
   EXPECT_GT(Most(&run), 0.08f) << "no longer after 2.1 s";
   run.StepTo(60 * 12);
   ASSERT_TRUE(Look(run).upright());
-  GoLimp(&run, kLimpForGood);
+  GoLimp(&run, kLimpUntilReleased);
   GoLimp(&run, 1);  // the longer one counts
   run.StepTo(60 * 40);
   EXPECT_LT(Most(&run), 0.08f);

@@ -37,7 +37,7 @@ TEST(SeatWay, IsFoundFromPlaceAndSpeed) {
           const Transform2 now = PlaceAt(seat, from, ticks, tick_hz);
           const Vector2d step = now.shift - PlaceAt(seat, from, before, tick_hz).shift;
           SeatWay way{0, {}};
-          FindWay(seat, solver, {now, step * (tick_hz * substeps)}, &way);
+          EstimateWay(seat, solver, {now, step * (tick_hz * substeps)}, &way);
           if (way.ticks <= wait) continue;  // little to be seen yet
           ++found;
           // At the end there is little to be seen again: it may be the last thirtieth of a second.
@@ -64,13 +64,13 @@ TEST(SeatWay, WhoStandsFarFromTheSeatHasNotSetOutAndWhoIsThereStays) {
   Seat seat;
   const Solver solver;
   SeatWay way{3, {{9, 9}, 1}};
-  FindWay(seat, solver, {{{-1.5, 0}, 0}, {0, 0}}, &way);
+  EstimateWay(seat, solver, {{{-1.5, 0}, 0}, {0, 0}}, &way);
   EXPECT_EQ(way.ticks, 3);
-  FindWay(seat, solver, {{{-1.5, 0}, 0}, {-3, 0}}, &way);
+  EstimateWay(seat, solver, {{{-1.5, 0}, 0}, {-3, 0}}, &way);
   EXPECT_EQ(way.ticks, 3) << "it goes away";
-  FindWay(seat, solver, {{{0.01, 0}, 0}, {0, 0}}, &way);
+  EstimateWay(seat, solver, {{{0.01, 0}, 0}, {0, 0}}, &way);
   EXPECT_EQ(way.ticks, SeatTicks(solver.tick_hz));
-  FindWay(seat, solver, {{{0.2, 0}, 0}, {1, 0}}, &way);
+  EstimateWay(seat, solver, {{{0.2, 0}, 0}, {1, 0}}, &way);
   EXPECT_EQ(way.ticks, SeatTicks(solver.tick_hz)) << "shown beyond it, by what was heard before";
 }
 

@@ -25,7 +25,7 @@ struct ReplicaTestAccess {
             {"edits found", replica.found_.size()},
             {"edits awaited", replica.awaited_.size()},
             {"edits proposed", replica.proposals_.remembered()},
-            {"edits appointed", replica.appointed_.size()},
+            {"edits appointed", replica.outside_edits_.size()},
             {"states let go", replica.released_.size()},
             {"states waiting", replica.corrector_.waiting()},
             {"rests waiting", replica.rest_.waiting()}};

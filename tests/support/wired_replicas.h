@@ -46,9 +46,9 @@ class WiredReplicas {
   void Step() {
     const std::int64_t next = at(0).tick() + 1;
     for (int peer = 1; peer < count(); ++peer) {
-      at(peer).NoteInput(peer - 1, next, play_(peer, next));
+      at(peer).RecordInput(peer - 1, next, play_(peer, next));
       const Inputs told = at(peer).inputs(peer - 1).Export(peer - 1, kTold);
-      Send(peer, [told](Replica* to) { to->NoteInputs(told); });
+      Send(peer, [told](Replica* to) { to->RecordInputs(told); });
     }
     for (int peer = 0; peer < count(); ++peer) Deliver(peer, next);
     for (int peer = 0; peer < count(); ++peer) {

@@ -120,7 +120,7 @@ TEST(BodyMemoryCoupling, HoldsForAQuarterOfASecondAndThroughARemap) {
   table.Set(world->mechanism(1), other);
   for (int i = 0; i < 30; ++i) {
     world->Step();
-    memory.NoteContacts(table);
+    memory.RecordContacts(table);
   }
   const auto coupled = [&](PartId assembly) {
     return memory.Coupled(world->mechanism(world->BodyOfId(assembly)));
@@ -131,7 +131,7 @@ TEST(BodyMemoryCoupling, HoldsForAQuarterOfASecondAndThroughARemap) {
   table.Set(world->mechanism(1), AuthorityRecord{});  // from now on both are of one authority
   for (int i = 0; i < config.tick_hz / 4; ++i) {
     world->Step();
-    memory.NoteContacts(table);
+    memory.RecordContacts(table);
     EXPECT_TRUE(coupled(1)) << i;
   }
   const std::optional<BodyRemap> change = world->Apply({Free(0)});

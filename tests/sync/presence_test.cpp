@@ -87,7 +87,7 @@ TEST(Presence, WhatIsBesideIsThereAndWhatIsFarIsNot) {
   Line line;
   line.Steps(10);
   EXPECT_EQ(line.MotionOf(kOwn), Motion::kDynamic);
-  EXPECT_EQ(line.MotionOf(kBeside), Motion::kLed);
+  EXPECT_EQ(line.MotionOf(kBeside), Motion::kPrescribed);
   EXPECT_EQ(line.MotionOf(kFar), Motion::kAbsent);
 }
 
@@ -98,7 +98,7 @@ TEST(Presence, WhatSleepsUnwatchedNeedsNobodyNearIt) {
   EXPECT_EQ(line.MotionOf(kBeside), Motion::kAbsent) << "the own box sleeps";
   line.replica.LeaveUnwatched({0, 0, 0}, {});
   line.Steps(12);
-  EXPECT_EQ(line.MotionOf(kBeside), Motion::kLed);
+  EXPECT_EQ(line.MotionOf(kBeside), Motion::kPrescribed);
 }
 
 TEST(Presence, WhatComesIsThereBeforeItArrives) {
@@ -109,7 +109,7 @@ TEST(Presence, WhatComesIsThereBeforeItArrives) {
   for (int tick = 0; tick < 60 && there < 0; ++tick) {
     line.Hear(kFar, {60 - speed * static_cast<float>(tick) / 60, 0}, {-speed, 0});
     line.Steps(1);
-    if (line.MotionOf(kFar) == Motion::kLed) there = tick;
+    if (line.MotionOf(kFar) == Motion::kPrescribed) there = tick;
   }
   ASSERT_GE(there, 0);
   const float gap = line.replica.world().Read(kFar).position.x() - 1;
@@ -124,8 +124,8 @@ TEST(Presence, WhatComesNearGoesWhereItIsHeardToHaveTurnedMeanwhile) {
   line.Steps(10);
   line.Hear(kFar, {20, 0}, {-20, 0});
   const std::int64_t heard = line.replica.tick();
-  for (int tick = 0; tick < 60 && line.MotionOf(kFar) != Motion::kLed; ++tick) line.Steps(1);
-  ASSERT_EQ(line.MotionOf(kFar), Motion::kLed);
+  for (int tick = 0; tick < 60 && line.MotionOf(kFar) != Motion::kPrescribed; ++tick) line.Steps(1);
+  ASSERT_EQ(line.MotionOf(kFar), Motion::kPrescribed);
   ASSERT_GT(line.replica.tick(), heard + 1);
   line.HearOf(heard + 1, kFar, {19.7f, 0}, {0, 0});
   line.Steps(1);
@@ -223,7 +223,7 @@ struct PlainTrack {
     const auto after = known.upper_bound(tick);
     return after == known.begin() ? Input{} : std::prev(after)->second;
   }
-  bool Surprises(std::int64_t from) const {
+  bool DiffersFromPrediction(std::int64_t from) const {
     for (auto it = known.lower_bound(from); it != known.end(); ++it) {
       if (!(it->second == At(it->first - 1))) return true;
     }
@@ -250,7 +250,7 @@ TEST(InputTrack, KnowsWhatItWasToldAndForgetsWhatIsOld) {
       ASSERT_EQ(track.newest(), plain.known.rbegin()->first);
       ASSERT_EQ(track.knows(asked), plain.known.count(asked) != 0) << asked;
       ASSERT_TRUE(track.At(asked) == plain.At(asked)) << asked;
-      ASSERT_EQ(track.Surprises(asked), plain.Surprises(asked)) << asked;
+      ASSERT_EQ(track.DiffersFromPrediction(asked), plain.DiffersFromPrediction(asked)) << asked;
       const int before = plain.At(asked - 1).buttons;
       const int pressed = plain.known.count(asked) != 0 ? plain.At(asked).buttons & ~before : 0;
       ASSERT_EQ(track.PressedAt(asked), pressed) << asked;

@@ -24,7 +24,7 @@ class OnTheGround {
   void Step() {
     rest.BeforeStep();
     world->Step();
-    memory.NoteContacts(roles.table());
+    memory.RecordContacts(roles.table());
     if (config.rolls_back) reach.Look();
     rest.AfterStep();
     memory.Record();
@@ -230,7 +230,7 @@ TEST(RestCommit, WhatIsHandedOverAtRestLiesOnAndWhatMovesDoesNot) {
     exact.angle = exact.vy = exact.spin = {0};
     exact.vx = {moves};
     room.memory.track(1).heard_tick = exact.tick;
-    room.rest.NoteHandedOver(exact);
+    room.rest.ProlongHandedOver(exact);
     room.Step();
     EXPECT_EQ(room.rest.Holds(1), moves == 0);
     EXPECT_EQ(room.rest.Hash() == known, moves == 0);

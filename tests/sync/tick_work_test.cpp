@@ -86,7 +86,7 @@ TEST(TickWork, OfWhatIsFarItBeginsWhereItsAuthorityPutsItNear) {
   header.composition = static_cast<std::int64_t>(replica->world().composition().hash);
   for (const States& packed : Pack(header, {body})) replica->Receive(packed);
   for (int tick = 0; tick < 12; ++tick) replica->Step();
-  EXPECT_EQ(replica->world().motion(kFirst), Motion::kLed) << "it may touch the own box";
+  EXPECT_EQ(replica->world().motion(kFirst), Motion::kPrescribed) << "it may touch the own box";
   EXPECT_NEAR(replica->world().Read(kFirst).position.y(), 1.6 - 2 * 12.0 / 60, 0.1);
 }
 

@@ -77,7 +77,7 @@ void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   (world_->*Member(EngineSolveToi()))(step);
   world_->SetContactListener(listener);
   quiet.End();
-  RejoinWhatMoved(step.dt, pace);
+  RejoinMoved(step.dt, pace);
 }
 
 /// Returns kinetic and potential energy, J. `left`: as before continuous collision.
@@ -99,7 +99,7 @@ double ExactStep::EnergyOf(const Found& found, bool left) const {
 
 /// Bodies that are moved back to their impact, and others with them, may be lifted, in a jam at
 /// every step. Takes the gained energy from their motion.
-void ExactStep::PayForLift(double before, Found* found) const {
+void ExactStep::RemoveLiftEnergy(double before, Found* found) const {
   double mass = 0;
   for (const ExactBody& q : found->island->bodies) mass += q.moves() ? 1 / q.im : 0;
   const double kinetic = KineticOf(found->island->bodies);
@@ -116,7 +116,7 @@ void ExactStep::PayForLift(double before, Found* found) const {
 
 /// Wakes sleeping bodies that Rejoin has moved. A body may touch the mechanism only since that was
 /// moved back; asleep it would rest elsewhere than agreed between peers.
-void ExactStep::WakeWhatMoves(const Found& found) {
+void ExactStep::WakeMoved(const Found& found) {
   for (const ExactBody& q : found.island->bodies) {
     if (q.slot < 0 || q.body->IsAwake()) continue;
     const b2Sweep& sweep = q.body->*Member(BodySweep());
@@ -126,7 +126,7 @@ void ExactStep::WakeWhatMoves(const Found& found) {
   }
 }
 
-void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
+void ExactStep::RejoinMoved(float h, const Pace& pace) {
   std::vector<int> moved;
   for (const int m : solved_) {
     const Found& found = found_[static_cast<std::size_t>(m)];
@@ -161,8 +161,8 @@ void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
     }
     const double before = EnergyOf(found, true);
     found.island->Rejoin(pace, struck);
-    PayForLift(before, &found);
-    WakeWhatMoves(found);
+    RemoveLiftEnergy(before, &found);
+    WakeMoved(found);
     SavePoses(found);
   }
 }

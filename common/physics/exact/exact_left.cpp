@@ -20,9 +20,9 @@ double Length(const b2Vec2& v) { return static_cast<double>(v.Length()); }
 std::vector<WorldSnapshot::Left> ExactStep::Left() const {
   std::vector<WorldSnapshot::Left> left;
   for (std::size_t m = 0; m < found_.size(); ++m) {
-    if (found_[m].left_for <= 0) continue;
+    if (found_[m].fallback_steps <= 0) continue;
     b2Body* const lowest = slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].body;
-    left.push_back({IndexOf(lowest), found_[m].left_for});
+    left.push_back({IndexOf(lowest), found_[m].fallback_steps});
   }
   return left;
 }
@@ -32,13 +32,13 @@ void ExactStep::Leave(const std::vector<WorldSnapshot::Left>& left) {
     const int slot = slot_of_[static_cast<std::size_t>(body)];
     const int m = slot < 0 ? -1 : slots_[static_cast<std::size_t>(slot)].mechanism;
     if (m < 0 || mechanisms_[static_cast<std::size_t>(m)].slots[0] != slot) continue;
-    found_[static_cast<std::size_t>(m)].left_for = steps;
+    found_[static_cast<std::size_t>(m)].fallback_steps = steps;
   }
 }
 
 /// Removes the last step's impulses if they are too large. The engine warm-starts from them, and
 /// its few iterations do not recover from those that a jam or a taut rope has left here.
-void ExactStep::LeaveOne(float h, const Found& found) {
+void ExactStep::LeaveToEngine(float h, const Found& found) {
   if (found.slots.empty()) return;
   double mass = 0, momentum = 0, fastest = 0;
   b2Vec2 sum(0, 0);

@@ -14,7 +14,7 @@ namespace {
 /// turn adds a rounding error.
 constexpr int kTurnsMost = 1000;
 /// An island that was too expensive is left to the engine, or relaxed, for so many steps.
-constexpr int kLeftFor = 30;
+constexpr int kFallbackSteps = 30;
 
 void ReadPose(b2Body* body, ExactBody* q) {
   const b2Sweep& sweep = body->*Member(BodySweep());
@@ -34,7 +34,7 @@ bool SamePose(const ExactBody& p, const ExactBody& q) {
 }  // namespace
 
 ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built,
-                     const BuildMemory& memory, bool gives_all)
+                     const BuildMemory& memory, bool has_elastic)
     : solver_(scene.solver), world_(world), slot_of_(built.moving.size(), -1) {
   slots_.reserve(memory.made.size());
   for (const int body : memory.made) {
@@ -55,12 +55,12 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
     paths_ = paths_ || body->GetType() == b2_kinematicBody;
   }
   FindMechanisms();
-  if (gives_all) {
+  if (has_elastic) {
     std::vector<char> jointed(built.moving.size(), 0);
     for (Slot& slot : slots_) {
       jointed[static_cast<std::size_t>(IndexOf(slot.body))] = slot.mechanism >= 0 ? 1 : 0;
     }
-    blows_ = std::make_unique<FreeBlows>(built, std::move(jointed));
+    blows_ = std::make_unique<ElasticImpacts>(built, std::move(jointed));
     if (!blows_->needed()) blows_.reset();
   }
   if (solver_.joints != JointSolving::kAuto) return;
@@ -162,20 +162,20 @@ void ExactStep::SavePoses(const Found& found) {
     s.vy = q.vy;
     s.w = q.w;
     s.lasting = q.lasting;
-    s.told_x = static_cast<float>(q.x);
-    s.told_y = static_cast<float>(q.y);
-    s.told_a = static_cast<float>(q.a);
-    s.told_vx = static_cast<float>(q.vx);
-    s.told_vy = static_cast<float>(q.vy);
-    s.told_w = static_cast<float>(q.w);
+    s.engine_x = static_cast<float>(q.x);
+    s.engine_y = static_cast<float>(q.y);
+    s.engine_a = static_cast<float>(q.a);
+    s.engine_vx = static_cast<float>(q.vx);
+    s.engine_vy = static_cast<float>(q.vy);
+    s.engine_w = static_cast<float>(q.w);
     b2Sweep& sweep = body->*Member(BodySweep());
-    sweep.c.Set(s.told_x, s.told_y);
-    sweep.a = s.told_a;
+    sweep.c.Set(s.engine_x, s.engine_y);
+    sweep.a = s.engine_a;
     b2Transform& pose = body->*Member(BodyPose());
     pose.q.Set(sweep.a);
     pose.p = sweep.c - b2Mul(pose.q, sweep.localCenter);
-    (body->*Member(BodyVelocity())).Set(s.told_vx, s.told_vy);
-    body->*Member(BodySpin()) = s.told_w;
+    (body->*Member(BodyVelocity())).Set(s.engine_vx, s.engine_vy);
+    body->*Member(BodySpin()) = s.engine_w;
     (body->*Member(SyncFixtures()))();
   }
 }
@@ -251,8 +251,8 @@ void ExactStep::Show(const Found& found) {
 bool ExactStep::Told(const Slot& s) {
   const b2Sweep& sweep = s.body->*Member(BodySweep());
   const b2Vec2& v = s.body->GetLinearVelocity();
-  return s.known && sweep.c.x == s.told_x && sweep.c.y == s.told_y && sweep.a == s.told_a &&
-         v.x == s.told_vx && v.y == s.told_vy && s.body->GetAngularVelocity() == s.told_w;
+  return s.known && sweep.c.x == s.engine_x && sweep.c.y == s.engine_y && sweep.a == s.engine_a &&
+         v.x == s.engine_vx && v.y == s.engine_vy && s.body->GetAngularVelocity() == s.engine_w;
 }
 
 /// False if the island was too expensive; then nothing has changed.
@@ -260,7 +260,7 @@ bool ExactStep::Solve(const Pace& pace, bool warm, Found* found) {
   Load(found);
   found->island->Step(pace, warm);
   if (!found->island->given_up()) return true;
-  found->left_for = kLeftFor;
+  found->fallback_steps = kFallbackSteps;
   found->sign.clear();
   return false;
 }
@@ -293,8 +293,8 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
     Found& found = found_[m];
     bool ours = Gather(static_cast<int>(m), &found);
-    const bool left = ours && found.left_for > 0;
-    if (left) --found.left_for;
+    const bool left = ours && found.fallback_steps > 0;
+    if (left) --found.fallback_steps;
     const bool easy = Easy(found);
     found.relaxed = left && !easy;
     if (left && easy) ours = false;
@@ -305,12 +305,12 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
       ours = found.relaxed && Solve(pace, step.warmStarting, &found);
     }
     if (!ours || !found.island) {
-      LeaveOne(h, found);
+      LeaveToEngine(h, found);
       continue;
     }
     Save(&found, h);
     Report(found);
-    found.island->BoundCarried();
+    found.island->BoundWarmStart();
     Hide(found);
     for (const int slot : found.slots) slots_[static_cast<std::size_t>(slot)].solved = true;
     moving += found.slots.size();

@@ -16,10 +16,10 @@ namespace seam {
 
 class ExactStep {
  public:
-  /// `memory`: lists the bodies and joints that are made. `gives_all`: the result of GivesAll for
-  /// the scene. Bodies that are aside cost nothing, neither here nor in a step.
+  /// `memory`: lists the bodies and joints that are made. `has_elastic`: the result of HasElastic
+  /// for the scene. Bodies that are aside cost nothing, neither here nor in a step.
   ExactStep(const Scene& scene, b2World* world, const BuiltScene& built, const BuildMemory& memory,
-            bool gives_all);
+            bool has_elastic);
   ~ExactStep();
 
   /// True if there is a joint to solve or an elastic contact (restitution 1); else the engine's own
@@ -50,7 +50,7 @@ class ExactStep {
     double c = 1, s = 0;  // cosine and sine of a, turned with it for `turns` steps
     int turns = 0;
     double lasting = 0;  // ExactBody::lasting
-    float told_x = 0, told_y = 0, told_a = 0, told_vx = 0, told_vy = 0, told_w = 0;
+    float engine_x = 0, engine_y = 0, engine_a = 0, engine_vx = 0, engine_vy = 0, engine_w = 0;
   };
   struct Mechanism {
     std::vector<int> slots;   // in the order of the system
@@ -63,7 +63,7 @@ class ExactStep {
     std::vector<b2Contact*> contacts;
     std::vector<const void*> sign;  // key of the contents that `island` was built for
     std::unique_ptr<ExactIsland> island;
-    int left_for = 0;      // steps for which it is not solved as a whole: it was too expensive
+    int fallback_steps = 0;  // steps for which it is not solved as a whole: it was too expensive
     bool relaxed = false;  // in this step
   };
 
@@ -90,13 +90,13 @@ class ExactStep {
   void SavePoses(const Found& found);
   void Prepare(float h, Found* found);
   bool Solve(const Pace& pace, bool warm, Found* found);
-  void LeaveOne(float h, const Found& found);
+  void LeaveToEngine(float h, const Found& found);
   class Quiet;
   void Continuous(const b2TimeStep& step, const Pace& pace);
-  void RejoinWhatMoved(float h, const Pace& pace);
+  void RejoinMoved(float h, const Pace& pace);
   double EnergyOf(const Found& found, bool left) const;
-  void PayForLift(double before, Found* found) const;
-  static void WakeWhatMoves(const Found& found);
+  void RemoveLiftEnergy(double before, Found* found) const;
+  static void WakeMoved(const Found& found);
   static bool Told(const Slot& slot);
   void Report(const Found& found) const;
   static void Hide(const Found& found);
@@ -111,7 +111,7 @@ class ExactStep {
   std::vector<Found> found_;
   std::vector<const void*> sign_;
   std::vector<int> solved_;
-  std::unique_ptr<FreeBlows> blows_;  // nullptr: nothing is elastic
+  std::unique_ptr<ElasticImpacts> blows_;  // nullptr: nothing is elastic
   // Scratch space of Order: by index in a list of bodies, its neighbours, and if it was visited.
   std::vector<std::vector<int>> near_;
   std::vector<char> seen_;

@@ -17,7 +17,7 @@ constexpr float kEverything = 0.999f;
 constexpr double kRestSteps = 4, kSlowest = 1e-3;
 /// Impacts per contact in one step; and limit of contact checks in a step, which must end even
 /// where thousands of bodies start in one place.
-constexpr std::size_t kBlowsEach = 8, kLooksMost = 5000000;
+constexpr std::size_t kImpactsEach = 8, kLooksMost = 5000000;
 /// Tries with less restitution if an impact with friction would gain energy; the last has none.
 constexpr int kSofterTries = 3;
 /// Iterations over the points and directions of a contact, until no impulse changes by more than
@@ -35,7 +35,7 @@ b2Vec2 Pull(const b2World& world, b2Body* body) {
          body->*Member(BodyInverseMass()) * (body->*Member(BodyForce()));
 }
 
-bool GivesAll(const b2Body* body) {
+bool HasElastic(const b2Body* body) {
   for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext()) {
     if (f->GetRestitution() >= kEverything) return true;
   }
@@ -44,29 +44,29 @@ bool GivesAll(const b2Body* body) {
 
 }  // namespace
 
-bool GivesAll(const Scene& scene) {
+bool HasElastic(const Scene& scene) {
   return std::any_of(scene.parts.begin(), scene.parts.end(), [](const Part& part) {
     return !part.gone && part.material.restitution >= kEverything;
   });
 }
 
-FreeBlows::FreeBlows(const BuiltScene& built, std::vector<char> jointed)
+ElasticImpacts::ElasticImpacts(const BuiltScene& built, std::vector<char> jointed)
     : jointed_(std::move(jointed)), place_(jointed_.size(), -1) {
   bool free = false;
   for (const char held : jointed_) free = free || held == 0;
   // Anchored assemblies share bodies: visit each once.
   const std::set<const b2Body*> all(built.bodies.begin(), built.bodies.end());
-  for (const b2Body* body : all) needed_ = needed_ || (free && GivesAll(body));
-  for (const MovingBody& m : built.moving) needed_ = needed_ || (free && GivesAll(m.body));
+  for (const b2Body* body : all) needed_ = needed_ || (free && HasElastic(body));
+  for (const MovingBody& m : built.moving) needed_ = needed_ || (free && HasElastic(m.body));
 }
 
-bool FreeBlows::Free(b2Body* body) const {
+bool ElasticImpacts::Free(b2Body* body) const {
   return !Moves(body) || jointed_[static_cast<std::size_t>(IndexOf(body))] == 0;
 }
 
 /// Returns the body's index in bodies_, to which it is added if necessary. Immovable bodies have
 /// one for each contact.
-int FreeBlows::Place(const b2World& world, float h, b2Body* body) {
+int ElasticImpacts::Place(const b2World& world, float h, b2Body* body) {
   const bool moves = Moves(body);
   if (moves) {
     int& known = place_[static_cast<std::size_t>(IndexOf(body))];
@@ -87,7 +87,7 @@ int FreeBlows::Place(const b2World& world, float h, b2Body* body) {
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-void FreeBlows::Find(b2World* world, float h) {
+void ElasticImpacts::Find(b2World* world, float h) {
   for (b2Contact* c = world->GetContactList(); c != nullptr; c = c->GetNext()) {
     if (c->GetRestitution() < kEverything) continue;
     b2Fixture* const fixture_a = c->GetFixtureA();
@@ -126,7 +126,7 @@ void FreeBlows::Find(b2World* world, float h) {
   }
 }
 
-void FreeBlows::Speeds(const Touch& touch, const Point& p, double* normal, double* tangent) {
+void ElasticImpacts::Speeds(const Touch& touch, const Point& p, double* normal, double* tangent) {
   const Body& a = At(touch.a);
   const Body& b = At(touch.b);
   const double x = b.vx - b.w * p.by - a.vx + a.w * p.ay;
@@ -135,7 +135,7 @@ void FreeBlows::Speeds(const Touch& touch, const Point& p, double* normal, doubl
   *tangent = x * touch.ny - y * touch.nx;
 }
 
-void FreeBlows::Look(Touch* touch) {
+void ElasticImpacts::Look(Touch* touch) {
   touch->closing = -kFast;
   for (int i = 0; i < touch->points; ++i) {
     double normal = 0, tangent = 0;
@@ -144,7 +144,7 @@ void FreeBlows::Look(Touch* touch) {
   }
 }
 
-void FreeBlows::Push(const Touch& touch, const Point& p, double normal, double tangent) {
+void ElasticImpacts::Push(const Touch& touch, const Point& p, double normal, double tangent) {
   const double x = normal * touch.nx + tangent * touch.ny;
   const double y = normal * touch.ny - tangent * touch.nx;
   Body& a = At(touch.a);
@@ -160,7 +160,7 @@ void FreeBlows::Push(const Touch& touch, const Point& p, double normal, double t
 /// Solves an impact with `share` of its restitution: each point separates at no less than that
 /// times its approach speed, and friction is at most its share of the normal impulse. Returns the
 /// kinetic energy gained, J.
-double FreeBlows::Solve(const Touch& touch, double share, double* pushed, double* rubbed) {
+double ElasticImpacts::Solve(const Touch& touch, double share, double* pushed, double* rubbed) {
   const Body& a = At(touch.a);
   const Body& b = At(touch.b);
   const auto energy = [](const Body& q) {
@@ -209,7 +209,7 @@ double FreeBlows::Solve(const Touch& touch, double share, double* pushed, double
 
 /// Solves an impact. With friction it may gain energy (Kane and Levinson 1985): then restitution is
 /// reduced, unless a belt or a moving platform supplies the energy.
-void FreeBlows::Blow(Touch* touch) {
+void ElasticImpacts::Blow(Touch* touch) {
   bool driven = touch->made->GetTangentSpeed() != 0;
   for (const int end : {touch->a, touch->b}) {
     const Body& q = At(end);
@@ -232,7 +232,7 @@ void FreeBlows::Blow(Touch* touch) {
   }
 }
 
-void FreeBlows::Tell(b2World* world) {
+void ElasticImpacts::Tell(b2World* world) {
   for (const Body& q : bodies_) {
     if (!q.struck || q.im <= 0) continue;
     q.body->SetLinearVelocity(
@@ -254,18 +254,18 @@ void FreeBlows::Tell(b2World* world) {
   }
 }
 
-void FreeBlows::Done() {
+void ElasticImpacts::Done() {
   for (const Touch& touch : touches_) {
     if (touch.parts) touch.made->SetEnabled(true);
   }
 }
 
-void FreeBlows::Act(b2World* world, float h) {
+void ElasticImpacts::Act(b2World* world, float h) {
   bodies_.clear();
   touches_.clear();
   Find(world, h);
   const std::size_t touches = std::max<std::size_t>(touches_.size(), 1);
-  const std::size_t most = std::min(kBlowsEach * touches, kLooksMost / touches);
+  const std::size_t most = std::min(kImpactsEach * touches, kLooksMost / touches);
   for (std::size_t blow = 0; blow < most; ++blow) {
     Touch* fastest = nullptr;
     for (Touch& touch : touches_) {

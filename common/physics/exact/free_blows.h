@@ -12,12 +12,12 @@
 namespace seam {
 
 /// True if a part of the scene is perfectly elastic; else this class is not needed.
-bool GivesAll(const Scene& scene);
+bool HasElastic(const Scene& scene);
 
-class FreeBlows {
+class ElasticImpacts {
  public:
   /// Looks for a shape of restitution 1. `jointed`: by moving body, true if a joint holds it.
-  FreeBlows(const BuiltScene& built, std::vector<char> jointed);
+  ElasticImpacts(const BuiltScene& built, std::vector<char> jointed);
 
   /// True if a body without joints, or something anchored, is elastic; else Act has nothing to do.
   bool needed() const { return needed_; }

@@ -52,7 +52,7 @@ class ExactIsland {
   void Store() const;
   /// Called after Store and reports: limits the contact impulses carried over to the next step to
   /// an amount that the engine's solver recovers from, in case it takes over.
-  void BoundCarried() const;
+  void BoundWarmStart() const;
 
  private:
   struct Pair {       // a pair of rows that share a body
@@ -124,7 +124,7 @@ class ExactIsland {
   void BringTogether(const Pace& pace);
   void ShiftTogether(double damping);
   void MakeAlike();
-  void TakeMassesOf(const std::vector<ExactBody>& from);
+  void CopyMasses(const std::vector<ExactBody>& from);
   // The parts of a substep, in their order.
   void Substep(const Pace& pace);
   bool Course(const Pace& pace, bool whole);
@@ -136,12 +136,12 @@ class ExactIsland {
     double impulse = 0;  // N s, the result of MostImpulse
   };
   double MostImpulse(const Pace& pace) const;
-  double MostCarried(const Pace& pace) const;
+  double MostWarmStart(const Pace& pace) const;
   double WorkDone(double mass);
   Start StartOf(const Pace& pace) const;
   bool Possible(const Start& start, bool pushes);
   void KeepPoses();
-  void Doubt(const Pace& pace, bool whole);
+  void CheckWithoutContacts(const Pace& pace, bool whole);
   void Calm(const Pace& pace, const Start& start);
   void PushApart(const Pace& pace);
   bool PushesOut() const;
@@ -151,12 +151,12 @@ class ExactIsland {
   void Depart();
   void Arrive();
   bool FindImpacts();
-  int FastestBlow();
+  int FastestImpact();
   void Impact(double pressed);
   bool Blow(const ExactContact& contact, int first_row, double most);
   double Pressed(const ExactContact& contact, int first_row) const;
   bool Holds(double speed) const;
-  double Yielded() const;
+  double AbsorbedEnergy() const;
   bool GiveBack(bool all);
   bool Leads() const, Stops() const;
   void HoldBefore();
@@ -164,7 +164,7 @@ class ExactIsland {
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void FindShutting();
-  double SidesOfErrors(const Pace& pace, bool anew, double* slope);
+  double RightHandSides(const Pace& pace, bool anew, double* slope);
   void Correct(double h);
   bool ShutJoints(const Pace& pace);
   void Accelerate(double slope);

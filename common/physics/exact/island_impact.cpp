@@ -13,11 +13,11 @@ constexpr double kReached = 1e-6;
 /// Tries with less restitution if an impact with friction would gain energy; the last has none.
 constexpr int kSofterTries = 3;
 /// Impacts in one substep, for each contact.
-constexpr int kBlowsEach = 8;
+constexpr int kImpactsEach = 8;
 /// Shares by which diagonal entries are enlarged in an impact. More takes energy where a mechanism
-/// can hardly give way. kOwnOfLost is used if with less a joint's row is lost in rounding, that is,
-/// leaves its ends a relative speed above kHeldTo, m/s or rad/s.
-constexpr double kOwnOfBlow = 1e-12, kOwnOfLost = 1e-9, kHeldTo = 1e-3;
+/// can hardly give way. kDiagonalOfLost is used if with less a joint's row is lost in rounding,
+/// that is, leaves its ends a relative speed above kHeldTo, m/s or rad/s.
+constexpr double kDiagonalOfImpact = 1e-12, kDiagonalOfLost = 1e-9, kHeldTo = 1e-3;
 /// Share of the energy that joints may absorb by giving way in an impact with an excessive impulse.
 constexpr double kYieldedMost = 0.05;
 /// Energy that an impact may gain, as a share: without friction, by rounding, which a fast impact
@@ -68,7 +68,7 @@ bool ExactIsland::FindImpacts() {
 }
 
 /// Returns the touching elastic contact with the fastest approach; -1: none.
-int ExactIsland::FastestBlow() {
+int ExactIsland::FastestImpact() {
   int fastest = -1;
   double most = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -95,9 +95,9 @@ void ExactIsland::Impact(double pressed) {
   std::vector<RowState> were;
   for (Row& row : rows_) were.push_back(row.state);
   HoldBefore();
-  const int most = kBlowsEach * static_cast<int>(contacts.size());
+  const int most = kImpactsEach * static_cast<int>(contacts.size());
   for (int blow = 0; blow < most; ++blow) {
-    const int contact = FastestBlow();
+    const int contact = FastestImpact();
     if (contact < 0) break;
     ExactContact& struck = contacts[static_cast<std::size_t>(contact)];
     // In a jam every impact would gain energy: treat it as a resting contact.
@@ -134,7 +134,7 @@ bool ExactIsland::Holds(double speed) const {
 }
 
 /// Returns the energy that joints and limits absorb in this impact by the enlarged diagonal, J.
-double ExactIsland::Yielded() const {
+double ExactIsland::AbsorbedEnergy() const {
   double work = 0;
   for (const Row& row : rows_) {
     const bool holds = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
@@ -203,7 +203,7 @@ void ExactIsland::HoldBefore() {
     row.state = row.kind == RowKind::kHard ? RowState::kFree : RowState::kOut;
     row.target = row.lambda = 0;
   }
-  Assemble(kOwnOfBlow, kOwnOfBlow);
+  Assemble(kDiagonalOfImpact, kDiagonalOfImpact);
   Solve(true);
   for (Row& row : rows_) {
     if (row.kind == RowKind::kHard) row.total += row.lambda;
@@ -244,11 +244,11 @@ bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) 
       friction.target = contact.belt;
       friction.most = 0;
     }
-    Assemble(kOwnOfBlow, kOwnOfBlow);
+    Assemble(kDiagonalOfImpact, kDiagonalOfImpact);
     Solve(true);
     if (!Holds(kHeldTo)) {
       Restore(start_);
-      Assemble(kOwnOfLost, kOwnOfLost);
+      Assemble(kDiagonalOfLost, kDiagonalOfLost);
       Solve(true);
     }
     const bool last = tries == kSofterTries;
@@ -262,7 +262,7 @@ bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) 
     // A mechanism that can hardly give way, as a folded one that is hit along its links, has many
     // times its momentum as impulse. That is accepted if its joints hold.
     const bool can_be = Pressed(contact, first_row) <= most || (kept && all && Holds(kHeldTo)) ||
-                        Yielded() <= kYieldedMost * before;
+                        AbsorbedEnergy() <= kYieldedMost * before;
     const double after = KineticOf(bodies);
     if (can_be && after <= before + spare) return true;
     if (last) break;

@@ -24,7 +24,7 @@ constexpr double kCarriedMost = 3;
 constexpr double kLedMost = 4;
 /// Share by which diagonal entries are enlarged in a jam: a contradiction of 1 m/s then makes an
 /// impulse of at most a thousand times the momentum.
-constexpr double kOwnOfJam = 1e-3;
+constexpr double kDiagonalOfJam = 1e-3;
 /// m: an overlap that is resolved without velocity in a jam.
 constexpr double kDeep = 0.03;
 /// m/s: maximal speed of that motion; and the speed below which it may be ignored for sleep.
@@ -60,11 +60,11 @@ double ExactIsland::MostImpulse(const Pace& pace) const {
   return kImpulseMost * sum;
 }
 
-double ExactIsland::MostCarried(const Pace& pace) const {
+double ExactIsland::MostWarmStart(const Pace& pace) const {
   return kCarriedMost / kImpulseMost * MostImpulse({pace.h * pace.substeps, 1});
 }
 
-void ExactIsland::BoundCarried() const {
+void ExactIsland::BoundWarmStart() const {
   for (const ExactContact& contact : contacts) {
     b2Manifold& manifold = *contact.made->GetManifold();
     for (int i = 0; i < contact.count; ++i) {
@@ -139,7 +139,7 @@ void ExactIsland::KeepPoses() {
 /// Checks a substep without contacts in which joints could not be satisfied or energy grew: a
 /// mechanism at its dead centre or a pulley without rope can only stop. Calms it if it gained more
 /// than was supplied. `whole`: all of its kick was at the beginning.
-void ExactIsland::Doubt(const Pace& pace, bool whole) {
+void ExactIsland::CheckWithoutContacts(const Pace& pace, bool whole) {
   bodies_before_ = bodies;
   const double* pose = poses_.data();
   for (ExactBody& q : bodies_before_) {
@@ -187,7 +187,7 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
         break;
     }
   }
-  Assemble(kOwnOfJam, kOwnOfJam);
+  Assemble(kDiagonalOfJam, kDiagonalOfJam);
   Solve(true);
   double most = 0;
   for (const Row& row : rows_) {
@@ -229,7 +229,7 @@ void ExactIsland::PushApart(const Pace& pace) {
         row.kind == RowKind::kHard || row.kind == RowKind::kLimit || row.kind == RowKind::kNormal;
     if (!takes_part) row.state = RowState::kOut;
   }
-  Assemble(kOwnOfJam, kOwnOfJam);
+  Assemble(kDiagonalOfJam, kDiagonalOfJam);
   Solve(true);
   double fastest = 0;
   for (const ExactBody& q : bodies)

@@ -45,7 +45,7 @@ void ExactIsland::FindShutting() {
 /// rad. `anew`: writes the rows for the current bodies. `slope`: share of the last correction to
 /// take back, so that the errors of the last two cancel (Anderson 1965, of depth one; for a single
 /// row the secant method).
-double ExactIsland::SidesOfErrors(const Pace& pace, bool anew, double* slope) {
+double ExactIsland::RightHandSides(const Pace& pace, bool anew, double* slope) {
   double* const errors = errors_.data();
   for (const Held& held : joints) {
     if (!anew && JointErrors(*held.joint, held.ends, bodies, errors + held.row)) continue;
@@ -111,13 +111,13 @@ bool ExactIsland::ShutJoints(const Pace& pace) {
   FindShutting();
   for (int tries = 0; tries < kCorrections; ++tries) {
     double slope = 0;
-    const double far = SidesOfErrors(pace, anew, &slope);
+    const double far = RightHandSides(pace, anew, &slope);
     if (far < (contacts.empty() ? kShut : kShutTouching)) return true;
     if (anew && far < kShutAtBest && far > kStalled * last) return true;
     if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
     if (!anew && tries > 0 && far > kSlow * last) {
       anew = true;
-      SidesOfErrors(pace, anew, &slope);
+      RightHandSides(pace, anew, &slope);
     }
     last = far;
     if (anew) {

@@ -55,7 +55,7 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
   }
   BringTogether(pace);
-  if (!contacts.empty()) carried_ = MostCarried(pace);
+  if (!contacts.empty()) carried_ = MostWarmStart(pace);
   for (int i = 0; i < pace.substeps; ++i) {
     if (i > 0) FillAgain(pace);
     Substep(pace);
@@ -82,7 +82,7 @@ void ExactIsland::Substep(const Pace& pace) {
   if (contacts.empty()) {
     KeepPoses();
     const double most = kMuchMore * KineticOf(bodies);
-    if (!Course(pace, whole) || KineticOf(bodies) > most) Doubt(pace, whole);
+    if (!Course(pace, whole) || KineticOf(bodies) > most) CheckWithoutContacts(pace, whole);
     return;
   }
   bodies_before_ = bodies;

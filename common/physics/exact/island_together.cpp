@@ -78,7 +78,7 @@ void ExactIsland::BringTogether(const Pace& pace) {
     bodies_before_ = bodies;
     if (alike) MakeAlike();
     ShiftTogether(damping);
-    if (alike) TakeMassesOf(bodies_before_);
+    if (alike) CopyMasses(bodies_before_);
     Fill(pace);
     double turned = 0;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -112,7 +112,7 @@ void ExactIsland::MakeAlike() {
   rewritten_ = true;
 }
 
-void ExactIsland::TakeMassesOf(const std::vector<ExactBody>& from) {
+void ExactIsland::CopyMasses(const std::vector<ExactBody>& from) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].im = from[b].im;
     bodies[b].ii = from[b].ii;

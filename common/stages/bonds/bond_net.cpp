@@ -30,7 +30,7 @@ int PlaceOf(const std::vector<PartId>& parts, PartId part) {
 bool CanBreak(const Joint& joint) { return joint.kind == JointKind::kGlue && joint.strength > 0; }
 
 /// Returns the Laplacian of the network times `shifts`: the spring forces.
-std::vector<double> Resisted(const BondNet& net, const std::vector<double>& shifts) {
+std::vector<double> SpringForces(const BondNet& net, const std::vector<double>& shifts) {
   std::vector<double> forces(shifts.size(), 0.0);
   for (const BondNet::Bond& bond : net.bonds) {
     const auto a = static_cast<std::size_t>(bond.a), b = static_cast<std::size_t>(bond.b);
@@ -54,7 +54,7 @@ std::vector<double> Shifts(const BondNet& net, const std::vector<double>& forces
   const double enough = kResidual * kResidual * Dot(forces, forces);
   double left = Dot(rest, rest);
   for (int i = 0; i < 2 * net.nodes + 50 && left > enough; ++i) {
-    const std::vector<double> cost = Resisted(net, way);
+    const std::vector<double> cost = SpringForces(net, way);
     const double steep = Dot(way, cost);
     if (!(steep > 0)) break;
     const double step = left / steep;

@@ -57,7 +57,7 @@ class GroupStage : public Stage {
   bool MayJoin(int body) const;
   RelativeMotion Disturb(b2Contact* contact);
   void Note(const b2Contact& contact, State state);
-  void LookForPairs();
+  void FindRestingPairs();
   void WatchGroups();
   BondEdit BondOf(int body, int other) const;
 
@@ -141,7 +141,7 @@ void GroupStage::Note(const b2Contact& contact, State state) {
 }
 
 /// Counts the time at rest, and finds the pairs to be grouped.
-void GroupStage::LookForPairs() {
+void GroupStage::FindRestingPairs() {
   for (std::size_t b = 0; b < states_.size(); ++b) {
     if (IsShaken(static_cast<int>(b))) states_[b] = State::kDisturbed;
   }
@@ -151,7 +151,7 @@ void GroupStage::LookForPairs() {
     b2Fixture* const other = c->GetFixtureB();
     if (one->IsSensor() || other->IsSensor()) continue;
     const RelativeMotion motion = Disturb(c);
-    if (IsPressed(c)) Note(*c, State::kPressed);
+    if (IsInterpenetrating(c)) Note(*c, State::kPressed);
     const int a = IndexOf(one->GetBody()), b = IndexOf(other->GetBody());
     if (a < 0 || b < 0 || !MayJoin(a) || !MayJoin(b)) continue;
     const bool still = motion.speed <= kRestSpeed && motion.spin <= kRestSpin;
@@ -194,7 +194,7 @@ void GroupStage::WatchGroups() {
 void GroupStage::AfterTick() {
   states_.assign(w_.built.moving.size(), State::kAtRest);
   if (w_.tick % kLookTicks == 0) {
-    LookForPairs();
+    FindRestingPairs();
   } else {
     WatchGroups();
   }

@@ -30,7 +30,8 @@ b2Vec2 PointOf(b2Contact* contact) {
 /// Returns a body's velocity at a point. A prescribed body's velocity is that of its origin.
 b2Vec2 VelocityAt(const StageWorld& world, b2Body* body, const b2Vec2& point) {
   const int index = IndexOf(body);
-  const bool led = index >= 0 && world.motions[static_cast<std::size_t>(index)] == Motion::kLed;
+  const bool led =
+      index >= 0 && world.motions[static_cast<std::size_t>(index)] == Motion::kPrescribed;
   if (!led) return body->GetLinearVelocityFromWorldPoint(point);
   const b2Vec2 arm = point - body->GetPosition();
   return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
@@ -46,7 +47,7 @@ RelativeMotion MotionAt(const StageWorld& world, b2Contact* contact) {
   return {slip.Length(), std::fabs(b->GetAngularVelocity() - a->GetAngularVelocity())};
 }
 
-bool IsPressed(b2Contact* contact) {
+bool IsInterpenetrating(b2Contact* contact) {
   if (!contact->IsTouching()) return false;
   b2WorldManifold manifold;
   contact->GetWorldManifold(&manifold);

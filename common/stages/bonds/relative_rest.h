@@ -19,7 +19,7 @@ struct RelativeMotion {
 RelativeMotion MotionAt(const StageWorld& world, b2Contact* contact);
 
 /// Returns true if the two overlap more than the engine leaves bodies that rest on each other.
-bool IsPressed(b2Contact* contact);
+bool IsInterpenetrating(b2Contact* contact);
 
 /// Returns the gap between the shapes, rims included, m; 0 if they touch. Needed because the boxes
 /// of rotated shapes meet while the shapes are still far apart.

@@ -102,7 +102,7 @@ void CharacterControl::LetGo() {
 }
 
 /// Releases a hand that is overloaded, and lets it rest.
-void CharacterControl::FeelHands(float h) {
+void CharacterControl::UpdateHandLoads(float h) {
   for (int side = 0; side < 2; ++side) {
     float& hold = memory_.hold[side];
     float& load = memory_.load[side];
@@ -138,7 +138,7 @@ b2Vec2 CharacterControl::PullTo(const CharacterSense& s, b2Vec2 tip) const {
 
 /// Returns true if a holding hand must let go and reach on: a hand on the wall once the shoulder is
 /// level with it, a hand on the ledge once the body has passed it.
-bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
+bool CharacterControl::MustReachOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   const float m = limbs_.scale();
   // One hand at a time.
   if (!hands_.holds(1 - side) || memory_.hold[1 - side] <= 0) return false;
@@ -196,7 +196,7 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     if (!hands_.has(side)) continue;
     if (hands_.holds(side)) {
       const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
-      if (ReachesOn(side, tip, shoulder)) memory_.hold[side] = -gains_.climb_rest;
+      if (MustReachOn(side, tip, shoulder)) memory_.hold[side] = -gains_.climb_rest;
       b2Vec2 force = 1.0f / static_cast<float>(holding) * PullTo(s, tip);
       const float most = gains_.climb_grip * s.mass * gravity_;
       if (force.Length() > most) force *= most / force.Length();

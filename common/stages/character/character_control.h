@@ -70,7 +70,7 @@ class CharacterControl {
   /// Proposes grips to make or release. Called after a tick.
   void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
   /// Updates the hands' loads. Called after a tick of `h` s.
-  void FeelHands(float h);
+  void UpdateHandLoads(float h);
 
   const CharacterMemory& memory() const { return memory_; }
   CharacterMemory* mutable_memory() { return &memory_; }
@@ -119,7 +119,7 @@ class CharacterControl {
   StairGait Stairs() const;
   float Ahead(float omega) const;
   b2Vec2 EdgeAhead(const CharacterSense& s, float from_x) const;
-  float WishedFoothold(const CharacterSense& s, float support_x) const;
+  float DesiredFoothold(const CharacterSense& s, float support_x) const;
   bool FlatAt(const CharacterSense& s, float x, const Rims& rims, Foothold* foothold) const;
   Foothold NextFoothold(const CharacterSense& s, float support_x) const;
   float StepRate(const CharacterSense& s, float support_x, float foothold_x) const;
@@ -166,7 +166,7 @@ class CharacterControl {
   bool RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b2Vec2 edge);
   void PullWith(int side, b2Vec2 force);
   b2Vec2 PullTo(const CharacterSense& s, b2Vec2 tip) const;
-  bool ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;
+  bool MustReachOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;
   void LetGo();
   void Hang();
 

@@ -26,7 +26,7 @@ class CharacterStage : public Stage {
     for (CharacterControl& control : controls_) control.Forget();
   }
   void AfterTick() override {
-    for (CharacterControl& control : controls_) control.FeelHands(tick_s_);
+    for (CharacterControl& control : controls_) control.UpdateHandLoads(tick_s_);
   }
   void ProposeEdits(std::vector<Edit>* edits) override {
     for (const CharacterControl& control : controls_) control.ProposeGrips(edits);

@@ -80,7 +80,7 @@ b2Vec2 CharacterControl::EdgeAhead(const CharacterSense& s, float from_x) const 
 }
 
 /// Returns the ankle's x, m, from which the pendulum continues at the desired speed.
-float CharacterControl::WishedFoothold(const CharacterSense& s, float support_x) const {
+float CharacterControl::DesiredFoothold(const CharacterSense& s, float support_x) const {
   const CharacterShape& shape = limbs_.shape();
   const LegSense& stance = s.legs[memory_.stance];
   const float omega = Omega(s, stance.ankle.y - shape.ankle);
@@ -129,7 +129,7 @@ bool CharacterControl::FlatAt(const CharacterSense& s, float x, const Rims& rims
 CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& s,
                                                           float support_x) const {
   const float scale = limbs_.scale();
-  float wished = WishedFoothold(s, support_x);
+  float wished = DesiredFoothold(s, support_x);
   Foothold next;
   bool flat = FlatAt(s, wished, {0, 0}, &next);
   if (memory_.step > gains_.edge_commit * StepTime()) {

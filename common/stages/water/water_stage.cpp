@@ -33,14 +33,14 @@ class WaterStage : public Stage {
   void Emptied() override { pool_ = nullptr; }
   void BeforeTick() override;
   void BeforeStep(float h) override;
-  void AfterTick() override { NoteMotions(); }
+  void AfterTick() override { RecordMotions(); }
   bool listens() const override { return true; }
   void BeginContact(b2Contact* contact) override { Count(contact, 1); }
   void EndContact(b2Contact* contact) override { Count(contact, -1); }
 
  private:
   void Count(b2Contact* contact, int change);
-  void NoteMotions();
+  void RecordMotions();
   int& Touching(int body, std::size_t water) {
     return touching_[static_cast<std::size_t>(body) * w_.scene.waters.size() + water];
   }
@@ -78,17 +78,17 @@ void WaterStage::Rebuilt(b2World* world) {
     def.userData.pointer = kStageFixture + i;
     pool_->CreateFixture(&def);
   }
-  NoteMotions();
+  RecordMotions();
   for (std::size_t i = 0; i < kinematic_.size(); ++i) unseen_.push_back({static_cast<int>(i)});
 }
 
 /// Motions are set by now, and contacts are found before the next step.
 void WaterStage::Placed() {
-  NoteMotions();
+  RecordMotions();
   unseen_.clear();
 }
 
-void WaterStage::NoteMotions() {
+void WaterStage::RecordMotions() {
   kinematic_.clear();
   for (const MovingBody& m : w_.built.moving) {
     kinematic_.push_back(m.body->GetType() == b2_kinematicBody);

@@ -54,8 +54,8 @@ class Corrector {
   /// Call before a step. Pulls copies towards the authority's states, if the room's rule acts in
   /// every tick.
   void PullCopies();
-  /// Call after a change of roles. Sets bodies dynamic, prescribed (kLed), absent or kinematic.
-  /// Returns true if an awake body became dynamic.
+  /// Call after a change of roles. Sets bodies dynamic, prescribed (kPrescribed), absent or
+  /// kinematic. Returns true if an awake body became dynamic.
   bool FollowRoles();
   /// Like the above for these bodies only, ascending. Call after a change of Presence, with bodies
   /// that are not parked.
@@ -76,8 +76,8 @@ class Corrector {
   bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
   /// Records one entry. Returns true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);
-  void PutExact(int body, std::int64_t from, const BodyState& difference, const BodyState& told,
-                std::int64_t told_tick);
+  void ApplyDifference(int body, std::int64_t from, const BodyState& difference,
+                       const BodyState& told, std::int64_t told_tick);
   void BringBack(int body, const BodyState& told, std::int64_t tick);
   void PlaceNow(int body, std::int64_t tick, const BodyState& remote, bool asleep);
   void PlaceBody(int body, const BodyState& state, bool asleep);
@@ -96,12 +96,12 @@ class Corrector {
   void Blend(int body, const BodyState& local, const Correction& c, std::int64_t from);
   Motion WantedMotion(int body) const;
   bool BeginToSimulate(int body);
-  bool WasStruckHereAlone(int body) const;
+  bool HadUnreportedImpact(int body) const;
   void CloseBegun(int mechanism);
   template <class Put>
   void Close(int mechanism, bool only_turns, const Put& put);
   BodyState PullTarget(int body, std::int64_t at) const;
-  void NoteArrival(int body);
+  void RecordArrival(int body);
 
   const SyncConfig& config_;
   World& world_;

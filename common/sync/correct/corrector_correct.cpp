@@ -114,7 +114,7 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   const Vec2 there = WayTo(body, in.remote.position, states.tick, target);
   if (there != target) c.now.position = there - in.local.position;
   if (!Negligible(c.now)) Blend(body, in.local, c, states.tick);
-  NoteArrival(body);
+  RecordArrival(body);
 }
 
 /// Takes the pose of a copy that rests as far as its authority knows. A difference within the

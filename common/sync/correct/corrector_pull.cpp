@@ -19,7 +19,7 @@ BodyState Corrector::PullTarget(int body, std::int64_t at) const {
   return target;
 }
 
-void Corrector::NoteArrival(int body) {
+void Corrector::RecordArrival(int body) {
   if (config_.pull == nullptr) return;
   PullTrack& pull = memory_.track(body).pull;
   pull.arrived = world_.tick();

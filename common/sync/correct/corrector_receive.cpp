@@ -43,7 +43,7 @@ Received Corrector::Receive(const States& states) {
     if (!IsNews(states, i, body, &result)) continue;
     memory_.track(body).heard_tick = states.tick;
     memory_.track(body).heard_epoch = states.epoch[i];
-    memory_.NoteNews(body);
+    memory_.MarkUpdated(body);
     if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
   }
   ClosePlaced();

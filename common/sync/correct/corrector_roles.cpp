@@ -27,7 +27,7 @@ Motion Corrector::WantedMotion(int body) const {
     return presence_.Idle(m) ? Motion::kAbsent : Motion::kDynamic;
   }
   if (config_.mode != Mode::kBuffer) return Motion::kKinematic;
-  return presence_.Near(m) ? Motion::kLed : Motion::kAbsent;
+  return presence_.Near(m) ? Motion::kPrescribed : Motion::kAbsent;
 }
 
 bool Corrector::FollowRoles() {
@@ -50,7 +50,7 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
     // A body simulated until now is extrapolated from its current state. The last state heard may
     // be from before this peer had the authority.
     const bool ends = world_.motion(body) == Motion::kDynamic;
-    if (ends && !WasStruckHereAlone(body)) {
+    if (ends && !HadUnreportedImpact(body)) {
       const BodyState state = world_.Read(body);
       memory_.snapshots().Add(body, now, state, memory_.FallsFreely(body, now, state));
     }
@@ -75,7 +75,7 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
 /// Returns true if a copy moves after an impact that its holder, heard a moment ago, does not
 /// report. The display would continue that motion until the next state, and states of displayed
 /// bodies are rare.
-bool Corrector::WasStruckHereAlone(int body) const {
+bool Corrector::HadUnreportedImpact(int body) const {
   const std::int64_t now = world_.tick();
   const Snapshots& heard = memory_.snapshots();
   const std::int64_t lately = now - config_.tick_hz / kHeardLatelyPart;

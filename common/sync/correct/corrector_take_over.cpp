@@ -46,7 +46,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     memory_.snapshots().Add(body, exact.tick, there, falls);
     track.heard_tick = exact.tick;
     track.heard_epoch = exact.epoch[i];
-    memory_.NoteNews(body);
+    memory_.MarkUpdated(body);
     if (!track.placed) {  // without this, no peer would know the pose of a body that becomes ours
       PlaceNow(body, exact.tick, there, false);
       continue;
@@ -72,7 +72,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     if (then != nullptr && exact.tick <= now && replay_.Ask(body, from)) {
       replays = true;
     } else if (!memory_.Coupled(world_.mechanism(body))) {
-      PutExact(body, then != nullptr ? from : now, difference, told, exact.tick);
+      ApplyDifference(body, then != nullptr ? from : now, difference, told, exact.tick);
     } else {
       // Two authorities press on the body: the whole difference would push it into one of them. The
       // rule goes on correcting instead.
@@ -100,8 +100,8 @@ void Corrector::BringBack(int body, const BodyState& told, std::int64_t tick) {
 
 /// Adds the difference at tick `from` to the copy, at that tick and since. `told`: the holder's
 /// state at tick `told_tick`.
-void Corrector::PutExact(int body, std::int64_t from, const BodyState& difference,
-                         const BodyState& told, std::int64_t told_tick) {
+void Corrector::ApplyDifference(int body, std::int64_t from, const BodyState& difference,
+                                const BodyState& told, std::int64_t told_tick) {
   const std::int64_t now = world_.tick();
   BodyState off = difference;
   // A later impact here has cancelled a difference of velocity.

@@ -66,7 +66,7 @@ Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const
       memory_(memory),
       display_(display),
       inputs_(inputs) {
-  NoteSitters();
+  RecordSeats();
 }
 
 bool Replay::Agrees(const BodyState& d) const {
@@ -79,7 +79,7 @@ bool Replay::Agrees(const BodyState& d) const {
 bool Replay::Ask(int body, std::int64_t tick) {
   if (IsBeforeEdit(tick)) return true;
   if (barriers_.empty() || tick < barriers_.front().world.tick) return false;
-  if (tick < memory_.track(body).dynamic_since) return BeginsEarlier(body, tick);
+  if (tick < memory_.track(body).dynamic_since) return SimulateFrom(body, tick);
   const BodyState* known = memory_.snapshots().At(body, tick);
   if (known == nullptr) return true;  // replaced by a newer one earlier
   const BodyState& then = *memory_.history().At(tick, body);
@@ -91,7 +91,7 @@ bool Replay::Ask(int body, std::int64_t tick) {
 
 /// Begins the simulation of a copy at a state from before it was simulated, so that its motion at
 /// that time is not lost.
-bool Replay::BeginsEarlier(int body, std::int64_t tick) {
+bool Replay::SimulateFrom(int body, std::int64_t tick) {
   if (!config_.StampsInputs(roles_.self())) return false;
   const BodyState* known = memory_.snapshots().At(body, tick);
   BodyState* past = memory_.history().At(tick, body);
@@ -135,7 +135,7 @@ void Replay::TakeBarrier() {
     actions_.pop_front();
 }
 
-void Replay::NoteAction(std::int64_t tick, int player, int action) {
+void Replay::RecordAction(std::int64_t tick, int player, int action) {
   const int self = roles_.self();
   if (config_.GoesBack(self) && !config_.StampsInputs(self)) {
     actions_.push_back({tick, player, action});
@@ -190,7 +190,7 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
 /// Ends a committed rest that a replay has changed. Where inputs are stamped, committed bodies are
 /// stepped again; the rest holds if the body came to rest at the same pose. Returns true if it
 /// holds.
-bool Replay::RestsAsBefore(int body, const BodyState& pose) {
+bool Replay::KeepsRest(int body, const BodyState& pose) {
   BodyTrack& track = memory_.track(body);
   if (!track.at_rest) return false;
   track.at_rest = !world_.awake(body) && Agrees(Apart(world_.Read(body), pose));
@@ -207,12 +207,12 @@ void Replay::EndRest() {
 }
 
 /// Call after the step to the world's tick. Writes the states known of that tick.
-void Replay::PutIn() {
+void Replay::WriteKnownStates() {
   EndRest();
-  for (const int body : world_.present()) PutIn(body);  // absent bodies wait for Arrive
+  for (const int body : world_.present()) WriteKnownStates(body);  // absent bodies wait for Arrive
 }
 
-void Replay::PutIn(int body) {
+void Replay::WriteKnownStates(int body) {
   BodyState* past = memory_.history().At(world_.tick(), body);
   if (FollowsHistory(body, world_.tick())) {
     // The cause that woke it then may be missing this time; it moves on all the same.
@@ -249,7 +249,7 @@ void Replay::ActAgain(std::int64_t next) {
   }
 }
 
-void Replay::StepAgain() {
+void Replay::ReplayTick() {
   const std::int64_t next = world_.tick() + 1;
   for (const int player : drivers_.concerned()) {
     world_.SetInput(player, inputs_[static_cast<std::size_t>(player)].At(next));
@@ -292,7 +292,7 @@ bool Replay::Depart(std::int64_t from, bool all) {
   Journey journey;
   journey.from = from;
   journey.now = world_.tick();
-  std::vector<int> bodies = world_.ApartFrom(barriers_.back().world);
+  std::vector<int> bodies = world_.MayDifferFrom(barriers_.back().world);
   if (all) {
     bodies.resize(static_cast<std::size_t>(world_.body_count()));
     std::iota(bodies.begin(), bodies.end(), 0);
@@ -308,16 +308,16 @@ bool Replay::Depart(std::int64_t from, bool all) {
   }
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
-  PutIdle();
+  RestoreIdle();
   if (config_.StampsInputs(roles_.self())) PutToRest(world_, roles_, memory_);
-  PutIn();
+  WriteKnownStates();
   RepeatEdits();
   return true;
 }
 
 /// Puts idle bodies where they are now: nothing could touch them. Without their surroundings,
 /// bodies not yet at rest at that tick would drift away.
-void Replay::PutIdle() {
+void Replay::RestoreIdle() {
   for (const Shown& shown : journey_->shown) {
     if (!memory_.track(shown.body).idle) continue;
     world_.Write(shown.body, shown.state, false);
@@ -327,8 +327,8 @@ void Replay::PutIdle() {
 
 void Replay::StepTo(std::int64_t tick) {
   while (world_.tick() < tick) {
-    StepAgain();
-    PutIn();
+    ReplayTick();
+    WriteKnownStates();
     TakeBarrier();
     RepeatEdits();
   }
@@ -338,7 +338,7 @@ void Replay::StepTo(std::int64_t tick) {
 void Replay::Arrive() {
   for (const Shown& shown : journey_->shown) {
     const int body = shown.body;
-    if (FollowsHistory(body, journey_->now) || RestsAsBefore(body, shown.state)) {
+    if (FollowsHistory(body, journey_->now) || KeepsRest(body, shown.state)) {
       world_.Write(body, shown.state, shown.awake && IsFact(body, journey_->now));
       if (!shown.awake) world_.SetAwake(body, false);
     }

@@ -56,14 +56,14 @@ class Replay {
   /// leaves the replay to the next call.
   void Run();
   /// Calls `call` after each tick of a replay, with the world as just stepped.
-  void OnSteppedAgain(std::function<void()> call) { on_stepped_again_ = std::move(call); }
+  void OnReplayedTick(std::function<void()> call) { on_stepped_again_ = std::move(call); }
   /// Call after a step. At a send tick, makes that tick a barrier. This happens at every send tick,
   /// needed or not, because worlds that are to agree bit for bit must be rebuilt at the same ticks.
   /// A world that need not agree with another peer's is only copied, and less often.
   void TakeBarrier();
   /// Records that this peer performed a player's action (index) before the step to `tick`; a replay
   /// repeats it. Not for rules that stamp inputs.
-  void NoteAction(std::int64_t tick, int player, int action);
+  void RecordAction(std::int64_t tick, int player, int action);
   /// Drops all barriers: a body is new, or the bodies have changed.
   void Forget();
 
@@ -106,7 +106,7 @@ class Replay {
     int sat = -1;  ///< if a SeatEdit: the seat's player before
   };
 
-  bool RestsAsBefore(int body, const BodyState& pose);
+  bool KeepsRest(int body, const BodyState& pose);
   /// A body as displayed before it is stepped again.
   struct Shown {
     int body = -1;
@@ -122,7 +122,7 @@ class Replay {
   /// edit, the state says nothing about now, and newer ones are on their way.
   bool IsBeforeEdit(std::int64_t tick) const;
   bool Depart(std::int64_t from, bool all);
-  void PutIdle();
+  void RestoreIdle();
   void StepTo(std::int64_t tick);
   void Arrive();
   void BarrierAfterEdits();
@@ -130,20 +130,20 @@ class Replay {
   /// True if no other peer simulates or drives any body that this peer simulates.
   bool IsAlone() const;
   void DropBarriers();
-  void NoteSitters();
+  void RecordSeats();
   void ForgetHeard();
   void UndoEdits();
   void RepeatEdits();
-  bool BeginsEarlier(int body, std::int64_t tick);
+  bool SimulateFrom(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
   bool IsFact(int body, std::int64_t tick) const;
   /// True if a difference is too small to correct.
   bool Agrees(const BodyState& difference) const;
   void EndRest();
-  void PutIn();
-  void PutIn(int body);
-  void StepAgain();
+  void WriteKnownStates();
+  void WriteKnownStates(int body);
+  void ReplayTick();
   void ActAgain(std::int64_t next);
 
   const SyncConfig& config_;

@@ -71,7 +71,7 @@ void Replay::Edited(const Edit& edit, bool changed) {
     edits_.push_back({edit, world_.tick(), sat});
     ++edits_done_;
   }
-  NoteSitters();
+  RecordSeats();
 }
 
 bool Replay::LacksEdit(int revision, std::int64_t tick) const {
@@ -95,7 +95,7 @@ void Replay::ForgetHeard() {
   }
 }
 
-void Replay::NoteSitters() {
+void Replay::RecordSeats() {
   sitters_.clear();
   for (const Seat& seat : world_.scene().seats) sitters_.push_back(seat.player);
 }

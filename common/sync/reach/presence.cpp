@@ -112,7 +112,7 @@ void Presence::Remap() {
   around_.max.setConstant(1e9f);
 }
 
-bool Presence::LookIfDue() {
+bool Presence::CheckIfDue() {
   if (config_.mode != Mode::kBuffer) return false;
   // Peers check in different ticks, so that a machine with many peers has even load.
   const int every = std::max(1, config_.tick_hz / kLooksPerSecond);
@@ -121,7 +121,7 @@ bool Presence::LookIfDue() {
   return true;
 }
 
-bool Presence::LookIfAsked() {
+bool Presence::CheckIfRequested() {
   if (config_.mode != Mode::kBuffer || !std::exchange(asked_, false)) return false;
   Look();
   return true;

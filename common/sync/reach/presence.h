@@ -28,9 +28,9 @@ class Presence {
            const BodyMemory& memory);
 
   /// Call after a step. Repeats the check if it is due; returns true if it did.
-  bool LookIfDue();
+  bool CheckIfDue();
   /// Call before a step. Repeats the check if Ask was called; returns true if it did.
-  bool LookIfAsked();
+  bool CheckIfRequested();
   /// Requests a check: a moving body is simulated here from now on and may be near bodies not
   /// needed until now.
   void Ask() { asked_ = true; }

@@ -16,7 +16,7 @@ constexpr double kSilent = 3.0;
 constexpr double kSilentIdle = 1.25;
 /// From the room's start, s: a player's first inputs may still be on their way, and only the state
 /// of tick 0 is known. Later, a player never heard of is absent.
-constexpr double kFirstWord = 0.75;
+constexpr double kFirstInputs = 0.75;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ void Reach::Look() {
     const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
     const std::int64_t newest = std::max<std::int64_t>(0, track.newest());
     if (player == roles_.own_player()) continue;
-    if (track.newest() < 0 && now >= static_cast<std::int64_t>(kFirstWord * config_.tick_hz)) {
+    if (track.newest() < 0 && now >= static_cast<std::int64_t>(kFirstInputs * config_.tick_hz)) {
       continue;
     }
     const double silent = track.At(newest) == Input{} ? kSilentIdle : kSilent;

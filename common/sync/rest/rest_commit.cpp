@@ -21,7 +21,7 @@ constexpr float kSleepSpeed = 0.01f, kSleepSpin = 0.035f, kWakeShare = 1.4f;
 constexpr double kPushedFor = 0.1;
 constexpr int kDoublings = 5;
 /// An impact, m/s and rad/s: wakes the body at once.
-constexpr float kBlow = 0.5f;
+constexpr float kWakeImpactSpeed = 0.5f;
 /// A woken copy goes back to rest if its authority has not reported motion for this long, s: more
 /// than the round trip of a slow path. Where states are sent only for input-complete ticks, the
 /// input has to reach the authority first, and the state takes as long again.
@@ -96,7 +96,7 @@ void RestCommit::LetGo(int body) {
     table_.End(body);
     disturbed(body).pushed_ticks = 0;
   } else {
-    disturbed(body).freed_tick = world_.tick();
+    disturbed(body).released_tick = world_.tick();
     freed_.push_back(body);
   }
 }
@@ -114,7 +114,7 @@ void RestCommit::FindDue() {
   add_absent(freed_);
   if (edited_) add_absent(memory_.tended());
   freed_.erase(std::remove_if(freed_.begin(), freed_.end(),
-                              [this](int body) { return disturbed(body).freed_tick < 0; }),
+                              [this](int body) { return disturbed(body).released_tick < 0; }),
                freed_.end());
   std::sort(due_.begin(), due_.end());
   due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
@@ -135,15 +135,15 @@ void RestCommit::BeforeStep() {
 void RestCommit::Hold(int body) {
   const std::int64_t back_after = Ticks(Trusts() ? kBackAfterTrusted : kBackAfter);
   Disturbance& d = disturbed(body);
-  if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= back_after) {
-    d.freed_tick = -1;
+  if (d.released_tick >= 0 && world_.tick() - d.released_tick >= back_after) {
+    d.released_tick = -1;
     memory_.track(body).at_rest = table_.at(body).committed;
     if (Holds(body)) {
       WriteHistory(table_.at(body), world_.tick(), body, &memory_);
       Put(body);
     }
   }
-  if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
+  if (!Holds(body) && table_.at(body).committed && d.released_tick < 0) {
     LetGo(body);  // a replay found an impact
   }
   if (!Holds(body)) return;
@@ -158,10 +158,10 @@ void RestCommit::Hold(int body) {
 }
 
 /// Returns true if a held body that the last step pushed is to be released.
-bool RestCommit::GivesWay(int body) {
+bool RestCommit::ExceedsWakeLimit(int body) {
   const BodyState now = world_.Read(body);
   const float speed = now.velocity.norm(), spin = std::fabs(now.spin);
-  if (speed > kBlow || spin > kBlow) return true;
+  if (speed > kWakeImpactSpeed || spin > kWakeImpactSpeed) return true;
   Disturbance& d = disturbed(body);
   const bool pushed = speed > kWakeShare * kSleepSpeed || spin > kWakeShare * kSleepSpin;
   d.pushed_ticks = pushed ? d.pushed_ticks + 1 : 0;
@@ -178,7 +178,7 @@ bool RestCommit::GivesWay(int body) {
 void RestCommit::HoldIsland(const std::vector<int>& island) {
   bool own_awake = false, others_awake = false, driven = false, only_own = true;
   for (const int body : island) {
-    const bool struck = world_.awake(body) && world_.Read(body).velocity.norm() > kBlow;
+    const bool struck = world_.awake(body) && world_.Read(body).velocity.norm() > kWakeImpactSpeed;
     driven = driven || struck || Driven(body);
     only_own = only_own && Own(body);
     if (Holds(body) || !world_.awake(body)) continue;
@@ -188,7 +188,7 @@ void RestCommit::HoldIsland(const std::vector<int>& island) {
     if (!Holds(body) || !world_.awake(body)) continue;
     const bool by_own = Own(body) && (own_awake || (only_own && !others_awake));
     const bool moves = world_.motion(body) == Motion::kDynamic;
-    if (moves && (Trusts() || by_own || driven || GivesWay(body))) {
+    if (moves && (Trusts() || by_own || driven || ExceedsWakeLimit(body))) {
       LetGo(body);
     } else {
       Put(body);
@@ -228,11 +228,12 @@ void RestCommit::Remap(const BodyRemap& change) {
   }
   disturbed_ = std::move(disturbed);
   for (int body = 0; body < world_.body_count(); ++body) {
-    memory_.track(body).at_rest = table_.at(body).committed && this->disturbed(body).freed_tick < 0;
+    memory_.track(body).at_rest =
+        table_.at(body).committed && this->disturbed(body).released_tick < 0;
   }
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (this->disturbed(body).freed_tick >= 0) freed_.push_back(body);
+    if (this->disturbed(body).released_tick >= 0) freed_.push_back(body);
   }
   watch_.StartAnew();
   committed_.clear();

@@ -50,7 +50,7 @@ class RestCommit {
   /// poses, asleep.
   void PutBack();
   /// Call when an edit was applied: a body that is awake before the next step was woken by it.
-  void NoteEdit() { edited_ = true; }
+  void MarkEdited() { edited_ = true; }
   void Remap(const BodyRemap& change);
   /// Forgets all rest.
   void StartAnew();
@@ -61,7 +61,7 @@ class RestCommit {
   bool Receive(const Rest& rest);
   /// Call after a hand-over has placed the copies. A body handed over exactly at its rest pose
   /// stays at rest; its new authority commits it again under its own epoch.
-  void NoteHandedOver(const ExactStates& exact);
+  void ProlongHandedOver(const ExactStates& exact);
   /// Returns the commitments of the last step. `utime` is left 0.
   std::vector<Rest> Take();
   /// Returns all commitments, for a peer that joins.
@@ -90,8 +90,8 @@ class RestCommit {
  private:
   /// Disturbances of a held body.
   struct Disturbance {
-    std::int64_t freed_tick = -1;  ///< when it was released here, its authority still silent; -1:
-                                   ///< it was not
+    std::int64_t released_tick = -1;  ///< when it was released here, its authority still silent;
+                                      ///< -1: it was not
     int pushed_ticks = 0;          ///< ticks in a row
     int times = 0;                 ///< releases by pushes since its authority last spoke of it
   };
@@ -119,7 +119,7 @@ class RestCommit {
   /// Accepts a disturbance as real. The rest of an own body ends; a copy moves on until its
   /// authority speaks, or until it goes back.
   void LetGo(int body);
-  bool GivesWay(int body);
+  bool ExceedsWakeLimit(int body);
   void HoldIsland(const std::vector<int>& island);
   void CommitIsland(const std::vector<int>& island);
   bool MayCommit(const std::vector<int>& island, const std::vector<int>& own) const;

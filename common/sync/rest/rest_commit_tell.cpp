@@ -72,7 +72,7 @@ void RestCommit::Commit(int body) {
   table_.Commit(body, world_.id(body), epoch, tick, world_.Read(body));
   memory_.track(body).at_rest = true;
   disturbed(body).pushed_ticks = 0;
-  disturbed(body).freed_tick = -1;
+  disturbed(body).released_tick = -1;
   Put(body);
   committed_.push_back(body);
 }
@@ -165,7 +165,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
     table_.Commit(body, rest.id[i], rest.epoch[i], rest.tick, pose);
     track.heard_tick = rest.tick;
     track.heard_epoch = rest.epoch[i];
-    if (disturbed(body).freed_tick < 0) LetGo(body);
+    if (disturbed(body).released_tick < 0) LetGo(body);
     return false;
   }
   const BodyState moved = Minus(pose, world_.Read(body));
@@ -178,7 +178,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   disturbed(body) = Disturbance{};
   if (places) memory_.snapshots().ForgetAfter(body, rest.tick - 1);  // that was an assumption
   memory_.snapshots().Add(body, rest.tick, pose);
-  memory_.NoteNews(body);
+  memory_.MarkUpdated(body);
   std::int64_t tick = std::max(rest.tick, memory_.history().oldest());
   for (; tick <= world_.tick() && !memory_.parked(body); ++tick) {
     if (BodyState* past = memory_.history().At(tick, body)) *past = pose;
@@ -193,7 +193,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   return false;
 }
 
-void RestCommit::NoteHandedOver(const ExactStates& exact) {
+void RestCommit::ProlongHandedOver(const ExactStates& exact) {
   for (std::size_t i = 0; i < exact.id.size(); ++i) {
     const int body = world_.BodyOfId(exact.id[i]);
     if (body < 0 || !table_.at(body).committed) continue;

@@ -27,7 +27,7 @@ std::vector<int> DisturbedRest(const World& world, const Drivers& drivers, const
   for (const std::vector<int>& island : FindPresentIslands(world)) {
     bool real = false;
     for (const int body : island) {
-      const bool struck = world.awake(body) && world.Read(body).velocity.norm() > kRestBlow;
+      const bool struck = world.awake(body) && world.Read(body).velocity.norm() > kRestImpactSpeed;
       real = real || struck || driven[static_cast<std::size_t>(world.mechanism(body))];
     }
     for (const int body : island) {

@@ -13,7 +13,7 @@
 namespace seam {
 
 /// A body faster than this counts as struck, m/s.
-constexpr float kRestBlow = 0.5f;
+constexpr float kRestImpactSpeed = 0.5f;
 
 /// By mechanism: true if a player whose axes move it, or who owns it, gives any input in this tick.
 /// `inputs`: by player.

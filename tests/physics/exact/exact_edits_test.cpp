@@ -94,7 +94,7 @@ TEST(ExactEdits, AKinematicLinkGoesItsWayAndTheOthersFollow) {
 /// How far a chain's joints are open, at worst, while its first link is led.
 double DriftOfLed(const char* joints) {
   const auto world = SmallWorld(ChainText(5, 0, 0), joints, "gravity = [0, 0]\n");
-  world->SetMotion(0, Motion::kLed);
+  world->SetMotion(0, Motion::kPrescribed);
   const BodyState start{{0.5f, 0}, 0, {-1, 0.5f}, 0};
   world->Write(0, start);
   double worst = 0;

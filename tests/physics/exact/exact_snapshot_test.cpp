@@ -56,7 +56,7 @@ TEST(ExactSnapshot, ReplayIsBitExactWithExactJoints) { ExpectEqualReplay(JointSo
 TEST(ExactSnapshot, ReplayIsBitExactWhereCostDecides) { ExpectEqualReplay(JointSolving::kAuto); }
 
 TEST(ExactSnapshot, ReplayIsBitExactWithLedAndKinematicBodies) {
-  for (const Motion motion : {Motion::kLed, Motion::kKinematic}) {
+  for (const Motion motion : {Motion::kPrescribed, Motion::kKinematic}) {
     for (const char* name : {"bridge", "crane-grip", "car-terrain"}) {
       Scene scene = LoadScene(std::string("scenes/hard/") + name + ".toml");
       scene.solver.joints = JointSolving::kExact;
@@ -68,7 +68,7 @@ TEST(ExactSnapshot, ReplayIsBitExactWithLedAndKinematicBodies) {
         world->Write(body, state);
       };
       EXPECT_EQ(DifferentTicks(scene, 180, 4, lead), 0)
-          << name << (motion == Motion::kLed ? ", led" : ", kinematic");
+          << name << (motion == Motion::kPrescribed ? ", led" : ", kinematic");
     }
   }
 }

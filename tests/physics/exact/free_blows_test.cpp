@@ -58,7 +58,7 @@ double EnergyChange(const std::string& parts, const std::string& solver) {
   return most;
 }
 
-TEST(FreeBlows, DiscsInAClosedBoxKeepTheirEnergyAtAnySubsteps) {
+TEST(ElasticImpacts, DiscsInAClosedBoxKeepTheirEnergyAtAnySubsteps) {
   for (const int substeps : {1, 2, 3, 8}) {
     for (const unsigned seed : {11u, 12u}) {
       const std::string solver = "substeps = " + std::to_string(substeps) + "\n";
@@ -67,15 +67,15 @@ TEST(FreeBlows, DiscsInAClosedBoxKeepTheirEnergyAtAnySubsteps) {
   }
 }
 
-TEST(FreeBlows, TheEngineAloneDoesNot) {
+TEST(ElasticImpacts, TheEngineAloneDoesNot) {
   EXPECT_GT(EnergyChange(Gas("circle = 0.6", 11), "joints = \"iterative\"\n"), 2e-3);
 }
 
-TEST(FreeBlows, SquaresThatTumbleKeepIt) {
+TEST(ElasticImpacts, SquaresThatTumbleKeepIt) {
   EXPECT_LT(EnergyChange(Gas("box = [1, 1]", 13), ""), 1e-3);
 }
 
-TEST(FreeBlows, ABallUnderGravityComesBackToItsHeight) {
+TEST(ElasticImpacts, ABallUnderGravityComesBackToItsHeight) {
   const auto highest = [](const std::string& solver) {
     const auto world =
         SmallWorld(Elastic("ground", "box = [20, 1]\nposition = [0, -0.5]\nanchored = true") +
@@ -113,13 +113,13 @@ double LeftInAPit(const std::string& solver) {
   return world->Energy() / begin;
 }
 
-TEST(FreeBlows, APileUnderGravityKeepsItsEnergy) {
+TEST(ElasticImpacts, APileUnderGravityKeepsItsEnergy) {
   EXPECT_NEAR(LeftInAPit(""), 1, 0.03);
   EXPECT_NEAR(LeftInAPit("substeps = 4\n"), 1, 0.01);
   EXPECT_GT(LeftInAPit("joints = \"iterative\"\n"), 1.1);  // the engine heats it
 }
 
-TEST(FreeBlows, OfARowOfDiscsTheLastFlies) {
+TEST(ElasticImpacts, OfARowOfDiscsTheLastFlies) {
   std::string parts;
   for (int i = 0; i < 5; ++i) {
     parts += Elastic("disc" + std::to_string(i),
@@ -133,7 +133,7 @@ TEST(FreeBlows, OfARowOfDiscsTheLastFlies) {
   }
 }
 
-TEST(FreeBlows, SlowOnesBounceWhereNothingWeighs) {
+TEST(ElasticImpacts, SlowOnesBounceWhereNothingWeighs) {
   const auto world =
       SmallWorld(Walls() + Elastic("disc", "circle = 0.5\nposition = [5, 0]\nvelocity = [0.3, 0]"),
                  "", kWeightless);
@@ -141,7 +141,7 @@ TEST(FreeBlows, SlowOnesBounceWhereNothingWeighs) {
   EXPECT_NEAR(world->Read(0).velocity.x(), -0.3, 1e-6);
 }
 
-TEST(FreeBlows, WhatLiesOnElasticGroundLies) {
+TEST(ElasticImpacts, WhatLiesOnElasticGroundLies) {
   const auto world =
       SmallWorld(Elastic("ground", "box = [20, 1]\nposition = [0, -0.5]\nanchored = true", 0.5) +
                  Elastic("box", "box = [1, 1]\nposition = [0, 0.505]", 0.5));
@@ -150,7 +150,7 @@ TEST(FreeBlows, WhatLiesOnElasticGroundLies) {
   EXPECT_LT(world->Read(0).velocity.norm(), 0.01f);
 }
 
-TEST(FreeBlows, WithFrictionNoEnergyIsGained) {
+TEST(ElasticImpacts, WithFrictionNoEnergyIsGained) {
   const auto world =
       SmallWorld(Elastic("ground", "box = [200, 1]\nposition = [0, -0.5]\nanchored = true", 0.6) +
                      Elastic("box", "box = [1, 0.7]\nposition = [0, 3]\nspin = 9", 0.6),
@@ -163,7 +163,7 @@ TEST(FreeBlows, WithFrictionNoEnergyIsGained) {
   }
 }
 
-TEST(FreeBlows, LessThanRestitutionOneIsTheEngines) {
+TEST(ElasticImpacts, LessThanRestitutionOneIsTheEngines) {
   std::string parts = Gas("circle = 0.6", 14);
   for (std::size_t at = 0; (at = parts.find("restitution = 1\n", at)) != std::string::npos; ++at) {
     parts.replace(at, 15, "restitution = 0.9");
@@ -175,7 +175,7 @@ TEST(FreeBlows, LessThanRestitutionOneIsTheEngines) {
   EXPECT_EQ(ours->Hash(), engines->Hash());
 }
 
-TEST(FreeBlows, AreHeardAsImpacts) {
+TEST(ElasticImpacts, AreHeardAsImpacts) {
   const auto world =
       SmallWorld(Elastic("left", "circle = 0.5\nposition = [-1, 0]\nvelocity = [3, 0]") +
                      Elastic("right", "circle = 0.5\nposition = [1, 0]\nvelocity = [-3, 0]"),
@@ -189,7 +189,7 @@ TEST(FreeBlows, AreHeardAsImpacts) {
   EXPECT_NEAR(heard[0].dv, 6, 1e-4);
 }
 
-TEST(FreeBlows, GoBackBitForBit) {
+TEST(ElasticImpacts, GoBackBitForBit) {
   const auto world = SmallWorld(Gas("circle = 0.6", 15), "substeps = 2\n", kWeightless);
   Steps(world.get(), 50);
   const WorldSnapshot barrier = world->Barrier();

@@ -57,9 +57,9 @@ int PlannedHolder(const AuthorityView& view, const MechanismView& mechanism) {
 }
 
 /// Pairs of mechanisms that may come into contact within the time of their peers and `more`
-/// seconds. `by_ways`: where one falls, those alone that may on their ways.
+/// seconds. `by_path`: where one falls, those alone that may on their ways.
 std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const ReferencePlan& plan,
-                                              float more, bool by_ways) {
+                                              float more, bool by_path) {
   std::vector<float> one_way(plan.size(), 0);
   float longest = 0;
   for (const PlayerView& player : view.players) {
@@ -73,7 +73,7 @@ std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const R
            ZoneSeconds(one_way[static_cast<std::size_t>(a)], one_way[static_cast<std::size_t>(b)]);
   };
   const FallAxis fall = FallAxisOf(view.gravity);
-  if (!by_ways || fall.axis < 0) {
+  if (!by_path || fall.axis < 0) {
     return MeetingGroups(view.boxes, more + ZoneSeconds(longest, longest), seconds_of);
   }
   std::set<std::pair<int, int>> pairs;
@@ -82,8 +82,7 @@ std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const R
       const float seconds = seconds_of(a.group, b.group);
       const bool falls = view.mechanisms[static_cast<std::size_t>(a.group)].falls ||
                          view.mechanisms[static_cast<std::size_t>(b.group)].falls;
-      const bool may =
-          MayMeet(a, b, seconds) && (!falls || MayMeetOnTheirWays(a, b, fall, seconds));
+      const bool may = MayMeet(a, b, seconds) && (!falls || MayMeetInFall(a, b, fall, seconds));
       if (a.group < b.group && may) pairs.insert({a.group, b.group});
     }
   }
