@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "client/clock_filter.h"
-#include "client/held_world.h"
+#include "client/join_buffer.h"
 #include "client/load_meter.h"
 #include "client/room_timeline.h"
-#include "client/scene_shelf.h"
+#include "client/scene_cache.h"
 #include "common/base/entropy.h"
 #include "common/codec/packed/states_unpacker.h"
 #include "common/net/link.h"

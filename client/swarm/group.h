@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/scene_shelf.h"
+#include "client/scene_cache.h"
 #include "client/swarm/held.h"
 #include "client/swarm/member.h"
 

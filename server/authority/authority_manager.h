@@ -9,7 +9,7 @@
 
 #include "common/sync/replica.h"
 #include "server/authority/capacity_watch.h"
-#include "server/authority/lying.h"
+#include "server/authority/sleeping_index.h"
 #include "server/authority/plan.h"
 
 namespace seam {
@@ -141,7 +141,7 @@ class AuthorityManager {
   void LookAtBoxes(AuthorityView* view) const;
   /// True if the view may leave out mechanisms asleep far from all else.
   bool MayLeaveOut(const AuthorityView& view);
-  /// Choose the mechanisms of the view (authority_lying.cpp).
+  /// Choose the mechanisms of the view (authority_sleeping.cpp).
   void SeeAll();
   void SeeAwakeAndNear(const AuthorityView& view);
   bool MayBeIndexed(int m) const;
@@ -185,7 +185,7 @@ class AuthorityManager {
   std::vector<int> seen_;  // mechanisms in view_, ascending
   bool limited_ = false;   // the last plan had a player of limited capacity
   int see_all_ = 0;        // plans left that view all, as most of it is awake
-  Lying sleeping_index_;
+  SleepingIndex sleeping_index_;
   struct Lay {
     std::uint64_t still = 0;  // World::still
     Vec2 position{0, 0};

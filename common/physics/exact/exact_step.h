@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/physics/exact/free_blows.h"
+#include "common/physics/exact/elastic_impacts.h"
 #include "common/physics/exact/island.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"

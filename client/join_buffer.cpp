@@ -1,4 +1,4 @@
-#include "client/held_world.h"
+#include "client/join_buffer.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,6 @@
 /// Lying: the plan without what lies far from all else is, entry by entry, the plan of everything.
 
-#include "server/authority/lying.h"
+#include "server/authority/sleeping_index.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "tests/lab/world/plan_worlds.h"
 
 namespace seam {
-namespace lying_test {
+namespace sleeping_index_test {
 
 /// Lays most of what nobody drives to sleep, the server's alone. By mechanism: whether it lies.
 std::vector<char> LayDown(std::uint64_t seed, AuthorityView* view) {
@@ -195,5 +195,5 @@ TEST(Lying, FindsTheSameHoweverItCameToLieThere) {
   EXPECT_GT(found, 200);
 }
 
-}  // namespace lying_test
+}  // namespace sleeping_index_test
 }  // namespace seam

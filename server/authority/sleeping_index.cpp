@@ -1,4 +1,4 @@
-#include "server/authority/lying.h"
+#include "server/authority/sleeping_index.h"
 
 #include <algorithm>
 #include <utility>
@@ -19,13 +19,13 @@ PlanSight SightOf(const AuthorityView& view) {
   return {ZoneSeconds(longest, longest) + kZoneKeep, view.buffer_m + kHysteresis};
 }
 
-void Lying::Clear(std::size_t mechanisms) {
+void SleepingIndex::Clear(std::size_t mechanisms) {
   boxes_.Clear(mechanisms);
   found_in_.assign(mechanisms, 0);
   looks_ = 0;
 }
 
-std::vector<int> Lying::Near(const std::vector<MovingBox>& boxes, const PlanSight& sight) {
+std::vector<int> SleepingIndex::Near(const std::vector<MovingBox>& boxes, const PlanSight& sight) {
   boxes_.Tidy();
   ++looks_;
   std::vector<int> found;       // mechanisms

@@ -20,7 +20,7 @@ struct PlanSight {
 /// zone.
 PlanSight SightOf(const AuthorityView& view);
 
-class Lying {
+class SleepingIndex {
  public:
   /// Sets the number of mechanisms; none is in the index.
   void Clear(std::size_t mechanisms);

@@ -1,6 +1,6 @@
 /// With what a client begins that joins late: what it was told last, at the tick it was told of.
 
-#include "client/held_world.h"
+#include "client/join_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "common/sync/quantize.h"
 
 namespace seam {
-namespace held_world_test {
+namespace join_buffer_test {
 
 Scene TwoBoxes() {
   return ParseScene(
@@ -160,5 +160,5 @@ TEST(AHeldMechanism, HasTheTurnsThatItsHingesAllow) {
   EXPECT_LT(replica.world().Read(1).velocity.norm(), 0.1f);
 }
 
-}  // namespace held_world_test
+}  // namespace join_buffer_test
 }  // namespace seam

@@ -1,4 +1,4 @@
-#include "common/physics/exact/free_blows.h"
+#include "common/physics/exact/elastic_impacts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 /// SceneCache: the same text is one scene, and what is no scene is refused as ParseScene does.
 
-#include "client/scene_shelf.h"
+#include "client/scene_cache.h"
 
 #include <gtest/gtest.h>
 
 #include "common/base/check.h"
 
 namespace seam {
-namespace scene_shelf_test {
+namespace scene_cache_test {
 
 const char* const kBall = "[[part]]\nname = \"ball\"\ncircle = 0.5\n";
 
@@ -40,5 +40,5 @@ TEST(SceneCache, WhatIsNoSceneIsRefusedEachTime) {
   for (int i = 0; i < 2; ++i) EXPECT_THROW(shelf.Of("[[part]]\n", "x.toml"), OperatorError);
 }
 
-}  // namespace scene_shelf_test
+}  // namespace scene_cache_test
 }  // namespace seam

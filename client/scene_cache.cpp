@@ -1,4 +1,4 @@
-#include "client/scene_shelf.h"
+#include "client/scene_cache.h"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace free_blows_test {
+namespace elastic_impacts_test {
 
 constexpr const char* kWeightless = "gravity = [0, 0]\n";
 
@@ -205,5 +205,5 @@ TEST(ElasticImpacts, GoBackBitForBit) {
   }
 }
 
-}  // namespace free_blows_test
+}  // namespace elastic_impacts_test
 }  // namespace seam
