@@ -29,7 +29,7 @@ class ProgressLine {
   bool shown_;
   std::int64_t every_us_;
   std::int64_t next_us_ = 0;
-  std::size_t columns_ = 0;  // of the line on the terminal, 0: none
+  std::size_t columns_ = 0;  // width of the line on the terminal, 0: none
 };
 
 }  // namespace seam

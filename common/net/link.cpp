@@ -36,7 +36,7 @@ constexpr std::size_t kSpareMost = 16;
 struct Link::Impl {
   const std::uint64_t session;
 
-  std::int64_t sequence = 0;  // of the newest datagram sent; the first is 1
+  std::int64_t sequence = 0;  // number of the newest datagram sent; the first is 1
   std::int64_t last_send_us = -1;
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest acknowledged number
