@@ -22,9 +22,9 @@ struct Load {
   std::int64_t cpu_us = 0;                                         ///< spent on this room
   std::int32_t clients = 0, players = 0;
   std::int32_t bodies = 0, moving = 0, moving_held = 0;  ///< held: a client has authority
-  std::int32_t islands = 0;     ///< awake contact islands
-  std::int64_t hand_overs = 0;  ///< changes of a mechanism's authority
-  std::int64_t jumps = 0;       ///< hand-overs with a visible correction
+  std::int32_t islands = 0;                              ///< awake contact islands
+  std::int64_t hand_overs = 0;                           ///< changes of a mechanism's authority
+  std::int64_t jumps = 0;                                ///< hand-overs with a visible correction
   std::int64_t dropped_malformed = 0, dropped_stale = 0, dropped_right = 0;  ///< as in Stats
   std::int64_t dropped_implausible = 0, dropped_budget = 0;
   std::vector<std::int8_t> kind;  ///< kTraffic...

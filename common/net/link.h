@@ -52,8 +52,8 @@ class Link {
   /// duplicates together take at most 32 kB/s.
   bool SendUrgent(ByteView message);
 
-  /// Tells the link that nothing moves in the room. Unless a reliable message needs an ack, the link
-  /// is then silent for up to 1.5 s; round trips are not sampled, because the peer waits as well.
+  /// Tells the link that nothing moves in the room. It is then silent for up to 1.5 s unless a
+  /// reliable message needs an ack. Round trips are not sampled, because the peer waits as well.
   void SetQuiet(bool quiet);
 
   using Sink = std::function<void(ByteView)>;
