@@ -1,6 +1,6 @@
 #pragma once
-/// What the mains share: a command line is parsed, help and version are printed, a mistake in
-/// it is one line and status 2. For mains only: it brings CLI11.
+/// Command-line handling of all mains: parses the flags and prints help and version. A mistake
+/// gives one line and exit status 2. Include it in mains only: it brings CLI11.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -16,14 +16,14 @@ namespace seam {
 struct ProgramText {
   const char* name;     ///< "seam-server"
   std::string about;    ///< the first line of --help
-  std::string version;  ///< what --version prints
+  std::string version;  ///< printed by --version
   std::string footer;   ///< the last lines of --help
-  FlagValues values{};  ///< what completes flags whose values are names of ours
+  FlagValues values{};  ///< completions for flags that take one of our names
 };
 
 /// Parses the command line as `define(CLI::App&)` says, then returns `run()`, within RunMain.
-/// --help (of a subcommand too) and --version print to stdout and return 0 without running; so does
-/// `--generate man|bash|zsh|fish` alone, which `make docs` calls.
+/// --help (also of a subcommand) and --version print to stdout and return 0 without running. So
+/// does `--generate man|bash|zsh|fish` as the only flag; `make docs` calls it.
 template <typename Define, typename Run>
 int RunCommandLine(const ProgramText& text, int argc, const char* const* argv, Define define,
                    Run run) {

@@ -11,17 +11,17 @@
 namespace seam {
 namespace {
 
-/// Messages that may wait for the window.
+/// Most messages in the queue, window included.
 constexpr std::size_t kWaitMax = 4096;
-/// Bytes begun in one Take: eight datagrams. At 60 Hz 4.4 Mb/s; more floods a slow path.
+/// Most bytes sent in one Take: eight datagrams. At 60 Hz 4.4 Mb/s; more floods a slow path.
 constexpr std::size_t kTakeBytes = 8 * kMessageBytesMax;
-/// Late, before the round trip is known, us.
+/// Retransmission timeout before the round trip is known, us.
 constexpr std::int64_t kFirstLateUs = 250'000;
-/// Before it is late an urgent message is repeated once on the chance that it was lost, so that who
-/// waits for it need not wait a round trip more: so long after it was sent, us, with a datagram
-/// that goes out anyway, or a little later in one of its own.
+/// Delay of an urgent message's speculative duplicate, us: the first with a datagram that goes out
+/// anyway, the second in one of its own. If the original was lost, the receiver need not wait for
+/// another round trip.
 constexpr std::int64_t kChanceRidesUs = 12'000, kChanceUs = 35'000;
-/// Repeats on the chance take so many bytes a second, and at once about a datagram.
+/// Rate limit of speculative duplicates, bytes per second; a burst is about one datagram.
 constexpr std::int64_t kChanceBytesPerS = 32'000;
 constexpr std::int64_t kChanceBurstUs = 1'000'000 * kMessageBytesMax / kChanceBytesPerS;
 
@@ -48,14 +48,14 @@ void ReliableQueue::NoteAcked(std::int64_t id) {
     window_bytes_ -= messages_.front().bytes.size();
     --window_;
     messages_.pop_front();
-    due_us_ = 0;  // the window moves on
+    due_us_ = 0;  // the window has moved
   }
   FillWindow();
 }
 
 void ReliableQueue::SetLate(std::int64_t late_us) {
   late_us_ = late_us;
-  due_us_ = 0;  // what is repeated may be due earlier
+  due_us_ = 0;  // a resend may be due earlier now
 }
 
 void ReliableQueue::FillWindow() {
@@ -67,7 +67,8 @@ void ReliableQueue::FillWindow() {
   }
 }
 
-/// When a message is due that is not acknowledged; its chance is `chance_us` after it.
+/// Returns the due time of an unacknowledged message; its speculative duplicate is due `chance_us`
+/// after the last send.
 std::int64_t ReliableQueue::DueUs(const Message& message, std::int64_t chance_us) const {
   if (message.sent_us < 0) return 0;
   const std::int64_t late_us = message.sent_us + late_us_;

@@ -38,7 +38,7 @@ void Write(const Named& named, const RoomLoad& load, std::string* text) {
 }
 
 void TakeBucket(const std::string& le, std::int64_t value, BucketHistogram* h) {
-  // To half a microsecond; "+Inf" is none of them: it is the count.
+  // Matches bounds to half a microsecond. "+Inf" matches none: it equals the count.
   const double bound_us = std::strtod(le.c_str(), nullptr) * 1e6;
   for (std::size_t i = 0; i < h->at_most.size(); ++i) {
     const auto known_us = static_cast<double>(h->kBoundsUs[i]);

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// Ticks at the ends are not lost to rounding, s.
+/// Tolerance against losing ticks at the ends to rounding, s.
 constexpr double kSlack = 1e-6;
 
 double Seconds(std::int64_t tick, int tick_hz) {
@@ -21,7 +21,7 @@ std::string Number(double value) {
   return text;
 }
 
-/// Erases the ticks outside from maps by peer and tick, and peers of whom nothing is left.
+/// Erases the ticks outside the range from maps by peer and tick, and then peers without ticks.
 template <class Map, class Keep>
 void KeepTicks(Map* by_peer, const Keep& keep) {
   for (auto peer = by_peer->begin(); peer != by_peer->end();) {

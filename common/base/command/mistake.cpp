@@ -18,14 +18,14 @@ std::vector<std::string> CommandNames(const CommandEntry& table) {
   return names;
 }
 
-/// The command that was named last: `tune gait` of seam-lab.
+/// Returns the innermost command on the command line: `gait` of `seam-lab tune gait`.
 const CLI::App& Innermost(const CLI::App& app) {
   const std::vector<const CLI::App*> parsed =
       app.get_subcommands([](const CLI::App* sub) { return sub->parsed(); });
   return parsed.empty() ? app : Innermost(*parsed.back());
 }
 
-/// "--drive: scrpt not in {script,bot}" -> the same, with what was probably meant.
+/// Appends the probable correction to "--drive: scrpt not in {script,bot}".
 std::string WithMember(const std::string& text) {
   const std::string mark = " not in {";
   const std::size_t at = text.find(mark), from = text.find(": "), end = text.find('}');

@@ -8,21 +8,21 @@ namespace seam {
 namespace {
 
 constexpr std::uint32_t kQuantaPerMetre = 512;
-/// Messages whose contents are remembered until they are acknowledged.
+/// Most messages with contents remembered until they are acknowledged.
 constexpr std::size_t kSentMost = 256;
-/// From one repeat of what was lost to the next, us: at first, and at most.
+/// Time between resends of a lost state, us: the first, and the longest.
 constexpr std::int64_t kAgainUs = 100000, kAgainUsMax = 400000;
-/// Of those that are not remembered any more, whose memory is kept for the next.
+/// Most emptied records kept for reuse of their memory.
 constexpr std::size_t kSpareMost = 16;
-/// Bytes that an entry, a group's header and all ends take at most.
+/// Most bytes of an entry, a group's header and all end marks together.
 constexpr std::size_t kEntryBytesMost = 64;
 
-/// Codes in a row, put as one: the writer keeps what it holds in memory, this in registers. All of
-/// it is inlined, or it would not.
+/// Joins successive codes into one Put. Its bits stay in registers, while those of BitWriter are in
+/// memory; this requires that every function is inlined.
 class Run {
  public:
   explicit Run(BitWriter* bits) : bits_(bits) {}
-  /// As BitWriter's; `value` has no more than `width` bits.
+  /// Like BitWriter::Put, but `value` must have no more than `width` bits.
   __attribute__((always_inline)) void Put(std::uint64_t value, int width) {
     if (width_ + width > 32) End();
     held_ = held_ << width | value;
@@ -187,7 +187,7 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
     run.Put(static_cast<std::uint64_t>(state.flags) & 7, 3);
   }
   if (kept) {
-    // What does not fall goes on as before.
+    // Chooses the better prediction: free fall or constant velocity.
     const PackedState fallen = GuessVelocity(motion_, before, state.tick, true);
     const bool falls = OffBy(state, fallen) < OffBy(state, before);
     run.Put(falls ? 1 : 0, 1);
@@ -264,7 +264,7 @@ void StatesPacker::FindOwed(std::int64_t until_us) {
     }
   }
   if (owed_.size() == before) return;
-  // Of one that was owed before what was lost last counts.
+  // Merges entries of one body: the last lost state counts, the timer continues.
   std::stable_sort(owed_.begin(), owed_.end(),
                    [](const Owed& a, const Owed& b) { return a.id < b.id; });
   std::size_t left = 0;
