@@ -35,7 +35,7 @@ enum class News : std::uint8_t {
 /// Conditions under which a receiver needs a new state.
 struct NewsRule {
   float off;     ///< m; error of the extrapolated last state, at a point of the body
-  double least;  ///< s; shortest time between two states
+  double least;  ///< s since that state: not sooner, unless epoch or sleep changed
 };
 constexpr NewsRule kNearNews{0.005f, 0};
 constexpr NewsRule kFarNews{0.05f, 0.5};
