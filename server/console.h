@@ -14,9 +14,9 @@ namespace seam {
 /// Returns the names of the scene's players that are not in the room, "ann, bob"; "" if all are.
 std::string MissingPlayers(const Server& server);
 
-/// Returns the progress line, "12 of 30 s, 1 of 2 players (bob missing), rtt 53 ms, loss 1.2 %, tick
-/// p99 0.24 ms, 0 drops; Ctrl-C stops". `last_tick`: the session's, 0 for none; rtt and loss are the
-/// worst client's.
+/// Returns the progress line, "12 of 30 s, 1 of 2 players (bob missing), rtt 53 ms, loss 1.2 %,
+/// tick p99 0.24 ms, 0 drops; Ctrl-C stops". `last_tick`: the session's, 0 for none; rtt and loss
+/// are the worst client's.
 std::string ServerProgress(const Server& server, std::int64_t last_tick, const TickTimes& ticks);
 
 /// Returns a line for each client that was ready in the room, after a line with the column names;
