@@ -18,7 +18,7 @@ constexpr int kStepsMax = 2;
 /// Radius of the blast that lets hanging bricks fall, m.
 constexpr float kLetFallRadius = 0.5f;
 /// Mode oracle: delay of edits decided outside the physics (a seat, a rule, a script), s; all peers
-/// apply them in the same tick. Must exceed an order's latency, or the peer diverges.
+/// apply them in the same tick. Must exceed an order's latency: else a peer applies it late.
 constexpr double kAppointSeconds = 0.25;
 
 Room MakeRoom(const Scene& scene, const ServerConfig& config) {
