@@ -9,8 +9,8 @@
 namespace seam {
 namespace {
 
-/// A message is taken for lost when it is not acknowledged after so long, us: as reliable ones are,
-/// and a little more, since who has nothing to say acknowledges late.
+/// Returns the time without acknowledgement after which a message counts as lost, us: as for
+/// reliable messages, and a little more, since a client with nothing to send acknowledges late.
 std::int64_t LateUs(std::int64_t rtt_us) {
   constexpr std::int64_t kUnknownUs = 250000, kMoreUs = 50000;
   return (rtt_us < 0 ? kUnknownUs : rtt_us + rtt_us / 4) + kMoreUs;
@@ -47,7 +47,7 @@ void Broadcast::Tell(const std::vector<Grants>& changes) {
   TellRestToFollowers(now_us, changes);
 }
 
-/// Who begins to simulate something has to know how it lies.
+/// Sends pending rest commits to peers that begin to simulate a mechanism.
 void Broadcast::TellRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes) {
   const AuthorityTable& table = replica_.authority();
   for (const Grants& grants : changes) {
@@ -64,7 +64,7 @@ void Broadcast::TellRestToFollowers(std::int64_t now_us, const std::vector<Grant
   }
 }
 
-/// A question to a holder names it beside those who follow: that is no harm.
+/// Updates followers_. A request to release lists the holder as a follower, too: harmless.
 void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
   for (const Grants& grants : changes) {
     auto next = grants.follower.begin();
@@ -95,7 +95,7 @@ void Broadcast::TellOwed(std::int64_t now_us) {
   const std::int64_t every = GrantNews::kOwedS * config_.tick_hz;
   const std::int64_t every_nothing = GrantNews::kOwedNothingS * config_.tick_hz;
   sessions_.ForEachTold([&](Session& session) {
-    // Not all in the same tick.
+    // Spread over ticks by peer.
     if ((replica_.tick() + 7 * session.peer) % every != 0) return;
     const bool all = (replica_.tick() + 7 * session.peer) % every_nothing == 0;
     const auto which = all ? GrantNews::Which::kAll : GrantNews::Which::kFar;
@@ -109,7 +109,8 @@ void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, 
   });
 }
 
-/// Who simulates it hears of it, too, wherever it is; and who is not ready yet of everything.
+/// True if a session is sent rest commits of the mechanism at once: if it is in interest, if the
+/// client simulates it, and always before the client is ready.
 bool Broadcast::HearsRest(const Session& session, int mechanism) const {
   return session.stage != SessionStage::kReady || Simulates(session.peer, mechanism) ||
          interest_.Of(session.peer, mechanism) != Concern::kNone;
@@ -141,7 +142,7 @@ void Broadcast::TellNothings(std::int64_t now_us) {
   if (Plain() || interest_.small()) return;
   const int every = ticks_per_look();
   sessions_.ForEachReady(0, [&](Session& session) {
-    // Not all in the same tick.
+    // Spread over ticks by peer.
     if ((replica_.tick() + session.peer) % every == 0) TellNothings(now_us, session);
   });
 }
@@ -176,10 +177,11 @@ void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
   TellOwedRest(now_us, session, resting);
 }
 
-/// Who is only shown a body hears of it when it is not as it would be guessed from what was told
-/// last: if that was lost, the guess is another one, and in the end stands still.
+/// Queues again lost states of displayed bodies. A client that only displays a body gets no new
+/// state while extrapolation of the last one is good; if that was lost, the client extrapolates an
+/// older state, and finally stops.
 void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
-  // Who says nothing acknowledges nothing either.
+  // A silent client acknowledges nothing either.
   if (now_us - session.link.last_receive_us() > kSilentUs) return;
   const auto shown = [&](std::int32_t id) {
     const int body = newest_.has(id) ? replica_.world().BodyOfId(id) : -1;
@@ -200,7 +202,7 @@ void Broadcast::NotePressing(const Session& session) {
   if (std::exchange(presses_[p], 1) == 0) pressing_.push_back(session.peer);
 }
 
-/// A room of many is called with every datagram: only who has waited for one is looked at.
+/// Called with every datagram: between steps only sessions marked by NotePressing are checked.
 void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
   const std::vector<int> pressing = std::exchange(pressing_, {});
   for (const int peer : pressing) presses_[static_cast<std::size_t>(peer)] = 0;
@@ -239,7 +241,7 @@ void Broadcast::LookAround(std::int64_t now_us) {
   sessions_.ForEachReady(0, [&](const Session& session) {
     receivers.push_back({session.peer, session.player});
   });
-  std::vector<int> near;  // of one receiver: they come one after the other
+  std::vector<int> near;  // mechanisms of one receiver: receivers come one after the other
   const std::vector<Interest::Risen> all = interest_.Look(receivers);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Interest::Risen& risen = all[i];
@@ -253,7 +255,7 @@ void Broadcast::LookAround(std::int64_t now_us) {
     AddNewest(now_us, *session, risen.mechanism, Urgency::kNear);
   }
   if (!anew) return;
-  // Edits have made others of them: what came near is not known, and what was merged is urgent.
+  // After an edit the mechanisms that came near are not known, and merged ones are urgent.
   sessions_.ForEachTold([&](Session& session) {
     Send(now_us, session, grant_news_.Owed(session.peer, GrantNews::Which::kNear));
   });

@@ -1,4 +1,4 @@
-/// Broadcast, who is told of which states: to whom each entry of a message is due.
+/// Broadcast, relay of states: finds the receivers of each entry of a message.
 
 #include <utility>
 
@@ -28,7 +28,7 @@ void Broadcast::AddDue(int peer, const Entry& entry, Urgency urgency) {
   due_[p].emplace_back(entry.id, urgency);
 }
 
-/// In a small room, or where nobody has looked yet, anything may be due to anybody.
+/// Checks every entry for every peer: in a small room, or before the first Look.
 void Broadcast::FindDueOfAny(int but_peer) {
   sessions_.ForEachReady(but_peer, [&](const Session& session) {
     for (const Entry& entry : entries_) {
@@ -37,7 +37,7 @@ void Broadcast::FindDueOfAny(int but_peer) {
   });
 }
 
-/// Most of what is told is no news: it goes to who simulates it, and nobody else is looked at.
+/// Most entries are due only to peers that simulate the body; no other peer is checked for them.
 void Broadcast::FindDue(int but_peer) {
   for (const Entry& entry : entries_) {
     const AuthorityRecord& record = replica_.authority().at(entry.mechanism);
@@ -62,7 +62,7 @@ void Broadcast::FindDue(int but_peer) {
   }
 }
 
-/// Mode central: what concerns whom is all that tells who predicts it.
+/// Mode central: relevance alone decides which clients predict a mechanism.
 void Broadcast::FindDueByConcern(int but_peer) {
   for (const Entry& entry : entries_) {
     for (const int peer : interest_.Hearing(entry.mechanism)) {
@@ -72,10 +72,10 @@ void Broadcast::FindDueByConcern(int but_peer) {
   }
 }
 
-/// Who simulates what a silent holder has knows as much of it as the server: the last state that
-/// was heard, and the same inputs. A server that began to simulate it only then knows less: not how
-/// a character stood to its next step, nor what a suspension or a contact bore. Its word counts
-/// once the driver is taken to have let go, which followers hear of from the server alone.
+/// A follower of a silent holder's body knows as much of the body as the server: the last received
+/// state, and the same inputs. A server that began to simulate the body only then knows less: not
+/// the phase of a character's step, nor the load on a suspension or a contact. Its states count
+/// once the driver's controls are released, which followers learn from the server alone.
 bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
   const World& world = replica_.world();
   const bool small = world.body_count() <= world.scene().server_follow && ShowsViews();
@@ -98,7 +98,7 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
   entries_.clear();
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = told[i].body;
-    if (body < 0) continue;  // it has left meanwhile
+    if (body < 0) continue;  // the body is gone
     const bool to_followers = !for_silent || TellsFollowers(now_us, states.peer, body);
     entries_.push_back({states.id[i], told[i].mechanism, told[i].news, to_followers});
   }

@@ -3,8 +3,8 @@
 namespace seam {
 namespace {
 
-/// The lowest client that follows; -1: none does. Its holder has to know of one, whose world is to
-/// come to the same bits as its own, but not of all.
+/// Returns the lowest client that follows the mechanism; -1: none. The holder needs to know of one
+/// follower, since that one's world has to come to the same bits, but not of all.
 int OneFollower(const AuthorityRecord& record) {
   int lowest = -1;
   record.secondaries.Each([&](int peer) {
@@ -15,7 +15,7 @@ int OneFollower(const AuthorityRecord& record) {
 
 }  // namespace
 
-/// Who is told everything is told the table as it is.
+/// Starts from the current table: a client that joins is sent the whole table.
 void GrantNews::Begin() {
   if (!told_.empty()) return;
   const AuthorityTable& table = replica_.authority();
@@ -56,7 +56,7 @@ bool GrantNews::Concerns(int peer, const Change& change, const AuthorityRecord& 
   const bool followed = before.secondaries.Has(peer), follows = now.secondaries.Has(peer);
   if (followed != follows) return true;
   const bool holds = now.authority == peer;
-  // Who has it proposes its edits, unless the server follows it.
+  // The holder proposes the mechanism's edits, unless the server follows it.
   if (holds && before.secondaries.Has(0) != now.secondaries.Has(0)) return true;
   if (holds && (OneFollower(before) < 0) != (OneFollower(now) < 0)) return true;
   if (!changed) return false;
@@ -72,7 +72,7 @@ std::vector<Grants> GrantNews::For(int peer) {
     if (change.asked > 0) {
       if (change.asked != peer) continue;
       AuthorityRecord nobody = now;
-      nobody.secondaries.Add(peer);  // it simulates on until it hears who has it
+      nobody.secondaries.Add(peer);  // it goes on simulating until a grant names the new holder
       nobody.authority = 0;
       nobody.epoch = change.epoch;
       Add(peer, change.mechanism, nobody, &out);

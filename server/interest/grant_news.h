@@ -1,9 +1,9 @@
 #pragma once
-/// Whom a change of authority concerns, in a large room. Who has a role in the mechanism, or had,
-/// and who is near it is told at once; the others are owed it until it comes near them, until an
-/// edit makes it part of another, or for kOwedS; those to whom it is nothing until it comes to
-/// concern them, or for kOwedNothingS. What they miss meanwhile they need for
-/// nothing: states name their authority and its epoch.
+/// Decides which clients receive an authority change now and which later (large rooms only).
+/// At once: clients that have or had a role in the mechanism, and clients near it. For all others
+/// the change is pending until the mechanism comes near, until an edit merges it with another, or
+/// for kOwedS; for clients to which the mechanism is out of interest, until it comes into interest
+/// or for kOwedNothingS. A delay does no harm: states name their authority and its epoch.
 
 #include <cstdint>
 #include <vector>
@@ -15,40 +15,41 @@ namespace seam {
 
 class GrantNews {
  public:
-  /// Both must outlive it.
+  /// Both must outlive this object.
   GrantNews(const Replica& replica, const Interest& interest)
       : replica_(replica), interest_(interest) {}
 
-  /// Changes that are about to be told, as everyone would be told them: of the authority's own
-  /// table, or questions to a holder to let go, which the table follows later.
+  /// Takes the changes that are about to be sent, in the form for all clients: changes that the
+  /// authority table already has, or requests to release, which the table follows later.
   void Take(const std::vector<Grants>& changes);
-  /// What of the last Take a peer is to be told now; of the rest it is owed what it may need.
+  /// Returns the changes of the last Take to send to the peer now; marks the other changes of
+  /// authority or epoch as pending for it.
   std::vector<Grants> For(int peer);
-  /// What a peer is owed, and no more from then on: all of it, what is at least far or near it by
-  /// now; and in any case what an edit has made of several.
+  /// Returns the peer's pending changes and clears them: all, or only those of mechanisms that are
+  /// now at least kFar or kNear to it. Merged mechanisms are always included.
   enum class Which { kAll, kFar, kNear };
   std::vector<Grants> Owed(int peer, Which which);
-  /// Of these mechanisms.
+  /// Like above, for these mechanisms.
   std::vector<Grants> Owed(int peer, const std::vector<int>& mechanisms);
-  /// A peer was told everything.
+  /// Clears all pending changes of a peer that was sent the whole table.
   void NoteTold(int peer);
-  /// The mechanisms have changed; see BodyRemap. Of one made of several the epoch counts from
-  /// theirs: its authority must know it at once.
+  /// Renumbers after an edit; see BodyRemap. The epoch of a merged mechanism counts on from its
+  /// parts' epochs: its authority must know it at once.
   void Remap(const std::vector<std::vector<int>>& from);
 
-  /// s that a peer is owed something at most.
+  /// s for which a change is pending at most.
   static constexpr int kOwedS = 2, kOwedNothingS = 20;
 
  private:
-  /// A mechanism whose record has changed, or whose holder is asked to let go.
+  /// A mechanism with a changed record, or a request to its holder to release it.
   struct Change {
     int mechanism = 0;
-    int asked = 0;           // the holder that is told that nobody has it; 0: nobody is asked
-    std::int32_t epoch = 0;  // of the question
-    AuthorityRecord before;  // as it was told
+    int asked = 0;           // the holder to ask, by a grant to nobody; 0: no request
+    std::int32_t epoch = 0;  // the request's
+    AuthorityRecord before;  // as last sent
   };
-  /// Adds a record as it concerns a peer: of the followers only the server and itself, or for its
-  /// holder one of them.
+  /// Adds a record in the form for one peer. Listed followers: the server and the peer itself; for
+  /// the holder, the server and one follower.
   void Add(int peer, int mechanism, const AuthorityRecord& record, std::vector<Grants>* to) const;
   bool Concerns(int peer, const Change& change, const AuthorityRecord& now) const;
   void Begin();
@@ -57,10 +58,10 @@ class GrantNews {
   const Interest& interest_;
   std::int64_t utime_ = 0;
   std::vector<Change> changes_;
-  std::vector<AuthorityRecord> told_;  // by mechanism: to whom it concerned
-  std::vector<PeerSet> owed_;          // by mechanism: who knows another authority, or epoch
+  std::vector<AuthorityRecord> told_;  // by mechanism: as last sent
+  std::vector<PeerSet> owed_;          // by mechanism: peers with a stale authority or epoch
   std::vector<bool> any_owed_;         // by mechanism
-  std::vector<bool> merged_;           // by mechanism: made of several, and owed since
+  std::vector<bool> merged_;           // by mechanism: merged by an edit, and pending since
 };
 
 }  // namespace seam

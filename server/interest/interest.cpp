@@ -15,21 +15,22 @@ std::uint64_t Key(std::int32_t x, std::int32_t y) {
          static_cast<std::uint32_t>(y);
 }
 
-/// Orders as Key does.
+/// Sorts in the same order as Key.
 std::uint32_t ShortKey(std::int32_t x, std::int32_t y) {
   return static_cast<std::uint32_t>(x) << 16 | static_cast<std::uint16_t>(y);
 }
 
-/// Of the same cell.
+/// Returns the Key of the same cell.
 std::uint64_t KeyOf(std::uint32_t short_key) {
   return Key(static_cast<std::int16_t>(short_key >> 16), static_cast<std::int16_t>(short_key));
 }
 
-/// Cells share slots: who asks whether a cell is wanted may be told so of another's sake.
+/// Hash slots: several cells share one, so a cell may count as wanted because of another.
 constexpr std::size_t kSlots = 1 << 15;
 std::size_t Slot(std::uint32_t short_key) { return (short_key * 0x9e3779b1u) >> 17; }
 
-/// What lies beyond the border, hundreds of km away, is in the border's cells.
+/// Returns the cell of a coordinate. Positions beyond the 16-bit range, hundreds of km away, are
+/// clamped to its outermost cells.
 std::int32_t CellOf(float coordinate, float side) {
   constexpr float kLow = -32768, kHigh = 32767;  // of 16 bits
   return static_cast<std::int32_t>(std::clamp(std::floor(coordinate / side), kLow, kHigh));
@@ -90,7 +91,7 @@ void Interest::FindMoved() {
 void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cells* cells) {
   const World& world = replica_.world();
   const std::size_t count = by_mechanism_.size();
-  // Nobody asks for other cells: what is there, mostly asleep, need not be put in order.
+  // Only wanted cells are sorted: the rest of the room is mostly asleep.
   cells->wanted.assign(kSlots, 0);
   for (const Receiver& receiver : receivers) {
     if (receiver.player >= 0) Want(receiver, side, cells);
@@ -102,7 +103,7 @@ void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cel
         ShortKey(CellOf(at.x(), side), CellOf(at.y(), side));
   }
   order_.clear();
-  // By x, then y, then mechanism: what is alike stays in its order.
+  // Ordered by x, then y, then mechanism: the sort is stable.
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t key = cells->places[i];
     if (cells->wanted[Slot(key)] != 0) order_.push_back(SortKey{key} << 32 | i);
@@ -181,7 +182,7 @@ void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, C
   }
 }
 
-/// Makes room for a Look; only what was noted is wiped.
+/// Prepares the tables for a Look; clears only entries that were set.
 void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
   before_.swap(concern_);
   noted_before_.swap(noted_);
@@ -242,7 +243,7 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
       NoteAll(receiver, Concern::kNear);
     } else {
       FindThings(receiver);
-      // Who has nothing at all may look anywhere.
+      // A client without any body may look anywhere.
       if (things_.empty()) NoteAll(receiver, Concern::kFar);
       Raise(receiver, far_, hear, Concern::kFar);
       Raise(receiver, near_, kNearReach, Concern::kNear);

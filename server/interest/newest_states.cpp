@@ -11,7 +11,7 @@
 namespace seam {
 namespace {
 
-/// Nobody sees at which angle a wheel is that spins faster than this, rad/s.
+/// The angle of a wheel that spins faster than this is not visible, rad/s.
 constexpr float kSpinSeen = 6;
 constexpr int kQuantaPerMetre = 512;
 
@@ -32,7 +32,7 @@ HeardState Entry(const States& states, std::size_t i) {
   return heard;
 }
 
-/// How far the farthest point of a body is from its origin now, at most, m.
+/// Returns an upper bound of the distance from a body's origin to its farthest point, m.
 float ReachOf(const World& world, int body) {
   const MovingBox box = BoxOf(world, body);
   const Vec2 at = world.Read(body).position;
@@ -56,7 +56,7 @@ bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRu
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
   Vec2 way(x, y);
   if ((told.flags & kStateFalls) != 0) {
-    // As the engine does it, whose steps end with the speed that they have gained (Flight).
+    // As the engine integrates: a substep moves by the velocity at its end (Flight).
     const Solver& solver = world_.scene().solver;
     const float step = world_.dt() / static_cast<float>(solver.substeps);
     way -= (seconds * (seconds + step) / 2) * world_.scene().gravity;

@@ -9,12 +9,12 @@ namespace seam {
 namespace {
 
 constexpr std::int32_t kQuantaPerMetre = 512;
-/// Of an origin, in quanta: int16 reaches 64 m.
+/// Largest distance of a body from its message's origin, in quanta: int16 reaches 64 m.
 constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
-/// Bytes that a message costs besides its bodies: with the headers of link and datagram.
+/// Bytes of a message besides its bodies, with the headers of link and datagram.
 constexpr double kMessageCost = static_cast<double>(kStatesBytes.empty) + 30;
 
-/// Of what the bodies of a message have to be, beside who and when: near its first one.
+/// Origin of a message: all its bodies have to be near the first one.
 struct Origin {
   std::int32_t x, y;
 
@@ -69,7 +69,7 @@ void Outbox::Fill(std::int64_t now_us) {
   if (filled_us_ < 0) credit_ = most;
   const double passed_s = filled_us_ < 0 ? 0 : 1e-6 * static_cast<double>(now_us - filled_us_);
   filled_us_ = now_us;
-  // What came before the states, such as the room, does not keep them back for longer than a burst.
+  // Messages sent before the states, such as the room, delay them by no more than a burst.
   credit_ = std::min(std::max(credit_, -most) + passed_s * bytes_per_s_, most);
 }
 
@@ -106,7 +106,7 @@ bool Outbox::Place::operator<(const Place& o) const {
 }
 
 void Outbox::ComposeInOrder(const NewestStates& newest) {
-  bodies_.resize(order_.size());  // pointers into it hold
+  bodies_.resize(order_.size());  // before any pointer into it is taken
   Origin origin{HeardState{}};
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const PartId id = order_[i].id;
@@ -133,7 +133,7 @@ const std::vector<Outbox::Message>& Outbox::Compose(std::int64_t now_us,
   for (std::size_t i = 0; i < count; ++i) {
     const PartId id = waiting_[i].id;
     place_[static_cast<std::size_t>(id)] = -1;
-    if (!newest.has(id)) continue;  // an edit has changed it meanwhile
+    if (!newest.has(id)) continue;  // an edit has changed the body since
     const HeardState& state = newest.at(id);
     order_.push_back({state.peer, state.tick, id});
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// What of the newest states one receiver is still to be told, and how many bytes it may get.
+/// Send queue of one receiver: bodies with a state to send, and the receiver's byte budget.
 
 #include <cstdint>
 #include <vector>
@@ -11,46 +11,47 @@
 
 namespace seam {
 
-/// What a client is sent at most unless the server is told otherwise, bytes/s: 2 Mb/s.
+/// Default of the most that a client is sent, bytes/s: 2 Mb/s.
 constexpr double kClientBytesPerS = 256000;
 
-/// How urgent a state is: its weight times how long it has waited (after Fiedler, "State
+/// Weight of a state; its priority is the weight times its waiting time (after Fiedler, "State
 /// Synchronization", 2015).
 enum class Urgency : std::uint8_t { kFar = 1, kNear = 3, kFollowed = 10 };
 
 class Outbox {
  public:
-  /// `bytes_per_s`: of everything that the receiver is sent, UDP payload; 0: no limit.
+  /// `bytes_per_s`: limit for everything sent to the receiver, UDP payload; 0: no limit.
   explicit Outbox(double bytes_per_s) : bytes_per_s_(bytes_per_s) {}
 
-  /// A body has news for the receiver. Of several before the next Compose the newest is told.
+  /// Queues a body. The next Compose that has room for it sends its latest state.
   void Add(std::int64_t now_us, PartId id, Urgency urgency);
-  /// So many bytes went to it, of whatever.
+  /// Takes bytes that were sent to the receiver, in messages of any kind, out of the budget.
   void Spend(std::size_t bytes) { credit_ -= static_cast<double>(bytes); }
-  /// What one message tells: of one authority and tick, within the reach of one origin.
+  /// States for one message: one authority, one tick, all near one origin.
   struct Message {
     PackedHeader header;
     const PackedEntry *begin = nullptr, *end = nullptr;  ///< ids ascend
     std::size_t size() const { return static_cast<std::size_t>(end - begin); }
   };
-  /// Messages with the most urgent of what waits, as many as the budget allows now; the rest waits
-  /// on. They hold until the next call.
+  /// Dequeues the states of highest priority, as many as the budget allows now, and returns them as
+  /// messages. The result is valid until the next call.
   const std::vector<Message>& Compose(std::int64_t now_us, const NewestStates& newest);
   bool empty() const { return waiting_.empty(); }
-  /// Of what is nothing to the receiver: the last mechanism that had its turn, and since when turns
-  /// have been taken from the first on, us. For who adds them.
+  /// Round robin over the mechanisms out of the receiver's interest, kept by the caller: the
+  /// mechanism of the last turn, and the time at which this round began, us.
   int nothing = 0;
   std::int64_t nothings_us = -1000000000;
-  /// Whether anything waits that the receiver simulates.
+  /// True if a body that the receiver simulates is queued.
   bool pressing() const { return pressing_; }
-  /// Whether a message with so many bodies may go to it now.
+  /// True if the budget allows a message with so many bodies now.
   bool Affords(std::int64_t now_us, std::size_t bodies);
-  /// A message with so many bodies had so many bytes: what the next ones are taken to cost.
+  /// Updates the estimate of bytes per body by the size of a message.
   void NoteCost(std::size_t bytes, std::size_t bodies);
 
-  /// s of the budget that may come at once.
+  /// s of the budget that may be sent at once.
   static constexpr double kBurst = 0.1;
-  /// us between two messages of a part of what waits: many small ones would be mostly headers.
+  /// us between two sends when the budget does not cover the whole queue: many small messages would
+  /// be mostly headers.
   static constexpr std::int64_t kPartEveryUs = 15000;
 
  private:
@@ -59,7 +60,7 @@ class Outbox {
     Urgency urgency = Urgency::kFar;
     std::int64_t since_us = 0;
   };
-  /// What orders the states of a Compose: those of one message come one after the other.
+  /// Sort key of the states in a Compose: the states of one message are adjacent.
   struct Place {
     std::int32_t peer;
     std::int64_t tick;
@@ -67,21 +68,22 @@ class Outbox {
     bool operator<(const Place& o) const;
   };
   void Fill(std::int64_t now_us);
-  /// Of order_.
+  /// Splits order_ into messages.
   void ComposeInOrder(const NewestStates& newest);
-  /// The first so many of what waits, once ordered, fit the budget.
+  /// Moves the states of highest priority to the front of the queue; returns how many fit the
+  /// budget.
   std::size_t Affordable(std::int64_t now_us);
 
   double bytes_per_s_, credit_ = 0;
-  std::int64_t part_us_ = -1000000000;  // when only a part of what waited could be sent
+  std::int64_t part_us_ = -1000000000;  // time of the last send of only a part of the queue
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
   bool pressing_ = false;
-  std::vector<Message> composed_;    // of the last Compose
-  std::vector<PackedEntry> bodies_;  // of its messages
+  std::vector<Message> composed_;    // by the last Compose
+  std::vector<PackedEntry> bodies_;  // entries of composed_
   std::vector<Place> order_;
-  std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait
-  double each_ = static_cast<double>(kStatesBytes.each);  // bytes of a body, as it was lately
+  std::vector<std::int32_t> place_;  // by part: index in waiting_; -1: not queued
+  double each_ = static_cast<double>(kStatesBytes.each);  // bytes per body, running mean
 };
 
 }  // namespace seam

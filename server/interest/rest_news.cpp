@@ -54,11 +54,11 @@ std::vector<Rest> RestNews::Owed(int peer, const std::vector<int>& mechanisms) {
       if (replica_.rest().Holds(body)) {
         bodies.push_back(body);
       } else {
-        Owe(peer, mechanism);  // it may move: its authority has not said so
+        Owe(peer, mechanism);  // the copy here may move; its authority has not sent so yet
       }
     });
   }
-  std::sort(bodies.begin(), bodies.end());  // as turns come, mechanisms do not ascend
+  std::sort(bodies.begin(), bodies.end());  // the mechanisms may come in any order
   return bodies.empty() ? std::vector<Rest>{} : replica_.rest().Again(bodies);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-/// Whom it concerns that bodies have come to rest, in a large room. Those to whom they are nothing
-/// are owed it: until their turn comes, or the bodies come to concern them.
+/// Decides which clients receive a rest commit now and which later (large rooms only). For a client
+/// to which the bodies are out of interest the commit is pending until their turn comes
+/// (Broadcast::TellNothings) or they come into interest.
 
 #include <cstddef>
 #include <vector>
@@ -14,13 +15,13 @@ namespace seam {
 
 class RestNews {
  public:
-  /// It must outlive this.
+  /// `replica` must outlive this object.
   explicit RestNews(const Replica& replica) : replica_(replica) {}
 
-  /// A commitment is about to be told.
+  /// Takes a rest commit that is about to be sent.
   void Take(const Rest& rest);
-  /// What of the last one a peer is told now: of the mechanisms of which it hears,
-  /// `hears(mechanism)`. It is owed the others.
+  /// Returns the part of the last commit to send to a peer now: the mechanisms for which
+  /// `hears(mechanism)` is true. The other mechanisms become pending for the peer.
   template <class Hears>
   Rest For(int peer, const Hears& hears) {
     Rest told = head_;
@@ -34,26 +35,28 @@ class RestNews {
     }
     return told;
   }
-  /// Whether a peer was not told of all that rests of a mechanism, or of a block.
+  /// True if a rest commit of the mechanism, or of a mechanism in the block, is pending for the
+  /// peer.
   bool Owes(int peer, int mechanism) const {
     const auto m = static_cast<std::size_t>(mechanism);
     return m < owed_.size() && owed_[m].Has(peer);
   }
   bool Owes(int peer, const RestBlock& at) const;
-  /// What a peer is owed of these mechanisms, as far as it rests still; it is owed no more.
+  /// Returns the pending commits of these mechanisms, for bodies that still rest, and clears them.
+  /// A commit stays pending while the server's copy of its body may move.
   std::vector<Rest> Owed(int peer, const std::vector<int>& mechanisms);
-  /// A peer was told everything.
+  /// Clears all pending commits of a peer that was sent everything at rest.
   void NoteTold(int peer);
-  /// The mechanisms have changed; see BodyRemap.
+  /// Renumbers after an edit; see BodyRemap.
   void Remap(const std::vector<std::vector<int>>& from);
 
  private:
   void Owe(int peer, int mechanism);
 
   const Replica& replica_;
-  Rest rest_, head_;             // of the last Take; its head without bodies
-  std::vector<int> mechanisms_;  // of its entries; -1: has left
-  std::vector<PeerSet> owed_;    // by mechanism; what is beyond is owed to nobody
+  Rest rest_, head_;             // the last Take; its head without bodies
+  std::vector<int> mechanisms_;  // by its entries; -1: the body is gone
+  std::vector<PeerSet> owed_;    // by mechanism: peers with a pending commit; beyond the end: none
 };
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// SessionTable, what concerns many sessions at once.
+/// SessionTable: functions over many sessions at once.
 
 #include <algorithm>
 #include <utility>
