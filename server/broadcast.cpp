@@ -35,20 +35,20 @@ void Broadcast::Send(std::int64_t now_us, Session& session, std::vector<Grants> 
 void Broadcast::Tell(const std::vector<Grants>& changes) {
   if (changes.empty()) return;
   for (const Grants& grants : changes) publisher_.Publish(grants);
-  grant_news_.Take(changes);
+  grant_audience_.Take(changes);
   NoteFollowers(changes);
   if (Plain() || interest_.small()) {
     for (const Grants& grants : changes) sessions_.SendUrgentToAll(Encode(grants));
     return;
   }
   const std::int64_t now_us = changes.back().utime;
-  sessions_.ForEachTold(
-      [&](Session& session) { Send(now_us, session, grant_news_.For(session.peer)); });
-  TellRestToFollowers(now_us, changes);
+  sessions_.ForEachSentRoom(
+      [&](Session& session) { Send(now_us, session, grant_audience_.For(session.peer)); });
+  SendRestToFollowers(now_us, changes);
 }
 
 /// Sends pending rest commits to peers that begin to simulate a mechanism.
-void Broadcast::TellRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes) {
+void Broadcast::SendRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes) {
   const AuthorityTable& table = replica_.authority();
   for (const Grants& grants : changes) {
     for (const std::int32_t id : grants.mechanism) {
@@ -58,7 +58,7 @@ void Broadcast::TellRestToFollowers(std::int64_t now_us, const std::vector<Grant
       peers.push_back(table.at(m).authority);
       for (const int peer : peers) {
         Session* const session = sessions_.Find(peer);
-        if (session != nullptr) TellOwedRest(now_us, *session, {m});
+        if (session != nullptr) SendPendingRest(now_us, *session, {m});
       }
     }
   }
@@ -91,15 +91,15 @@ void Broadcast::FindFollowers() {
   }
 }
 
-void Broadcast::TellOwed(std::int64_t now_us) {
-  const std::int64_t every = GrantNews::kOwedS * config_.tick_hz;
-  const std::int64_t every_nothing = GrantNews::kOwedNothingS * config_.tick_hz;
-  sessions_.ForEachTold([&](Session& session) {
+void Broadcast::SendPendingGrants(std::int64_t now_us) {
+  const std::int64_t every = GrantAudience::kGrantPendingS * config_.tick_hz;
+  const std::int64_t every_nothing = GrantAudience::kGrantPendingDistantS * config_.tick_hz;
+  sessions_.ForEachSentRoom([&](Session& session) {
     // Spread over ticks by peer.
     if ((replica_.tick() + 7 * session.peer) % every != 0) return;
     const bool all = (replica_.tick() + 7 * session.peer) % every_nothing == 0;
-    const auto which = all ? GrantNews::Which::kAll : GrantNews::Which::kFar;
-    Send(now_us, session, grant_news_.Owed(session.peer, which));
+    const auto which = all ? GrantAudience::Which::kAll : GrantAudience::Which::kFar;
+    Send(now_us, session, grant_audience_.Owed(session.peer, which));
   });
 }
 
@@ -111,7 +111,7 @@ void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, 
 
 /// True if a session is sent rest commits of the mechanism at once: if it is in interest, if the
 /// client simulates it, and always before the client is ready.
-bool Broadcast::HearsRest(const Session& session, int mechanism) const {
+bool Broadcast::NeedsRestNow(const Session& session, int mechanism) const {
   return session.stage != SessionStage::kReady || Simulates(session.peer, mechanism) ||
          interest_.Of(session.peer, mechanism) != Concern::kNone;
 }
@@ -121,35 +121,35 @@ void Broadcast::TellRest(const Rest& rest, int from_peer) {
     sessions_.SendToAll(Encode(rest), from_peer);
     return;
   }
-  rest_news_.Take(rest);
-  sessions_.ForEachTold([&](Session& session) {
+  rest_audience_.Take(rest);
+  sessions_.ForEachSentRoom([&](Session& session) {
     if (session.peer == from_peer) return;
-    const auto hears = [&](int mechanism) { return HearsRest(session, mechanism); };
-    const Rest told = rest_news_.For(session.peer, hears);
+    const auto hears = [&](int mechanism) { return NeedsRestNow(session, mechanism); };
+    const Rest told = rest_audience_.For(session.peer, hears);
     if (!told.id.empty()) sessions_.SendTo(session, Encode(told));
   });
 }
 
-void Broadcast::TellOwedRest(std::int64_t now_us, Session& session,
-                             const std::vector<int>& mechanisms) {
-  for (Rest& rest : rest_news_.Owed(session.peer, mechanisms)) {
+void Broadcast::SendPendingRest(std::int64_t now_us, Session& session,
+                                const std::vector<int>& mechanisms) {
+  for (Rest& rest : rest_audience_.Owed(session.peer, mechanisms)) {
     rest.utime = now_us;
     sessions_.SendTo(session, Encode(rest));
   }
 }
 
-void Broadcast::TellNothings(std::int64_t now_us) {
+void Broadcast::RefreshDistant(std::int64_t now_us) {
   if (Plain() || interest_.small()) return;
   const int every = ticks_per_look();
   sessions_.ForEachReady(0, [&](Session& session) {
     // Spread over ticks by peer.
-    if ((replica_.tick() + session.peer) % every == 0) TellNothings(now_us, session);
+    if ((replica_.tick() + session.peer) % every == 0) RefreshDistant(now_us, session);
   });
 }
 
-void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
+void Broadcast::RefreshDistant(std::int64_t now_us, Session& session) {
   if (session.player < 0) return;
-  constexpr int kEach = kNothingPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
+  constexpr int kEach = kDistantPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
   const Composition& made = replica_.world().composition();
   const int mechanisms = static_cast<int>(made.mechanisms.size());
   int& next = session.outbox.nothing;
@@ -157,12 +157,12 @@ void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
   std::vector<int> resting;
   for (int i = 0; i < std::min(kLookedAtMost, mechanisms) && told < kEach; ++i) {
     if (next + 1 >= mechanisms) {
-      if (now_us - session.outbox.nothings_us < kNothingEveryUs) break;
-      session.outbox.nothings_us = now_us;
+      if (now_us - session.outbox.distant_round_us < kDistantEveryUs) break;
+      session.outbox.distant_round_us = now_us;
       next = -1;
     }
     ++next;
-    const bool owed = rest_news_.Owes(session.peer, next);
+    const bool owed = rest_audience_.IsPendingFor(session.peer, next);
     if (owed) resting.push_back(next);
     told += owed ? 1 : 0;
     if (interest_.Of(session.peer, next) != Concern::kNone) continue;
@@ -174,13 +174,13 @@ void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
     AddNewest(now_us, session, next, Urgency::kFar);
     told += owed ? 0 : 1;
   }
-  TellOwedRest(now_us, session, resting);
+  SendPendingRest(now_us, session, resting);
 }
 
 /// Queues again lost states of displayed bodies. A client that only displays a body gets no new
 /// state while extrapolation of the last one is good; if that was lost, the client extrapolates an
 /// older state, and finally stops.
-void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
+void Broadcast::RequeueLost(std::int64_t now_us, Session& session) {
   // A silent client acknowledges nothing either.
   if (now_us - session.link.last_receive_us() > kSilentUs) return;
   const auto shown = [&](std::int32_t id) {
@@ -196,13 +196,13 @@ void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
   }
 }
 
-void Broadcast::NotePressing(const Session& session) {
+void Broadcast::MarkForSending(const Session& session) {
   const auto p = static_cast<std::size_t>(session.peer);
   if (presses_.size() <= p) presses_.resize(p + 1, 0);
   if (std::exchange(presses_[p], 1) == 0) pressing_.push_back(session.peer);
 }
 
-/// Called with every datagram: between steps only sessions marked by NotePressing are checked.
+/// Called with every datagram: between steps only sessions marked by MarkForSending are checked.
 void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
   const std::vector<int> pressing = std::exchange(pressing_, {});
   for (const int peer : pressing) presses_[static_cast<std::size_t>(peer)] = 0;
@@ -218,10 +218,10 @@ void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
 }
 
 void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool stepped) {
-  if (stepped) TellLostAgain(now_us, session);
+  if (stepped) RequeueLost(now_us, session);
   const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
   if (now && !session.outbox.empty()) {
-    for (const Outbox::Message& message : session.outbox.Compose(now_us, newest_)) {
+    for (const SendQueue::Message& message : session.outbox.Compose(now_us, newest_)) {
       session.packer.Add(message.header, message.begin, message.end);
     }
   }
@@ -230,13 +230,13 @@ void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool steppe
     session.outbox.NoteCost(bytes.size(), message.bodies);
     session.link.SendUnreliable(bytes, {{kListedSlot, message.number}});
   }
-  if (session.outbox.pressing()) NotePressing(session);  // beyond its budget
+  if (session.outbox.pressing()) MarkForSending(session);  // beyond its budget
 }
 
 void Broadcast::LookAround(std::int64_t now_us) {
   const bool anew = std::exchange(stale_, false);
   if (Plain()) return;
-  if (anew || std::exchange(come_, false) || followers_.empty()) FindFollowers();
+  if (anew || std::exchange(peer_became_ready_, false) || followers_.empty()) FindFollowers();
   std::vector<Interest::Receiver> receivers;
   sessions_.ForEachReady(0, [&](const Session& session) {
     receivers.push_back({session.peer, session.player});
@@ -248,24 +248,24 @@ void Broadcast::LookAround(std::int64_t now_us) {
     Session* session = sessions_.Find(risen.peer);
     near.push_back(risen.mechanism);
     if (i + 1 == all.size() || all[i + 1].peer != risen.peer) {
-      Send(now_us, *session, grant_news_.Owed(risen.peer, near));
-      TellOwedRest(now_us, *session, near);
+      Send(now_us, *session, grant_audience_.Owed(risen.peer, near));
+      SendPendingRest(now_us, *session, near);
       near.clear();
     }
     AddNewest(now_us, *session, risen.mechanism, Urgency::kNear);
   }
   if (!anew) return;
   // After an edit the mechanisms that came near are not known, and merged ones are urgent.
-  sessions_.ForEachTold([&](Session& session) {
-    Send(now_us, session, grant_news_.Owed(session.peer, GrantNews::Which::kNear));
+  sessions_.ForEachSentRoom([&](Session& session) {
+    Send(now_us, session, grant_audience_.Owed(session.peer, GrantAudience::Which::kNear));
   });
 }
 
 void Broadcast::Remap(const BodyRemap& change) {
   newest_.Remap(change.bodies);
   interest_.Remap();
-  grant_news_.Remap(change.mechanisms);
-  rest_news_.Remap(change.mechanisms);
+  grant_audience_.Remap(change.mechanisms);
+  rest_audience_.Remap(change.mechanisms);
   stale_ = true;
 }
 

@@ -12,10 +12,10 @@
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
-#include "server/interest/grant_news.h"
+#include "server/interest/grant_audience.h"
 #include "server/interest/interest.h"
 #include "server/interest/newest_states.h"
-#include "server/interest/rest_news.h"
+#include "server/interest/rest_audience.h"
 #include "server/sessions/session_table.h"
 
 namespace seam {
@@ -32,8 +32,8 @@ class Broadcast {
         sessions_(sessions),
         newest_(replica.world(), config.tick_hz),
         interest_(scene, config_, replica),
-        grant_news_(replica, interest_),
-        rest_news_(replica) {}
+        grant_audience_(replica, interest_),
+        rest_audience_(replica) {}
 
   /// True if views are published and something listens to the bus.
   bool ShowsViews() const { return views_ && publisher_.listening(); }
@@ -53,22 +53,24 @@ class Broadcast {
     sessions_.SendToAll(Encode(message));
   }
   /// Sends changes of authority: on the bus, and at once to the clients that need them now; to the
-  /// rest later (GrantNews). In a small room everyone gets all changes at once.
+  /// rest later (GrantAudience). In a small room everyone gets all changes at once.
   void Tell(const std::vector<Grants>& changes);
   /// Sends pending changes of authority that are due by now. To be called every tick.
-  void TellOwed(std::int64_t now_us);
+  void SendPendingGrants(std::int64_t now_us);
   /// To be called when a peer becomes ready. LookAround is due then.
-  void NoteCome() { come_ = true; }
+  void NotePeerReady() { peer_became_ready_ = true; }
   /// To be called when a peer was sent the whole authority table and everything at rest.
   void NoteTold(int peer) {
-    grant_news_.NoteTold(peer);
-    rest_news_.NoteTold(peer);
+    grant_audience_.NoteTold(peer);
+    rest_audience_.NoteTold(peer);
   }
   /// Sends a rest commit reliably: at once to clients to which the bodies are at least kFar; to the
-  /// rest in turn (TellNothings), or when the bodies come into interest.
+  /// rest in turn (RefreshDistant), or when the bodies come into interest.
   void TellRest(const Rest& rest, int from_peer);
   /// True if a rest commit in the block is pending for the peer.
-  bool OwesRest(int peer, const RestBlock& at) const { return rest_news_.Owes(peer, at); }
+  bool RestIsPendingFor(int peer, const RestBlock& at) const {
+    return rest_audience_.IsPendingFor(peer, at);
+  }
   /// Forwards states to the other peers: to each all states of bodies that it follows, and of the
   /// rest the states that it needs (NewestStates). States not sent at once are queued for
   /// SendWaiting. Does not publish on the bus.
@@ -81,7 +83,7 @@ class Broadcast {
   void LookAround(std::int64_t now_us);
   /// Sends each client a few mechanisms outside its interest area; clients take turns by tick. To
   /// be called every tick.
-  void TellNothings(std::int64_t now_us);
+  void RefreshDistant(std::int64_t now_us);
   int ticks_per_look() const { return std::max(1, config_.tick_hz / kLooksPerSecond); }
   /// Renumbers after an edit; LookAround is due then.
   void Remap(const BodyRemap& change);
@@ -103,7 +105,7 @@ class Broadcast {
     };
     if (central) {
       if (interest_.unknown()) return;
-      for (const int peer : interest_.Hearing(mechanism)) {
+      for (const int peer : interest_.ReceiversFar(mechanism)) {
         if (Simulates(peer, mechanism)) visit_peer(peer);
       }
       return;
@@ -118,14 +120,14 @@ class Broadcast {
   /// Calls of LookAround a second.
   static constexpr int kLooksPerSecond = 10;
   /// Mechanisms out of interest that a receiver is sent per second, in turn, each at most every
-  /// kNothingEveryUs: so the cost does not grow with the room. Some 20 bytes for each. With 40 a
+  /// kDistantEveryUs: so the cost does not grow with the room. Some 20 bytes for each. With 40 a
   /// second, and each every 10 s, the error of all displayed bodies doubles in a room of 9 players,
   /// for 2 kB/s less in one of 32.
-  static constexpr int kNothingPerSecond = 240;
-  static constexpr std::int64_t kNothingEveryUs = 1000000;
+  static constexpr int kDistantPerSecond = 240;
+  static constexpr std::int64_t kDistantEveryUs = 1000000;
 
   /// Returns the relevance of a mechanism to a peer.
-  Concern ConcernOf(int peer, int mechanism) const { return interest_.Of(peer, mechanism); }
+  Concern RelevanceOf(int peer, int mechanism) const { return interest_.Of(peer, mechanism); }
 
  private:
   /// An entry of a States message, and the receivers that need it.
@@ -136,18 +138,18 @@ class Broadcast {
     bool to_followers = true;
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
-  void TellLostAgain(std::int64_t now_us, Session& session);
+  void RequeueLost(std::int64_t now_us, Session& session);
   /// Marks a session for the next SendWaiting: it has states that do not wait for the next step.
-  void NotePressing(const Session& session);
+  void MarkForSending(const Session& session);
   void SendWaitingTo(std::int64_t now_us, Session& session, bool stepped);
   void NoteFollowers(const std::vector<Grants>& changes);
   void FindFollowers();
-  void TellNothings(std::int64_t now_us, Session& session);
+  void RefreshDistant(std::int64_t now_us, Session& session);
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
-  bool HearsRest(const Session& session, int mechanism) const;
+  bool NeedsRestNow(const Session& session, int mechanism) const;
   /// Sends the pending rest commits of these mechanisms to a session.
-  void TellOwedRest(std::int64_t now_us, Session& session, const std::vector<int>& mechanisms);
-  void TellRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes);
+  void SendPendingRest(std::int64_t now_us, Session& session, const std::vector<int>& mechanisms);
+  void SendRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes);
   /// Entries of a message that are due to one peer.
   using Due = std::vector<std::pair<PartId, Urgency>>;
   /// Returns the urgency of an entry for a peer; nullopt: not due to it.
@@ -156,11 +158,11 @@ class Broadcast {
   /// Fills due_ from entries_, for all peers but one.
   void FindDue(int but_peer);
   void FindDueOfAny(int but_peer);
-  void FindDueByConcern(int but_peer);
+  void FindDueByRelevance(int but_peer);
   void RelayDue(std::int64_t now_us, const States& states, const Due& due, Session& session);
   /// True if the body's followers, too, are sent the server's states of it in the name of its
   /// silent holder.
-  bool TellsFollowers(std::int64_t now_us, int holder, int body);
+  bool SendsToFollowers(std::int64_t now_us, int holder, int body);
   /// True if every client is sent everything: the mode does not use relevance.
   bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
 
@@ -172,14 +174,14 @@ class Broadcast {
   bool stale_ = false;
   NewestStates newest_;
   Interest interest_;
-  GrantNews grant_news_;
-  RestNews rest_news_;
+  GrantAudience grant_audience_;
+  RestAudience rest_audience_;
   std::vector<Entry> entries_;               // in Relay: entries of the message
   std::vector<Due> due_;                     // in Relay, by peer; else empty
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
-  bool come_ = false;                        // a peer became ready: followers_ is out of date
+  bool peer_became_ready_ = false;           // a peer became ready: followers_ is out of date
   std::vector<std::vector<int>> followers_;  // by mechanism: peers; large rooms only
-  std::vector<int> pressing_;                // peers marked by NotePressing
+  std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_
 };
 

@@ -53,7 +53,7 @@ void Broadcast::FindDue(int but_peer) {
     if (entry.news == News::kNobody) continue;
     const bool far = entry.news == News::kAll;
     const std::vector<int>& hearing =
-        far ? interest_.Hearing(entry.mechanism) : interest_.HearingNear(entry.mechanism);
+        far ? interest_.ReceiversFar(entry.mechanism) : interest_.ReceiversNear(entry.mechanism);
     for (const int peer : hearing) {
       if (peer == but_peer || peer == record.authority || record.secondaries.Has(peer)) continue;
       const bool near = !far || interest_.Of(peer, entry.mechanism) >= Concern::kNear;
@@ -63,9 +63,9 @@ void Broadcast::FindDue(int but_peer) {
 }
 
 /// Mode central: relevance alone decides which clients predict a mechanism.
-void Broadcast::FindDueByConcern(int but_peer) {
+void Broadcast::FindDueByRelevance(int but_peer) {
   for (const Entry& entry : entries_) {
-    for (const int peer : interest_.Hearing(entry.mechanism)) {
+    for (const int peer : interest_.ReceiversFar(entry.mechanism)) {
       if (peer == but_peer) continue;
       if (const auto urgency = DueTo(peer, entry)) AddDue(peer, entry, *urgency);
     }
@@ -76,7 +76,7 @@ void Broadcast::FindDueByConcern(int but_peer) {
 /// state, and the same inputs. A server that began to simulate the body only then knows less: not
 /// the phase of a character's step, nor the load on a suspension or a contact. Its states count
 /// once the driver's controls are released, which followers learn from the server alone.
-bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
+bool Broadcast::SendsToFollowers(std::int64_t now_us, int holder, int body) {
   const World& world = replica_.world();
   const bool small = world.body_count() <= world.scene().server_follow && ShowsViews();
   const bool all_along = small || ProposesEdits(world.scene());
@@ -93,20 +93,20 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     return;
   }
   const bool for_silent = from_peer == 0 && states.peer != 0;
-  const double repeat_s = for_silent ? kNewsRepeatSilent : kNewsRepeat;
+  const double repeat_s = for_silent ? kStateRepeatSilentS : kStateRepeatS;
   const std::vector<NewestStates::Told>& told = newest_.Take(states, repeat_s);
   entries_.clear();
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = told[i].body;
     if (body < 0) continue;  // the body is gone
-    const bool to_followers = !for_silent || TellsFollowers(now_us, states.peer, body);
+    const bool to_followers = !for_silent || SendsToFollowers(now_us, states.peer, body);
     entries_.push_back({states.id[i], told[i].mechanism, told[i].news, to_followers});
   }
   hearing_.clear();
   if (interest_.small() || interest_.unknown()) {
     FindDueOfAny(from_peer);
   } else if (config_.mode == Mode::kCentral) {
-    FindDueByConcern(from_peer);
+    FindDueByRelevance(from_peer);
   } else {
     FindDue(from_peer);
   }
@@ -125,11 +125,11 @@ void Broadcast::RelayDue(std::int64_t now_us, const States& states, const Due& d
   if (due.size() == states.id.size() && session.outbox.empty() &&
       session.outbox.Affords(now_us, due.size())) {
     session.packer.Add(states);
-    NotePressing(session);
+    MarkForSending(session);
     return;
   }
   for (const auto& [id, urgency] : due) session.outbox.Add(now_us, id, urgency);
-  if (session.outbox.pressing()) NotePressing(session);
+  if (session.outbox.pressing()) MarkForSending(session);
 }
 
 }  // namespace seam

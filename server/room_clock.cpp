@@ -65,10 +65,10 @@ bool RoomClock::Note(std::int64_t now_us, std::int64_t tick) {
     good_windows_ = 0;
     SetSpeed(now_us, RoomUs(now_us), speed_ppm_ * kFasterPercent / 100);
   }
-  return WorthSaying();
+  return ShouldReport();
 }
 
-bool RoomClock::WorthSaying() {
+bool RoomClock::ShouldReport() {
   if (speed_ppm_ > said_ppm_) {  // speeding up: only full speed is reported
     said_ppm_ = speed_ppm_;
     return speed_ppm_ == kFullSpeedPpm;

@@ -44,7 +44,7 @@ class RoomClock {
   std::int64_t RoomUs(std::int64_t now_us) const;
   std::int64_t PeriodUs(std::int64_t ticks) const { return ticks * 1000000 / tick_hz_; }
   void SetSpeed(std::int64_t now_us, std::int64_t room_us, std::int64_t speed_ppm);
-  bool WorthSaying();
+  bool ShouldReport();
 
   int tick_hz_;
   bool started_ = false;

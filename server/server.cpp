@@ -99,9 +99,9 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   FollowSessions(now_us);
   if (std::exchange(look_soon_, false)) {  // once for all clients that became ready
     broadcast_.LookAround(now_us);
-    FindHeardPlayers();
+    FindRelevantPlayers();
   }
-  LetSilentGo(now_us);
+  ReleaseSilentDrivers(now_us);
   StartIfReady(now_us);
   if (now_us - last_room_us_ >= 1000000) {
     last_room_us_ = now_us;
@@ -307,7 +307,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   }
   broadcast_.Tell(grants);
   UpdateInterest(now_us, !grants.empty());
-  broadcast_.TellOwed(now_us);
+  broadcast_.SendPendingGrants(now_us);
   EndLeases(now_us);
 }
 
@@ -316,8 +316,8 @@ void Server::UpdateInterest(std::int64_t now_us, bool changed) {
   const int every = broadcast_.ticks_per_look();
   const bool due = replica_.tick() % every == std::min(1, every - 1) || broadcast_.stale();
   if (due) broadcast_.LookAround(now_us);
-  if (due || changed) FindHeardPlayers();
-  broadcast_.TellNothings(now_us);
+  if (due || changed) FindRelevantPlayers();
+  broadcast_.RefreshDistant(now_us);
 }
 
 void Server::RunRules(std::int64_t now_us) {

@@ -106,7 +106,7 @@ class Server {
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
   void RelayInputs(std::int64_t now_us);
   void RelayInputs(std::int64_t now_us, const std::vector<int>& players, Session& session);
-  void FindHeardPlayers();
+  void FindRelevantPlayers();
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
@@ -144,7 +144,7 @@ class Server {
   void RunSeats();
   void EndLeases(std::int64_t now_us);
   void LetGo(std::int64_t now_us, int player, std::int16_t buttons);
-  void LetSilentGo(std::int64_t now_us);
+  void ReleaseSilentDrivers(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
   void NoteCorrected(int body);

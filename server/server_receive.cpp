@@ -118,7 +118,7 @@ void Server::LookAtRest(std::int64_t now_us, Session& session, const Ping& ping,
   pong->rest_blocks = ping.rest_blocks;
   pong->rest_block = ping.rest_block;
   pong->rest_own = static_cast<std::int32_t>(rest.HashOf(at, session.peer));
-  if (broadcast_.OwesRest(session.peer, at)) {
+  if (broadcast_.RestIsPendingFor(session.peer, at)) {
     session.rest.Skip(at);
   } else if (session.rest.Lost(now_us, at, rest.HashOf(at, -1),
                                static_cast<std::uint32_t>(ping.rest_part))) {
@@ -179,10 +179,10 @@ void Server::RelayInputs(std::int64_t now_us) {
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(scene_.players.size());
     if (stepped) {
-      RelayInputs(now_us, session.heard_players, session);
+      RelayInputs(now_us, session.relevant_players, session);
       return;
     }
-    const std::vector<int>& heard = session.heard_players;
+    const std::vector<int>& heard = session.relevant_players;
     input_candidates_.clear();
     std::set_intersection(inputs_due_.begin(), inputs_due_.end(), heard.begin(), heard.end(),
                           std::back_inserter(input_candidates_));
@@ -233,15 +233,15 @@ void Server::RelayInputs(std::int64_t now_us, const std::vector<int>& players, S
 
 /// Computes the players with inputs relevant to each client. To be called after authority or
 /// relevance has changed.
-void Server::FindHeardPlayers() {
+void Server::FindRelevantPlayers() {
   sessions_.ForEachReady(0, [](Session& session) {
-    session.heard_players.clear();
+    session.relevant_players.clear();
     session.unsent_players.clear();  // the next tick checks all
   });
   const Drivers& drivers = replica_.drivers();
   for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
     const auto hears = [&](Session& session) {
-      std::vector<int>& heard = session.heard_players;
+      std::vector<int>& heard = session.relevant_players;
       if (session.player != p && (heard.empty() || heard.back() != p)) heard.push_back(p);
     };
     if (drivers.MovesBelt(p)) {

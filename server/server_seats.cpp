@@ -19,7 +19,7 @@ void Server::RunSeats() {
   int heard = replica_.revision();
   if (config_.sync.mode != Mode::kOracle) {  // in mode oracle all peers act at the same tick
     // Waits for joining clients, too.
-    sessions_.ForEachTold([&](const Session& s) { heard = std::min(heard, s.revision); });
+    sessions_.ForEachSentRoom([&](const Session& s) { heard = std::min(heard, s.revision); });
   }
   for (const Edit& edit : seat_bonds_.Next(world, heard)) edits_.Add(edit);
 }

@@ -46,7 +46,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
         authority_.PlanSoon();
         look_soon_ = true;
-        broadcast_.NoteCome();
+        broadcast_.NotePeerReady();
         broadcast_.Say(now_us, event.name + " is ready as " + peer);
         Tell(event.name + " is here as " + peer + ", " + ToString(event.address));
         break;
@@ -80,7 +80,7 @@ void Server::EndLeases(std::int64_t now_us) {
 
 /// Releases the controls of drivers that are silent for kDriverSilentUs, until they are heard
 /// again. Buttons that drive nothing stay pressed: otherwise going on would count as a new press.
-void Server::LetSilentGo(std::int64_t now_us) {
+void Server::ReleaseSilentDrivers(std::int64_t now_us) {
   if (now_us < drivers_heard_us_) return;
   drivers_heard_us_ = now_us + kDriverSilentUs;
   const std::vector<int>& peers = sessions_.PeerOfPlayer();

@@ -55,7 +55,7 @@ StateFilter::StateFilter(const Scene& scene, const Replica& replica,
   accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
 }
 
-bool StateFilter::MayLookAt(int peer, const States& states) {
+bool StateFilter::HeaderAcceptable(int peer, const States& states) {
   const double hz = scene_.solver.tick_hz;
   const auto age = static_cast<double>(replica_.tick() - states.tick);
   if (states.peer != peer) {
@@ -138,7 +138,7 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
 const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
   States& kept = kept_;
   passed_.clear();
-  const bool any = MayLookAt(peer, states);
+  const bool any = HeaderAcceptable(peer, states);
   for (std::size_t i = 0; any && i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     const Claim claim{states.peer,     states.tick,          states.revision,

@@ -35,7 +35,7 @@ class StateFilter {
 
  private:
   /// True if the message's header is acceptable.
-  bool MayLookAt(int peer, const States& states);
+  bool HeaderAcceptable(int peer, const States& states);
   /// True if the i-th exact state, of a body that the peer has released, is acceptable.
   bool MayRelease(int peer, int body, const ExactStates& exact, std::size_t i);
   std::int32_t EpochOf(int body) const;

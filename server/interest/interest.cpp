@@ -44,7 +44,7 @@ Interest::Interest(const Scene& scene, const SyncConfig& config, const Replica& 
 }
 
 void Interest::Remap() {
-  concern_.clear();
+  relevance_.clear();
   const World& world = replica_.world();
   by_mechanism_.clear();
   for (int body = 0; body < world.body_count(); ++body) {
@@ -60,10 +60,10 @@ void Interest::Remap() {
 }
 
 void Interest::Want(const Receiver& receiver, float side, Cells* cells) {
-  FindThings(receiver);
+  FindReceiverBodies(receiver);
   std::uint64_t last = 0;
   bool any = false;
-  for (const int body : things_) {
+  for (const int body : receiver_bodies_) {
     const Vec2 at = replica_.world().Read(body).position;
     const std::int32_t x = CellOf(at.x(), side), y = CellOf(at.y(), side);
     if (any && last == Key(x, y)) continue;
@@ -127,21 +127,21 @@ void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cel
   cells->begin.push_back(static_cast<int>(cells->mechanisms.size()));
 }
 
-void Interest::FindThings(const Receiver& receiver) {
-  things_ = held_[static_cast<std::size_t>(receiver.peer)];
+void Interest::FindReceiverBodies(const Receiver& receiver) {
+  receiver_bodies_ = held_[static_cast<std::size_t>(receiver.peer)];
   if (receiver.player < 0) return;
   const World& world = replica_.world();
   for (const int m : replica_.drivers().MechanismsOf(receiver.player)) {
     EachIdOf(world.composition(), m, [&](PartId id) {
       const int body = world.BodyOfId(id);
-      if (body >= 0) things_.push_back(body);
+      if (body >= 0) receiver_bodies_.push_back(body);
     });
   }
 }
 
 void Interest::Note(const Receiver& receiver, const int* begin, const int* end, Concern to) {
   const auto peer = static_cast<std::size_t>(receiver.peer);
-  Concern* const row = &concern_[peer * stride_];
+  Concern* const row = &relevance_[peer * stride_];
   std::vector<int>& noted = noted_[peer];
   for (; begin != end; ++begin) {
     Concern& now = row[*begin];
@@ -151,7 +151,7 @@ void Interest::Note(const Receiver& receiver, const int* begin, const int* end, 
       hearing_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
     }
     if (now < Concern::kNear && to >= Concern::kNear) {
-      hearing_near_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
+      receivers_near_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
     }
     now = to;
   }
@@ -164,7 +164,7 @@ void Interest::NoteAll(const Receiver& receiver, Concern to) {
 void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Concern to) {
   centres_.clear();
   around_.clear();
-  for (const int body : things_) {
+  for (const int body : receiver_bodies_) {
     const Vec2 at = replica_.world().Read(body).position;
     const std::int32_t x = CellOf(at.x(), side), y = CellOf(at.y(), side);
     if (std::find(centres_.rbegin(), centres_.rend(), Key(x, y)) != centres_.rend()) continue;
@@ -184,17 +184,17 @@ void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, C
 
 /// Prepares the tables for a Look; clears only entries that were set.
 void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
-  before_.swap(concern_);
+  before_.swap(relevance_);
   noted_before_.swap(noted_);
   looked_before_.swap(looked_);
   noted_.resize(peers);
-  if (stride_ == mechanisms && concern_.size() == mechanisms * peers) {
+  if (stride_ == mechanisms && relevance_.size() == mechanisms * peers) {
     for (std::size_t p = 0; p < peers; ++p) {
-      Concern* row = &concern_[p * mechanisms];
+      Concern* row = &relevance_[p * mechanisms];
       for (const int m : noted_[p]) row[m] = Concern::kNone;
     }
   } else {
-    concern_.assign(mechanisms * peers, Concern::kNone);
+    relevance_.assign(mechanisms * peers, Concern::kNone);
   }
   if (stride_ != mechanisms) before_.clear();
   stride_ = mechanisms;
@@ -204,8 +204,8 @@ void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
   for (std::vector<int>& held : held_) held.clear();
   hearing_.resize(mechanisms);
   for (std::vector<int>& hearing : hearing_) hearing.clear();
-  hearing_near_.resize(mechanisms);
-  for (std::vector<int>& hearing : hearing_near_) hearing.clear();
+  receivers_near_.resize(mechanisms);
+  for (std::vector<int>& hearing : receivers_near_) hearing.clear();
 }
 
 void Interest::FindRisen(const Receiver& receiver, std::vector<Risen>* risen) const {
@@ -214,7 +214,7 @@ void Interest::FindRisen(const Receiver& receiver, std::vector<Risen>* risen) co
   const bool known = peer < looked_before_.size() && looked_before_[peer] != 0;
   for (const int m : noted_[peer]) {
     const std::size_t at = row + static_cast<std::size_t>(m);
-    if (!known || concern_[at] > before_[at]) risen->push_back({receiver.peer, m});
+    if (!known || relevance_[at] > before_[at]) risen->push_back({receiver.peer, m});
   }
 }
 
@@ -242,9 +242,9 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
     if (receiver.player < 0) {
       NoteAll(receiver, Concern::kNear);
     } else {
-      FindThings(receiver);
+      FindReceiverBodies(receiver);
       // A client without any body may look anywhere.
-      if (things_.empty()) NoteAll(receiver, Concern::kFar);
+      if (receiver_bodies_.empty()) NoteAll(receiver, Concern::kFar);
       Raise(receiver, far_, hear, Concern::kFar);
       Raise(receiver, near_, kNearReach, Concern::kNear);
       if (central) Raise(receiver, close_, kCloseReach, Concern::kClose);

@@ -42,20 +42,20 @@ class Interest {
   Concern Of(int peer, int mechanism) const {
     if (small_) return Concern::kClose;
     const auto m = static_cast<std::size_t>(mechanism), p = static_cast<std::size_t>(peer);
-    if (m >= stride_ || p * stride_ >= concern_.size()) return Concern::kNear;
-    return concern_[p * stride_ + m];
+    if (m >= stride_ || p * stride_ >= relevance_.size()) return Concern::kNear;
+    return relevance_[p * stride_ + m];
   }
   /// True if there was no Look since the start or the last Remap. In a large room Of then returns
-  /// kNear for everything, and Hearing is not valid.
-  bool unknown() const { return concern_.empty(); }
+  /// kNear for everything, and ReceiversFar is not valid.
+  bool unknown() const { return relevance_.empty(); }
   /// Returns the receivers to which the mechanism is at least kFar, as of the last Look. Requires a
   /// large room.
-  const std::vector<int>& Hearing(int mechanism) const {
+  const std::vector<int>& ReceiversFar(int mechanism) const {
     return hearing_[static_cast<std::size_t>(mechanism)];
   }
-  /// Returns the receivers to which the mechanism is at least kNear; else like Hearing.
-  const std::vector<int>& HearingNear(int mechanism) const {
-    return hearing_near_[static_cast<std::size_t>(mechanism)];
+  /// Returns the receivers to which the mechanism is at least kNear; else like ReceiversFar.
+  const std::vector<int>& ReceiversNear(int mechanism) const {
+    return receivers_near_[static_cast<std::size_t>(mechanism)];
   }
   /// True if everything is kClose to everyone.
   bool small() const { return small_; }
@@ -84,7 +84,7 @@ class Interest {
   /// Raises the relevance of the mechanisms in the cells of the receiver's bodies, and in their
   /// eight neighbours, to at least `to`.
   void Raise(const Receiver& receiver, const Cells& cells, float side, Concern to);
-  void FindThings(const Receiver& receiver);
+  void FindReceiverBodies(const Receiver& receiver);
   /// Raises the relevance of these mechanisms to at least `to`.
   void Note(const Receiver& receiver, const int* begin, const int* end, Concern to);
   void NoteAll(const Receiver& receiver, Concern to);
@@ -97,14 +97,14 @@ class Interest {
   const Replica& replica_;
   bool small_ = false;                                  // everything is kClose to everyone
   std::size_t stride_ = 0;                              // mechanisms in a row
-  std::vector<Concern> concern_;                        // by peer and mechanism
+  std::vector<Concern> relevance_;                      // by peer and mechanism
   std::vector<Concern> before_;                         // in the Look before
   std::vector<std::vector<int>> noted_, noted_before_;  // by peer: mechanisms of at least kFar
   std::vector<char> looked_, looked_before_;            // by peer: was a receiver
   std::vector<std::vector<int>> hearing_;               // by mechanism: peers, at least kFar
-  std::vector<std::vector<int>> hearing_near_;          // by mechanism: peers, at least kNear
+  std::vector<std::vector<int>> receivers_near_;        // by mechanism: peers, at least kNear
   std::vector<std::vector<int>> held_;           // by peer, in a Look: bodies it has authority over
-  std::vector<int> things_;                      // bodies of the current receiver
+  std::vector<int> receiver_bodies_;             // bodies of the current receiver
   std::vector<std::uint64_t> centres_, around_;  // cells of its bodies; these and their neighbours
   Cells far_, near_, close_;                     // in a Look
   std::vector<std::pair<int, int>> by_mechanism_;  // mechanism, body; ascending

@@ -15,8 +15,8 @@ namespace {
 constexpr float kSpinSeen = 6;
 constexpr int kQuantaPerMetre = 512;
 
-HeardState Entry(const States& states, std::size_t i) {
-  HeardState heard;
+ReceivedState Entry(const States& states, std::size_t i) {
+  ReceivedState heard;
   heard.peer = states.peer;
   heard.tick = states.tick;
   heard.revision = states.revision;
@@ -41,16 +41,16 @@ float ReachOf(const World& world, int body) {
 
 }  // namespace
 
-bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRule& rule,
+bool NewestStates::IsNews(const Body& body, const ReceivedState& told, const ReckoningRule& rule,
                           double repeat_s) const {
-  const HeardState& now = body.heard;
+  const ReceivedState& now = body.heard;
   if (told.tick < 0 || told.epoch != now.epoch) return true;
   if (((told.flags ^ now.flags) & kStateAsleep) != 0) return true;
   const float seconds = static_cast<float>(now.tick - told.tick) / static_cast<float>(tick_hz_);
   constexpr float kQuantum = kPositionQuantum, kSpeed = kVelocityQuantum;
   const float speed = kSpeed * static_cast<float>(std::abs(told.vx) + std::abs(told.vy)) +
                       kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
-  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : repeat_s)) return true;
+  if (seconds >= (speed < kSlow ? kStateRepeatSlowS : repeat_s)) return true;
   if (seconds < rule.least) return false;
   const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
@@ -86,9 +86,9 @@ const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, 
     body.heard = Entry(states, i);
     if (body.reach < 0) body.reach = ReachOf(world_, told.body);
     News& news = together_[static_cast<std::size_t>(told.mechanism)];
-    if (IsNews(body, body.far, kFarNews, repeat_s)) {
+    if (IsNews(body, body.far, kFarReckoning, repeat_s)) {
       news = News::kAll;
-    } else if (news == News::kNobody && IsNews(body, body.near, kNearNews, repeat_s)) {
+    } else if (news == News::kNobody && IsNews(body, body.near, kNearReckoning, repeat_s)) {
       news = News::kNear;
     }
   }

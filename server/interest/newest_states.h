@@ -14,7 +14,7 @@
 namespace seam {
 
 /// A body's entry of a States message, with the message's header; in quanta of states_t.
-struct HeardState {
+struct ReceivedState {
   std::int32_t peer = 0;   ///< the authority
   std::int64_t tick = -1;  ///< -1: no state received
   std::int32_t revision = 0;
@@ -33,18 +33,18 @@ enum class News : std::uint8_t {
 };
 
 /// Conditions under which a receiver needs a new state.
-struct NewsRule {
+struct ReckoningRule {
   float off;     ///< m; error of the extrapolated last state, at a point of the body
   double least;  ///< s since that state: not sooner, unless epoch or sleep changed
 };
-constexpr NewsRule kNearNews{0.005f, 0};
-constexpr NewsRule kFarNews{0.05f, 0.5};
+constexpr ReckoningRule kNearReckoning{0.005f, 0};
+constexpr ReckoningRule kFarReckoning{0.05f, 0.5};
 /// s after which a state is sent in any case, so that one may be lost before the receiver stops
 /// extrapolating (kReckonShownMax). The second one is for bodies slower than kSlow, m/s.
-constexpr double kNewsRepeat = 0.5, kNewsRepeatSlow = 2;
-/// Like kNewsRepeat, for states that the server sends in a silent holder's name: the holder's last
-/// state is half a second old by then, and may be the one that was lost.
-constexpr double kNewsRepeatSilent = 0.25;
+constexpr double kStateRepeatS = 0.5, kStateRepeatSlowS = 2;
+/// Like kStateRepeatS, for states that the server sends in a silent holder's name: the holder's
+/// last state is half a second old by then, and may be the one that was lost.
+constexpr double kStateRepeatSilentS = 0.25;
 constexpr float kSlow = 0.05f;
 
 class NewestStates {
@@ -60,9 +60,9 @@ class NewestStates {
   /// Takes a message; returns one element per entry. Entries of one mechanism get the same `news`,
   /// since its bodies are displayed together.
   /// `repeat_s`: s after which the state of a moving body is sent in any case.
-  const std::vector<Told>& Take(const States& states, double repeat_s = kNewsRepeat);
+  const std::vector<Told>& Take(const States& states, double repeat_s = kStateRepeatS);
   /// Returns the latest state of an assembly. Requires has(id).
-  const HeardState& at(PartId id) const { return bodies_[static_cast<std::size_t>(id)].heard; }
+  const ReceivedState& at(PartId id) const { return bodies_[static_cast<std::size_t>(id)].heard; }
   bool has(PartId id) const {
     const auto i = static_cast<std::size_t>(id);
     return i < bodies_.size() && bodies_[i].heard.tick >= 0;
@@ -73,10 +73,10 @@ class NewestStates {
 
  private:
   struct Body {
-    HeardState heard, near, far;  // the latest; the last due to near, and to far receivers
+    ReceivedState heard, near, far;  // the latest; the last due to near, and to far receivers
     float reach = -1;             // m, from its origin to its farthest point; -1: not known yet
   };
-  bool IsNews(const Body& body, const HeardState& told, const NewsRule& rule,
+  bool IsNews(const Body& body, const ReceivedState& told, const ReckoningRule& rule,
               double repeat_s) const;
 
   const World& world_;

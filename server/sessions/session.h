@@ -10,7 +10,7 @@
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/rest/rest_blocks.h"
-#include "server/interest/outbox.h"
+#include "server/interest/send_queue.h"
 #include "server/sessions/account_book.h"
 #include "server/sessions/traffic_budget.h"
 
@@ -41,9 +41,9 @@ struct Session {
   Link link;
   TrafficBudget budget;
   std::vector<InputFeed> feeds;      ///< other players' inputs, by player
-  std::vector<int> heard_players;    ///< players with inputs relevant to the client, ascending
+  std::vector<int> relevant_players;  ///< players with inputs relevant to the client, ascending
   std::vector<int> unsent_players;   ///< the ones with inputs that wait for another message
-  Outbox outbox;                     ///< states of other peers' bodies to send to the client
+  SendQueue outbox;                  ///< states of other peers' bodies to send to the client
   RestBlocks rest;                   ///< comparison with the bodies that rest at the client
   bool rest_agrees = false;          ///< the same bodies rest at both, as of its newest ping
   ClientAccount* account = nullptr;  ///< the name's; outlives the session

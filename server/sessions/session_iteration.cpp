@@ -51,13 +51,13 @@ void SessionTable::ReadAccounts() {
 }
 
 void SessionTable::SendToAll(const Bytes& message, int but_peer) {
-  ForEachTold([&](Session& session) {
+  ForEachSentRoom([&](Session& session) {
     if (session.peer != but_peer) SendTo(session, message);
   });
 }
 
 void SessionTable::SendUrgentToAll(const Bytes& message) {
-  ForEachTold([&](Session& session) { SendUrgentTo(session, message); });
+  ForEachSentRoom([&](Session& session) { SendUrgentTo(session, message); });
 }
 
 void SessionTable::SendTo(Session& session, const Bytes& message) {

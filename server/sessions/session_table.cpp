@@ -110,7 +110,8 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
   session.account->dropped += over || !good ? 1 : 0;
   if (over) return Verdict::kOverBudget;
   if (!good) return Verdict::kMalformed;
-  for (const std::int64_t number : session.link.TakeArrived()) session.packer.Acknowledge(number);
+  for (const std::int64_t number : session.link.TakeAckedNumbers())
+    session.packer.Acknowledge(number);
   places_.Heard(session.peer, now_us, session.stage == SessionStage::kReady);
   return Verdict::kTaken;
 }

@@ -86,7 +86,7 @@ class SessionTable {
   void SendUrgentTo(Session& session, const Bytes& message);
   /// Calls `visit(Session&)` for every session that was sent the room.
   template <class Visit>
-  void ForEachTold(Visit visit) {
+  void ForEachSentRoom(Visit visit) {
     for (Session* session : in_order_) {
       if (session->stage != SessionStage::kAdmitted) visit(*session);
     }

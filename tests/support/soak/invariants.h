@@ -62,7 +62,7 @@ class Invariants {
     std::map<PartId, int> fast_ticks;         // bodies: ticks on end beyond the speed limit
     std::int64_t behind_us = -1;              // since when its revision is not the server's
     std::map<PartId, std::int64_t> stray_us;  // mechanisms: since when it knows another owner
-    std::map<PartId, std::int64_t> stray_concern_us;  // and since when they concern it
+    std::map<PartId, std::int64_t> stray_relevant_us;  // and since when they concern it
     std::map<PartId, Still> still_elsewhere;          // bodies that lie still otherwise
     std::map<PartId, std::int64_t> far_us;            // bodies: since when it has them elsewhere
     std::map<PartId, std::int64_t> rest_other_us;     // bodies: since when it knows other rest

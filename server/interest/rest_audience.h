@@ -1,7 +1,7 @@
 #pragma once
 /// Decides which clients receive a rest commit now and which later (large rooms only). For a client
 /// to which the bodies are out of interest the commit is pending until their turn comes
-/// (Broadcast::TellNothings) or they come into interest.
+/// (Broadcast::RefreshDistant) or they come into interest.
 
 #include <cstddef>
 #include <vector>
@@ -13,10 +13,10 @@
 
 namespace seam {
 
-class RestNews {
+class RestAudience {
  public:
   /// `replica` must outlive this object.
-  explicit RestNews(const Replica& replica) : replica_(replica) {}
+  explicit RestAudience(const Replica& replica) : replica_(replica) {}
 
   /// Takes a rest commit that is about to be sent.
   void Take(const Rest& rest);
@@ -30,18 +30,18 @@ class RestNews {
       if (hears(mechanisms_[i])) {
         AddPose(rest_, i, &told);
       } else {
-        Owe(peer, mechanisms_[i]);
+        MarkPending(peer, mechanisms_[i]);
       }
     }
     return told;
   }
   /// True if a rest commit of the mechanism, or of a mechanism in the block, is pending for the
   /// peer.
-  bool Owes(int peer, int mechanism) const {
+  bool IsPendingFor(int peer, int mechanism) const {
     const auto m = static_cast<std::size_t>(mechanism);
     return m < owed_.size() && owed_[m].Has(peer);
   }
-  bool Owes(int peer, const RestBlock& at) const;
+  bool IsPendingFor(int peer, const RestBlock& at) const;
   /// Returns the pending commits of these mechanisms, for bodies that still rest, and clears them.
   /// A commit stays pending while the server's copy of its body may move.
   std::vector<Rest> Owed(int peer, const std::vector<int>& mechanisms);
@@ -51,7 +51,7 @@ class RestNews {
   void Remap(const std::vector<std::vector<int>>& from);
 
  private:
-  void Owe(int peer, int mechanism);
+  void MarkPending(int peer, int mechanism);
 
   const Replica& replica_;
   Rest rest_, head_;             // the last Take; its head without bodies

@@ -2,8 +2,9 @@
 /// Decides which clients receive an authority change now and which later (large rooms only).
 /// At once: clients that have or had a role in the mechanism, and clients near it. For all others
 /// the change is pending until the mechanism comes near, until an edit merges it with another, or
-/// for kOwedS; for clients to which the mechanism is out of interest, until it comes into interest
-/// or for kOwedNothingS. A delay does no harm: states name their authority and its epoch.
+/// for kGrantPendingS; for clients to which the mechanism is out of interest, until it comes into
+/// interest or for kGrantPendingDistantS. A delay does no harm: states name their authority and its
+/// epoch.
 
 #include <cstdint>
 #include <vector>
@@ -13,10 +14,10 @@
 
 namespace seam {
 
-class GrantNews {
+class GrantAudience {
  public:
   /// Both must outlive this object.
-  GrantNews(const Replica& replica, const Interest& interest)
+  GrantAudience(const Replica& replica, const Interest& interest)
       : replica_(replica), interest_(interest) {}
 
   /// Takes the changes that are about to be sent, in the form for all clients: changes that the
@@ -38,7 +39,7 @@ class GrantNews {
   void Remap(const std::vector<std::vector<int>>& from);
 
   /// s for which a change is pending at most.
-  static constexpr int kOwedS = 2, kOwedNothingS = 20;
+  static constexpr int kGrantPendingS = 2, kGrantPendingDistantS = 20;
 
  private:
   /// A mechanism with a changed record, or a request to its holder to release it.
@@ -60,7 +61,7 @@ class GrantNews {
   std::vector<Change> changes_;
   std::vector<AuthorityRecord> told_;  // by mechanism: as last sent
   std::vector<PeerSet> owed_;          // by mechanism: peers with a stale authority or epoch
-  std::vector<bool> any_owed_;         // by mechanism
+  std::vector<bool> any_pending_;      // by mechanism
   std::vector<bool> merged_;           // by mechanism: merged by an edit, and pending since
 };
 

@@ -18,10 +18,10 @@ constexpr double kClientBytesPerS = 256000;
 /// Synchronization", 2015).
 enum class Urgency : std::uint8_t { kFar = 1, kNear = 3, kFollowed = 10 };
 
-class Outbox {
+class SendQueue {
  public:
   /// `bytes_per_s`: limit for everything sent to the receiver, UDP payload; 0: no limit.
-  explicit Outbox(double bytes_per_s) : bytes_per_s_(bytes_per_s) {}
+  explicit SendQueue(double bytes_per_s) : bytes_per_s_(bytes_per_s) {}
 
   /// Queues a body. The next Compose that has room for it sends its latest state.
   void Add(std::int64_t now_us, PartId id, Urgency urgency);
@@ -40,7 +40,7 @@ class Outbox {
   /// Round robin over the mechanisms out of the receiver's interest, kept by the caller: the
   /// mechanism of the last turn, and the time at which this round began, us.
   int nothing = 0;
-  std::int64_t nothings_us = -1000000000;
+  std::int64_t distant_round_us = -1000000000;
   /// True if a body that the receiver simulates is queued.
   bool pressing() const { return pressing_; }
   /// True if the budget allows a message with so many bodies now.
