@@ -34,7 +34,7 @@ void ParseView(const std::string& text, RenderOptions* o) {
   int peer = 0;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%d%c", &peer, &rest) != 1) {
-    o->view_name = text;  // whether there is such a player is the recording's to say
+    o->view_name = text;  // checked later: the recording has the players
     return;
   }
   if (peer < 0 || peer > 127)
@@ -42,7 +42,7 @@ void ParseView(const std::string& text, RenderOptions* o) {
   o->peer = peer;
 }
 
-/// Requires logs.
+/// Checks the options of --page. Requires logs.
 void CheckPage(const RenderOptions& o) {
   const bool picture = o.sheet > 0 || !o.around.empty() || o.speed != 1 || o.peer_given ||
                        o.every_ticks != 0 || !o.video.empty() || !o.camera_text.empty() ||
@@ -56,7 +56,7 @@ void CheckPage(const RenderOptions& o) {
   if (o.logs.size() > 10) throw OperatorError("at most 10 logs fit on a page");
 }
 
-/// "X,Y,HEIGHT", "fit" or "scene".
+/// Parses "X,Y,HEIGHT", "fit" or "scene".
 void ParseCamera(const std::string& text, CameraWish* camera) {
   if (text == "fit") return;
   if (text == "scene") {
@@ -98,7 +98,7 @@ bool IsTick(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// What goes with the camera, and moments.
+/// Checks combinations of the flags for the camera and for moments.
 void CheckShots(const RenderOptions& o) {
   if (!o.around.empty() && o.around != "contact" && o.around != "worst" &&
       o.around != "hand-over" && !IsTick(o.around))
