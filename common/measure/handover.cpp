@@ -91,7 +91,7 @@ void MeasureHandover(const Recording& recording, const std::map<PartId, int>& me
   for (const auto& [peer, views] : recording.views) {
     ForEachChange(views, [&](std::int64_t, const View& before, std::size_t k, const View& now,
                              std::size_t i) {
-      // What has become part of another body jumps for that.
+      // A body with other parts than before jumps because of that.
       if (revisions != nullptr && !revisions->SameBody(before.revision, now.revision, now.id[i]))
         return;
       const double dx = double{now.x[i]} - double{before.x[k]} - double{now.vx[i]} * h;

@@ -17,8 +17,8 @@ struct Pose {
   float angle = 0;      ///< rad
 };
 
-/// Returns the pose of a body one of whose parts, with the pose `place` in the body's frame, is at
-/// `at` in the world.
+/// Returns the pose of a body by one of its parts: `at`: pose of the part in the world; `place`: in
+/// the body's frame.
 Pose FrameBehind(const Pose& at, const Pose& place);
 
 /// Transform from a pose's own frame to the world.

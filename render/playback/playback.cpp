@@ -169,8 +169,8 @@ int Playback::PeerOr(int peer) const {
 }
 
 int Playback::PlayerOf(int peer) const {
-  // A peer drives the player over whose own vehicle it has authority in its last view. A vehicle
-  // without an owner does not count: authority over it goes by region.
+  // A peer drives a player if it has authority over the player's own vehicle in its last view. A
+  // vehicle without an owner does not count: authority over it goes by region.
   const auto owned = [this](const BodyShapes& body) {
     return std::any_of(body.parts.begin(), body.parts.end(), [&](PartId part) {
       const int owner = scene_.parts[static_cast<std::size_t>(part)].owner;
