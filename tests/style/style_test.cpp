@@ -175,7 +175,7 @@ TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
     if (!readme && !all) continue;
     const auto [missing, count] = MissingPaths(page, readme);
     EXPECT_EQ(missing, "");
-    EXPECT_GT(count, 20) << page.path;
+    EXPECT_GT(count, readme ? 10 : 20) << page.path;
   }
   Source page;
   page.path = "docs/a.md";
@@ -186,11 +186,11 @@ TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
   EXPECT_EQ(MissingPaths(page, false).second, 5);
 }
 
-TEST(Docs, AQuestionOfTheReadmeThatAsksWhereIsAnsweredByAtMostTwoFiles) {
+TEST(Docs, EachRowOfTheTableOfPlacesNamesAtMostTwoFiles) {
   std::string offenders;
   bool below = false;
   int rows = 0;
-  for (const std::string& line : Lines(Root() / "README.md")) {
+  for (const std::string& line : Lines(Root() / "docs/architecture.md")) {
     if (line.rfind("## ", 0) == 0) below = line.rfind("## Where is", 0) == 0;
     if (!below || line.rfind('|', 0) != 0) continue;
     ++rows;
