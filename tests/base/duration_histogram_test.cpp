@@ -12,7 +12,7 @@
 namespace seam {
 namespace duration_histogram_test {
 
-TEST(DurationHistogram, OfNothingEverythingIsNought) {
+TEST(DurationHistogram, IsZeroWhenEmpty) {
   const DurationHistogram none;
   EXPECT_EQ(none.count(), 0);
   EXPECT_EQ(none.PercentileUs(0.5), 0);
@@ -40,7 +40,7 @@ TEST(DurationHistogram, PercentilesAreAtMostSixPercentAboveTheSortedValue) {
   }
 }
 
-TEST(DurationHistogram, TimesThatRanBackwardsAreNoughtAndHugeOnesAreKept) {
+TEST(DurationHistogram, NegativeTimesCountAsZeroAndHugeOnesAreKept) {
   DurationHistogram histogram;
   histogram.Add(-5);
   EXPECT_EQ(histogram.PercentileUs(1), 0);

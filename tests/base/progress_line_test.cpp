@@ -87,7 +87,7 @@ TEST(ProgressLine, QuietIsSilentOnATerminalToo) {
   EXPECT_FALSE(line.Due(1000000000));
 }
 
-TEST(ProgressLine, IsCutWhereTheTerminalEnds) {
+TEST(ProgressLine, IsCutAtTheTerminalsWidth) {
   const TerminalErrors terminal;
   if (!terminal.good()) GTEST_SKIP() << "no pseudo terminal here";
   terminal.SetColumns(12);
@@ -98,7 +98,7 @@ TEST(ProgressLine, IsCutWhereTheTerminalEnds) {
   EXPECT_EQ(terminal.Read(), "\r0          ");
 }
 
-TEST(ProgressCount, SaysWhatHowMuchOfHowMuchTheRateAndTheTimeLeft) {
+TEST(ProgressCount, PrintsTaskCountTotalRateAndTimeLeft) {
   EXPECT_EQ(ProgressText("sweep", "runs", 0, 400, 3), "sweep: 0 of 400 runs (0 %)");
   EXPECT_EQ(ProgressText("sweep", "runs", 12, 400, 4),
             "sweep: 12 of 400 runs (3 %), 3.0 runs/s, 2 min 10 s left");
