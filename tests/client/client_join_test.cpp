@@ -75,7 +75,7 @@ TEST_F(ClientJoin, SaysHelloUntilChallengedThenJoinsWithTokenAndKey) {
   EXPECT_EQ(std::get<Join>(again).token, 5678) << "the newest";
 }
 
-TEST_F(ClientJoin, KeepsItsSessionNumberForAsLongAsNobodyAnswers) {
+TEST_F(ClientJoin, KeepsItsSessionNumberWhileNobodyAnswers) {
   Next(0);
   const std::uint64_t first = session_;
   for (int n = 0; n < 100; ++n) Next(100000);
@@ -115,7 +115,7 @@ TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksANewerOne) {
             "the server speaks protocol 13, this client speaks 12: they need the same version");
 }
 
-TEST_F(ClientJoin, InsistsForThreeSecondsOnAnyOtherRefusal) {
+TEST_F(ClientJoin, RetriesForThreeSecondsAfterAnyOtherRefusal) {
   Next(0);
   for (int n = 0; n < 31; ++n) {
     EXPECT_EQ(client_.fatal(), "") << n;

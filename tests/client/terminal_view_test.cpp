@@ -21,7 +21,7 @@ std::string Stripped(const std::string& text) {
   return plain;
 }
 
-TEST(BrailleCanvas, DotsAreWhereUnicodeHasThem) {
+TEST(BrailleCanvas, DotsFollowUnicode) {
   BrailleCanvas canvas(2, 1);
   EXPECT_EQ(canvas.width(), 4);
   EXPECT_EQ(canvas.height(), 4);

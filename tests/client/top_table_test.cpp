@@ -46,7 +46,7 @@ std::vector<std::string> Row(const std::string& text, const std::string& room) {
   return words;
 }
 
-TEST(TopTable, RatesAreThoseBetweenTheLastTwoThatWereHeard) {
+TEST(TopTable, RatesAreTakenBetweenTheLastTwoMessages) {
   TopTable table;
   EXPECT_EQ(table.Text(0), "no room was heard yet\n");
   table.Take(1000000, LoadOf("hall", 10));
