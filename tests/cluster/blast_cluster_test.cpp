@@ -72,7 +72,7 @@ ClusterConfig With(const char* mode, const char* reconcile, const char* impair, 
   return config;
 }
 
-TEST(BlastCluster, EverybodyComesToTheSameRestBitForBit) {
+TEST(BlastCluster, AllPeersComeToTheSameRestBitForBit) {
   for (const char* reconcile : {"rollback", "retrospect"}) {
     for (const std::int64_t seed : {1, 2}) {
       Cluster cluster(With("buffer", reconcile, "4g", seed));
@@ -123,7 +123,7 @@ std::string Posts() {
   return text;
 }
 
-TEST(BlastCluster, WhatIsThrownDownBeforeAnybodyHeardOfItStaysOnTheGround) {
+TEST(BlastCluster, PiecesThatFallBeforeTheirFirstStateStayOnTheGround) {
   for (std::int64_t seed = 1; seed <= 6; ++seed) {
     ClusterConfig config = With("buffer", "rollback", "4g", seed);
     config.scene_text = Posts();
@@ -141,7 +141,7 @@ TEST(BlastCluster, WhatIsThrownDownBeforeAnybodyHeardOfItStaysOnTheGround) {
   }
 }
 
-TEST(BlastCluster, InModeOracleEveryScreenIsTheOracle) {
+TEST(BlastCluster, InModeOracleEveryScreenEqualsTheOracle) {
   ClusterConfig config = With("oracle", "", "perfect", 1);
   config.duration_s = 6;
   const Recording recording = RunCluster(config);
@@ -171,7 +171,7 @@ double WorstAt(const Recording& recording, const Oracle& oracle, std::int64_t ti
   return worst;
 }
 
-TEST(BlastCluster, UnderRollbackTheBlastIsTheOraclesAtItsTick) {
+TEST(BlastCluster, UnderRollbackTheBlastEqualsTheOraclesAtItsTick) {
   ClusterConfig config = With("buffer", "rollback", "4g", 3);
   config.duration_s = 2.3;  // before the second
   const Recording recording = RunCluster(config);

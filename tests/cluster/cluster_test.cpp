@@ -28,7 +28,7 @@ ClusterConfig With(const std::string& scene, const std::string& mode,
   return config;
 }
 
-TEST(Cluster, EveryPeerOfTheOracleShowsTheSameBits) {
+TEST(Cluster, EveryPeerInModeOracleShowsTheSameBits) {
   const Recording recording = RunCluster(With("crossing", "oracle"));
   const Measures m = Measure(recording, ComputeOracle(recording));
   EXPECT_EQ(m.error_max_m, 0);
@@ -142,7 +142,7 @@ std::uint64_t DigestOf(const ClusterConfig& config) {
   return hash;
 }
 
-TEST(Cluster, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
+TEST(Cluster, TheSameSeedGivesTheSameBytesAndAnotherSeedDiffers) {
   for (const char* mode : {"central", "strict", "buffer"}) {
     ClusterConfig config = With("crossing", mode);
     config.impair = "4g";

@@ -33,7 +33,7 @@ class Laps {
   std::map<std::string, int> count_;
 };
 
-TEST(ConveyorScene, AllBoxesGoRoundForTenMinutesAndNoneIsLost) {
+TEST(ConveyorScene, AllBoxesCirculateForTenMinutesAndNoneIsLost) {
   for (const std::int64_t seed : {3}) {
     ClusterConfig config;
     config.scene = "conveyor";

@@ -65,7 +65,7 @@ int Strays(Cluster& cluster, int client) {
   return strays;
 }
 
-TEST(GrantInterest, WhoIsFarHearsLessAndNeverLongerThanThreeSecondsNothing) {
+TEST(GrantInterest, ADistantClientHearsLessButWithinThreeSeconds) {
   for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
     Cluster cluster(Room("demo", seed));
     AuthorityWatch watch;
@@ -102,7 +102,7 @@ TEST(GrantInterest, WhoIsFarHearsLessAndNeverLongerThanThreeSecondsNothing) {
   }
 }
 
-TEST(GrantInterest, WhomItIsNothingHearsOfItInTheEnd) {
+TEST(GrantInterest, AClientOutsideTheInterestAreaHearsEventually) {
   ClusterConfig few = Room("demo", 1, 60), all = Room("demo");
   int changes[2] = {0, 0}, longest[2] = {0, 0};
   for (const bool nothing : {false, true}) {
@@ -140,7 +140,7 @@ bool AnyClientFollows(const AuthorityRecord& record) {
 }
 
 /// By that it knows whether its world has to come to the same bits as another's.
-TEST(GrantInterest, AHolderKnowsWhetherAnyClientFollowsWhatItHas) {
+TEST(GrantInterest, AHolderKnowsIfAnyClientFollowsItsMechanism) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(30);
   int seen[2] = {0, 0}, longest = 0, apart = 0;  // apart: from what the server knows
@@ -166,7 +166,7 @@ TEST(GrantInterest, AHolderKnowsWhetherAnyClientFollowsWhatItHas) {
   EXPECT_LT(longest, 30) << "ticks";
 }
 
-TEST(GrantInterest, OnlyTheHolderHearsTheQuestionToLetGo) {
+TEST(GrantInterest, OnlyTheHolderReceivesTheRevocation) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(30);
   int questions = 0;
@@ -185,7 +185,7 @@ TEST(GrantInterest, OnlyTheHolderHearsTheQuestionToLetGo) {
   EXPECT_GT(questions, 0);
 }
 
-TEST(GrantInterest, AnEditThatMakesOneOfManyLeavesNobodyInAnotherEpoch) {
+TEST(GrantInterest, AnEditThatMergesMechanismsLeavesNobodyInAnotherEpoch) {
   for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
     Cluster cluster(Room("4g", seed));
     cluster.RunToTick(5 * 60 + 7 * seed);
@@ -205,7 +205,7 @@ TEST(GrantInterest, AnEditThatMakesOneOfManyLeavesNobodyInAnotherEpoch) {
   }
 }
 
-TEST(GrantInterest, WhoComesBackKnowsAllOwners) {
+TEST(GrantInterest, ARejoiningClientLearnsAllOwners) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(4 * 60);
   cluster.Kill(kCarl);

@@ -141,7 +141,7 @@ void Fail(bool large, std::int64_t seed, double from_s, double for_s, const std:
   ExpectAgreed(cluster);
 }
 
-TEST(HandOverFaults, APausedHolderKeepsNothingFromMoving) {
+TEST(HandOverFaults, APausedHolderStopsNoBody) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2.3, "paused");
@@ -150,7 +150,7 @@ TEST(HandOverFaults, APausedHolderKeepsNothingFromMoving) {
   }
 }
 
-TEST(HandOverFaults, AHolderThatHearsNothingGivesUpByItself) {
+TEST(HandOverFaults, AHolderThatHearsNothingReleasesByItself) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "hears nothing");
@@ -159,7 +159,7 @@ TEST(HandOverFaults, AHolderThatHearsNothingGivesUpByItself) {
   }
 }
 
-TEST(HandOverFaults, AHolderThatIsNotHeardIsSpokenFor) {
+TEST(HandOverFaults, TheServerSendsStatesForASilentHolder) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "is not heard");

@@ -11,7 +11,7 @@
 namespace seam {
 namespace handover_time_test {
 
-TEST(HandOver, TakesOneRoundTripHoweverManyThereAre) {
+TEST(HandOver, TakesOneRoundTripForAnyNumberOfMechanisms) {
   for (const int count : {1, 8, 60}) {
     ClusterConfig config;
     config.scene = "pendulums.toml";

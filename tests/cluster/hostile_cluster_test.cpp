@@ -28,7 +28,7 @@ std::int64_t BytesWaiting(Net* net) {
   return bytes;
 }
 
-TEST(Hostile, AThousandForgedHellosDrawNoMoreBytesThanTheyBringAndBuildNothing) {
+TEST(Hostile, AThousandForgedHellosAllocateNothingAndAreNotAmplified) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   std::vector<std::unique_ptr<Net>> forged;
@@ -61,7 +61,7 @@ TEST(Hostile, AThousandForgedHellosDrawNoMoreBytesThanTheyBringAndBuildNothing) 
               static_cast<long long>(in), static_cast<long long>(out), most);
 }
 
-TEST(Hostile, AHeaderWithAnotherSessionNumberDropsNobody) {
+TEST(Hostile, AHeaderWithAnotherSessionNumberDisconnectsNobody) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   cluster.Kill(1);
@@ -103,7 +103,7 @@ int HeldBy(Cluster& cluster, int peer) {
   return held;
 }
 
-TEST(Hostile, WhoStalls1600MillisecondsKeepsTheCarAgainstWhoSaysTheName) {
+TEST(Hostile, AStallOf1600MillisecondsDoesNotLoseTheCarToAnImpostor) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   const int held = HeldBy(cluster, 2);
@@ -122,7 +122,7 @@ TEST(Hostile, WhoStalls1600MillisecondsKeepsTheCarAgainstWhoSaysTheName) {
   EXPECT_EQ(HeldBy(cluster, 2), held);
 }
 
-TEST(Hostile, WhoWasAwayForTenSecondsHasTheCarBackAtOnceAndNobodyElseHadIt) {
+TEST(Hostile, APlayerAwayForTenSecondsRegainsItsReservedCarAtOnce) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   const int held = HeldBy(cluster, 2);
@@ -140,7 +140,7 @@ TEST(Hostile, WhoWasAwayForTenSecondsHasTheCarBackAtOnceAndNobodyElseHadIt) {
   EXPECT_EQ(HeldBy(cluster, 2), held);
 }
 
-TEST(Hostile, WhatHangsOnAJointDoesNotFallFreelyWhateverItsHolderSays) {
+TEST(Hostile, AJointedBodyDoesNotFallFreelyEvenIfItsHolderSaysSo) {
   for (const bool lies : {false, true}) {
     ClusterConfig config;
     config.scene = "pendulums.toml";

@@ -52,7 +52,7 @@ class HostileProposals : public ::testing::Test {
 };
 
 /// The log alone, as the server asks it.
-TEST_F(HostileProposals, WhatMayNotBeProposedIsNeitherParsedNorCopied) {
+TEST_F(HostileProposals, ForbiddenProposalsAreNeitherParsedNorCopied) {
   const SyncConfig config = MakeSyncConfig("buffer", "retrospect");
   Replica replica(cluster_->scene(), config, 0, -1);
   AuthorityManager authority(cluster_->scene(), config, replica);
@@ -142,7 +142,7 @@ TEST_F(HostileProposals, AProposalOfABrokenJointDoesNotBreakTheOneInItsPlace) {
   EXPECT_EQ(log.Propose(0, stale), EditLog::Verdict::kTaken) << "and now it is meant";
 }
 
-TEST_F(HostileProposals, WhatIsForgedOnTheWireIsCountedAndTheRoomRunsOn) {
+TEST_F(HostileProposals, ForgedProposalsAreCountedAndTheRoomRunsOn) {
   Server& server = cluster_->server();
   cluster_->RunToTick(60);
   const Stats before = server.stats();

@@ -47,7 +47,7 @@ TEST(InputSending, EveryChangeReachesTheServerAndTheOthersWithAThirdOfTheDatagra
   }
 }
 
-TEST(InputSending, AChangeIsOnItsWayInItsOwnTick) {
+TEST(InputSending, AChangeIsSentInItsOwnTick) {
   // 40 ms one way are 2.4 ticks: the server knows ann's change of tick t when it has made tick
   // t + 3, whether her states went out in t or not.
   ClusterConfig config = With("buffer", "delay=40ms");
@@ -116,7 +116,7 @@ double BytesInFullRoom(int players) {
   return static_cast<double>(cluster.client(0)->stats().bytes_in - before) / 3.0;
 }
 
-TEST(InputSending, OfManyPlayersTheyTakeASmallPartOfABudget) {
+TEST(InputSending, InputsOfManyPlayersTakeASmallShareOfTheBudget) {
   const double few = BytesInFullRoom(4), many = BytesInFullRoom(40);
   std::printf("[          ] %.0f bytes/s to a client of 4, %.0f of 40\n", few, many);
   EXPECT_LT(many, 0.2 * kClientBytesPerS) << "36 more, 60 times a second: 177 kB/s as inputs_t";

@@ -145,7 +145,7 @@ CountingNet::Counts CountAtAnn(int follow, double bytes_per_s = kClientBytesPerS
 
 constexpr int kBeside = 1, kNear = 2, kFar = 3, kDriven = 5, kBob = 1;
 
-TEST(Interest, WhatIsFollowedIsHeardOfAtOnceTheRestWhenItIsNotAsItWouldBeGuessed) {
+TEST(Interest, SendsFollowedBodiesAlwaysAndOthersWhenTheReckoningErrs) {
   const CountingNet::Counts counts = CountAtAnn(1);
   // In five seconds at 30 sends a second, and a few that were under way.
   EXPECT_NEAR(counts.states.at(kBeside), 150, 8);
@@ -154,7 +154,7 @@ TEST(Interest, WhatIsFollowedIsHeardOfAtOnceTheRestWhenItIsNotAsItWouldBeGuessed
   EXPECT_NEAR(counts.states.at(kFar), 5 / kFarNews.least, 4) << "and this one";
 }
 
-TEST(Interest, ABudgetIsKeptAndWhatIsFollowedComesFirst) {
+TEST(Interest, FollowedBodiesComeFirstWithinTheBudget) {
   constexpr int kBudget = 1500;
   const CountingNet::Counts all = CountAtAnn(1), few = CountAtAnn(1, kBudget);
   EXPECT_LT(few.bytes, kBudget * 5 + 2 * kDatagramBytesMax) << "in five seconds, with a burst";
@@ -164,12 +164,12 @@ TEST(Interest, ABudgetIsKeptAndWhatIsFollowedComesFirst) {
   EXPECT_GT(few.states.at(kFar), 0);
 }
 
-TEST(Interest, InputsGoToWhoSimulatesWhatTheyMove) {
+TEST(Interest, InputsGoToPeersThatSimulateTheBodiesTheyMove) {
   EXPECT_EQ(CountAtAnn(1).inputs.count(kBob), 0u) << "his disc is 300 m away";
   EXPECT_GT(CountAtAnn(9).inputs[kBob], 50) << "a small room is followed whole";
 }
 
-TEST(Interest, WhatIsNothingToAClientIsToldSeldom) {
+TEST(Interest, ADistantBodyIsSentSeldom) {
   const CountingNet::Counts all = CountAtAnn(1), few = CountAtAnn(1, kClientBytesPerS, 60);
   const int told = few.states.count(kFar) > 0 ? few.states.at(kFar) : 0;
   EXPECT_LE(told, 5) << "once a second";
@@ -189,7 +189,7 @@ float Shown(const Recording& recording, int peer, std::int64_t tick, int id) {
   return -1e6f;
 }
 
-TEST(Interest, WhatWasNothingAndComesIsShownWhereItIs) {
+TEST(Interest, ADistantBodyThatApproachesIsShownAtItsPlace) {
   constexpr int kComet = 7;
   ClusterConfig config;
   config.scene = "comet";
@@ -231,7 +231,7 @@ std::string Apart() {
   return text;
 }
 
-TEST(Interest, WhatRestsIsKnownExactlyToThoseWhomItIsNothing) {
+TEST(Interest, DistantClientsKnowRestingBodiesExactly) {
   for (std::int64_t seed = 1; seed <= Soak(4); ++seed) {
     ClusterConfig config;
     config.scene = "apart";

@@ -112,7 +112,7 @@ TEST(LongRoom, GlueThatFormsAndBreaksForEverDoesNotGrowIt) {
 }
 
 /// Whatever the worlds do to themselves while they are played can be told in short.
-TEST(LongRoom, ASnapshotOfAPlayedWorldIsTheWorldAndShorterThanItsEdits) {
+TEST(LongRoom, ASnapshotEqualsThePlayedWorldAndIsShorterThanItsEdits) {
   for (const char* scene : {"gluehouse", "playground", "conveyor", "harbour", "obstacle"}) {
     SCOPED_TRACE(scene);
     ClusterConfig config;
@@ -129,7 +129,7 @@ TEST(LongRoom, ASnapshotOfAPlayedWorldIsTheWorldAndShorterThanItsEdits) {
   }
 }
 
-TEST(LongRoom, WhoJoinsDuringManyEditsUnderLossEndsTheSame) {
+TEST(LongRoom, AClientThatJoinsDuringManyEditsUnderLossEndsTheSame) {
   ClusterConfig config = Pairs();
   config.impair = "loss=20%,delay=40ms";
   Cluster cluster(config);

@@ -143,7 +143,7 @@ constexpr PartId kFirst = 0;
 
 /// 480 edits a second; bob is away for a while in every half minute. From 8192 edits on, of which
 /// the server knows the compositions, nothing grows.
-TEST(LongSessionCluster, MemoryIsFlatWhileThingsAreBondedAndBreak) {
+TEST(LongSessionCluster, MemoryIsFlatWhilePartsAreBondedAndBreak) {
   const int minutes = Soak(1) > 1 ? 60 : 1;
   ClusterConfig config;
   config.scene_text = kPairs;

@@ -116,7 +116,7 @@ float Health(Cluster& cluster, std::int32_t part) {
   return cluster.server().rules()->metadata().Get({kMetaPart, part, kMetaHealth});
 }
 
-TEST(PressedCrate, BetweenTwoAuthoritiesItIsNotDestroyedWhenTheOracleDoesNot) {
+TEST(PressedCrate, IsDestroyedBetweenTwoAuthoritiesOnlyIfTheOracleDestroysIt) {
   constexpr std::int32_t kCrate = 3;
   ClusterConfig truth = With(kPress, "perfect", 1);
   truth.mode = "oracle";
@@ -136,7 +136,7 @@ TEST(PressedCrate, BetweenTwoAuthoritiesItIsNotDestroyedWhenTheOracleDoesNot) {
   }
 }
 
-TEST(PressedCrate, ABlowBetweenTwoAuthoritiesHurtsEachOfThemOnce) {
+TEST(PressedCrate, AnImpactBetweenTwoAuthoritiesDamagesEachBodyOnce) {
   for (const char* impair : {"demo", "4g"}) {
     for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
       Cluster cluster(With(kDiscs, impair, seed));
@@ -151,7 +151,7 @@ TEST(PressedCrate, ABlowBetweenTwoAuthoritiesHurtsEachOfThemOnce) {
   }
 }
 
-TEST(PressedCrate, ForgedReportsHurtNobodyAndAreCounted) {
+TEST(PressedCrate, ForgedReportsAreCountedAndDamageNothing) {
   ClusterConfig config = With(kDiscs, "perfect", 1);
   int forged = 0;
   std::int64_t tick = 0;

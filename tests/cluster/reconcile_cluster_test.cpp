@@ -58,7 +58,7 @@ struct Bound {
 };
 constexpr Bound kBounds[] = {{"resimulate", 0.25, 1e-3}, {"spring", 0.4, 0.1}, {"pvb", 0.13, 0.13}};
 
-TEST(RuleSessions, EachIsBelowItsBoundAndBetterThanSnap) {
+TEST(RuleSessions, EachRuleIsBelowItsBoundAndBetterThanSnap) {
   const double snap_crossing = ErrorOf("crossing", "snap"), snap_cradle = ErrorOf("cradle", "snap");
   for (const Bound& b : kBounds) {
     const double crossing = ErrorOf("crossing", b.rule), cradle = ErrorOf("cradle", b.rule);
@@ -71,7 +71,7 @@ TEST(RuleSessions, EachIsBelowItsBoundAndBetterThanSnap) {
 
 /// The word that bob's balls rest comes to ann while they are struck. Put to rest again by a replay
 /// that began later, they took the blow of the cradle: it stood, 1.3 m from where it should be.
-TEST(RuleSessions, AReplayDoesNotPutToRestWhatWasStruck) {
+TEST(RuleSessions, AReplayDoesNotPutAStruckBodyToRest) {
   ClusterConfig config;
   config.scene = "cradle";
   config.reconcile = "resimulate";

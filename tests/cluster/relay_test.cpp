@@ -9,7 +9,7 @@
 namespace seam {
 namespace relay_test {
 
-TEST(Relay, HandsOverAgainAndAgainInAnOrderlyWorld) {
+TEST(Relay, HandsOverRepeatedlyInAnOrderlyWorld) {
   SessionSettings settings;
   settings.scene = "scenes/relay.toml";
   const Recording run = RunCluster(Configure(settings));

@@ -62,7 +62,7 @@ std::int64_t LongestHandOverUs(const Recording& recording) {
   return ms.empty() ? 0 : static_cast<std::int64_t>(ms.back() * 1000);
 }
 
-TEST(Release, WhoWithholdsItLosesTheMechanismAndItsPlace) {
+TEST(Release, AHolderThatWithholdsItLosesTheMechanismAndItsPlace) {
   ClusterConfig config = Shuttle("demo");
   bool withheld = false;
   Tamper(&config, [&](std::int64_t, Bytes* message) {
@@ -83,7 +83,7 @@ TEST(Release, WhoWithholdsItLosesTheMechanismAndItsPlace) {
   EXPECT_EQ(Said(cluster.recording(), "bob (peer 2) is gone"), 0);
 }
 
-TEST(Release, WhoAcknowledgesNothingAnyMoreKeepsNothing) {
+TEST(Release, AHolderThatStopsAcknowledgingKeepsNothing) {
   ClusterConfig config = Shuttle("perfect");
   std::optional<std::pair<std::uint16_t, std::uint32_t>> frozen;
   std::int64_t from_us = 0;
@@ -165,7 +165,7 @@ bool HasGrants(ByteView datagram) {
 
 /// Her pings are answered until long after the server's last question, which she never hears; then
 /// she is cut off. Her lease ends when nobody has answered for 3 s, not before.
-TEST(Release, WhoNeverHearsTheQuestionKeepsItForAsLongAsItsLease) {
+TEST(Release, AHolderThatNeverHearsTheRequestKeepsItUntilItsLeaseEnds) {
   ClusterConfig config = Shuttle("perfect");
   config.duration_s = 16;
   std::int64_t asked_us = -1;
@@ -194,7 +194,7 @@ TEST(Release, WhoNeverHearsTheQuestionKeepsItForAsLongAsItsLease) {
   EXPECT_GT(Said(cluster.recording(), "ann (peer 1) is gone"), 0);
 }
 
-TEST(Release, NobodyHonestIsAccusedOnATerribleNetwork) {
+TEST(Release, NoHonestHolderIsAccusedOnATerribleNetwork) {
   for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
     ClusterConfig config = Shuttle("terrible");
     config.scene_text = Pendulums(60);
@@ -279,7 +279,7 @@ TEST(Release, AnEditThatOvertakesAHandOverLeavesNobodyWaiting) {
   }
 }
 
-TEST(Release, ForgedOnesAreDroppedCountedAndTakeNothingFromOthers) {
+TEST(Release, ForgedReleasesAreCountedAndTakeNothingFromOthers) {
   ClusterConfig config = Shuttle("perfect");
   Cluster* room = nullptr;
   int forged = 0;

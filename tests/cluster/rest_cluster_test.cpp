@@ -119,7 +119,7 @@ TEST_P(RestCluster, FortyEightBoxesOfTwoOwnersLieTheSameEverywhere) {
   ExpectRest(GetParam(), 48, Seeds(2, 50), 60);
 }
 
-TEST_P(RestCluster, ThenTheRoomIsSilent) {
+TEST_P(RestCluster, ARoomAtRestIsSilent) {
   for (const char* impair : {"perfect", "demo"}) {
     ClusterConfig config = Config(GetParam(), Falling(12, 1), 1);
     config.impair = impair;

@@ -75,7 +75,7 @@ std::map<std::string, int> Said(const Recording& recording) {
   return said;
 }
 
-TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
+TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersAgreeAtTheEnd) {
   for (const char* mode : {"buffer", "strict", "central", "oracle"}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Cluster cluster(With(Race(Coins()), mode, "4g", seed));
@@ -116,7 +116,7 @@ TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
   }
 }
 
-TEST(RulesCluster, WhoComesLateKnowsWhatTheOthersKnow) {
+TEST(RulesCluster, ALatecomerReceivesAllMetadata) {
   Cluster cluster(With(Race(Coins()), "buffer", "4g"));
   cluster.RunToTick(200);
   cluster.Kill(1);
@@ -128,7 +128,7 @@ TEST(RulesCluster, WhoComesLateKnowsWhatTheOthersKnow) {
   EXPECT_EQ(cluster.client(0)->metadata().values(), cluster.server().rules()->metadata().values());
 }
 
-TEST(RulesCluster, WhoMayNotPushAPartDoesNotGetItsAuthority) {
+TEST(RulesCluster, APlayerWithoutPushPermissionDoesNotGetAuthority) {
   const std::string puck =
       "[[part]]\nname = \"puck\"\ncircle = 0.3\nposition = [-3, 5]\n"
       "velocity = [0.1, 0]\n";
@@ -162,7 +162,7 @@ TEST(RulesCluster, AScriptsErrorStopsTheScriptNotTheRoom) {
   EXPECT_EQ(cluster.server().rules()->metadata().Get({kMetaPlayer, 0, kMetaScore}), 480);
 }
 
-TEST(RulesCluster, WhatAScriptMakesAndBreaksIsTheSameAtEveryPeer) {
+TEST(RulesCluster, AScriptsEditsAreTheSameAtEveryPeer) {
   const std::string code = R"(
 [[script]]
 name = "maker"
@@ -291,9 +291,9 @@ void ExpectDead(const std::string& kind, std::size_t mechanisms) {
   }
 }
 
-TEST(RulesCluster, ACharacterThatDiesGoesLimpForEverybody) { ExpectDead("active", 1); }
+TEST(RulesCluster, ADeadCharacterGoesLimpOnEveryPeer) { ExpectDead("active", 1); }
 
-TEST(RulesCluster, ARagdollThatDiesComesApartAtItsJointsForEverybody) { ExpectDead("passive", 12); }
+TEST(RulesCluster, ADeadRagdollComesApartAtItsJointsOnEveryPeer) { ExpectDead("passive", 12); }
 
 }  // namespace rules_cluster_test
 }  // namespace seam

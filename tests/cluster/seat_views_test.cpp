@@ -101,7 +101,7 @@ Jump LargestJump(const Recording& recording, double from_s, double to_s) {
   return jump;
 }
 
-TEST(SeatViews, NobodySeesAJumpOfMoreThanFiveCentimetresWhenSomebodyGetsInOrOut) {
+TEST(SeatViews, NobodySeesAJumpOverFiveCentimetresWhenAPlayerGetsInOrOut) {
   for (std::int64_t seed = 21; seed <= 24; ++seed) {
     ClusterConfig config;
     config.scene_text = Cart();
@@ -186,7 +186,7 @@ group = -5
          "[[character]]\nname = \"mate\"\nplayer = \"bob\"\ngroup = -5\n" + place(where + 2.2, 0);
 }
 
-TEST(SeatViews, NobodySeesAJumpWhenSomebodyGetsIntoWhatDrivesPastOrOutOfIt) {
+TEST(SeatViews, NobodySeesAJumpWhenSomebodyEntersOrLeavesAMovingVehicle) {
   struct Case {
     double speed, where;  // m/s, m
     std::int64_t seed;    // 9: bob hears half a second late that ann gets in
@@ -207,7 +207,7 @@ TEST(SeatViews, NobodySeesAJumpWhenSomebodyGetsIntoWhatDrivesPastOrOutOfIt) {
   }
 }
 
-TEST(SeatViews, OfTwoWhoPressInOneTickOneGetsTheSeat) {
+TEST(SeatViews, OnePlayerGetsTheSeatWhenTwoPressInOneTick) {
   std::string scene = Passing(0, -5);
   const std::string pillion = scene.substr(scene.find("[[seat]]\nname = \"pillion\""));
   scene.erase(scene.find(pillion), pillion.find("[[character]]"));  // one seat, one button
@@ -223,7 +223,7 @@ TEST(SeatViews, OfTwoWhoPressInOneTickOneGetsTheSeat) {
   EXPECT_EQ(server.revision(), 2) << "one gets in, and one bond";
 }
 
-TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
+TEST(SeatViews, ADriverThatLeavesTheRoomStopsDriving) {
   ClusterConfig config;
   config.scene_text = Cart();
   config.impair = "4g";
@@ -239,7 +239,7 @@ TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
   EXPECT_LT((bob->world().Read(cart).position - world.Read(cart).position).norm(), 0.1f);
 }
 
-TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
+TEST(SeatViews, AClientThatJoinsMidwayAgreesAfterASecond) {
   // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h). The first
   // of these jumped: what was heard of ann as she stopped was no news, since she had been reckoned
   // past it (43, 114, 125, 154); her legs were a turn beyond their limits (93); limits of the

@@ -43,9 +43,9 @@ class SoakCheck : public ::testing::Test {
   std::int64_t crash_ = 0;
 };
 
-TEST_F(SoakCheck, ViewsThatAreNotTornAreFoundSo) { EXPECT_LT(Torn(crash_, 0, 0).torn_m, 0.02); }
+TEST_F(SoakCheck, ViewsWithoutOpenJointsPass) { EXPECT_LT(Torn(crash_, 0, 0).torn_m, 0.02); }
 
-TEST_F(SoakCheck, AnOpenJointIsTornUnlessTheEngineOpenedIt) {
+TEST_F(SoakCheck, AnOpenJointFailsUnlessTheEngineOpenedIt) {
   EXPECT_GT(Torn(crash_, 1, 0).torn_m, 0.5);
   EXPECT_LT(Torn(crash_, 1, 2).torn_m, 0.02);
   EXPECT_GT(Torn(crash_, 1, 2).crashed_m, 0.5);

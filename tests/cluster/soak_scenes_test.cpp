@@ -126,7 +126,7 @@ void Judge(const char* what, const char* unit, std::vector<Session> runs, const 
   }
 }
 
-TEST(SoakCluster, NothingExplodesIsTornOrGetsLostInAnyScene) {
+TEST(SoakCluster, NothingExplodesTearsOrGetsLostInAnyScene) {
   const std::vector<std::string> scenes = Scenes();
   ASSERT_TRUE(scenes.size() > 10 || std::getenv("SEAM_SOAK_SCENE") != nullptr);
   std::vector<Session> runs;

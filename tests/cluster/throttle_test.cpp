@@ -16,7 +16,7 @@ namespace throttle_test {
 /// once stays so, in either.
 constexpr int kSeeds = 6;
 
-TEST(Throttle, AClientThatIsSlowedToAQuarterSimulatesWhatItCanAndTheOthersSeeLittleOfIt) {
+TEST(Throttle, ASlowClientSimulatesItsShareAndOthersSeeLittleOfIt) {
   std::vector<double> ratios;
   for (int seed = 1; seed <= Soak(kSeeds); ++seed) {
     const Throttled free = MeasureThrottled(1, seed), slow = MeasureThrottled(4, seed);

@@ -94,7 +94,7 @@ Outcome After(FaultKind kind, const char* reconcile, std::int64_t seed) {
 /// rooms of `resimulate` whose second client was killed one in six ends above 1.6. Where each went
 /// back for what the other had told, and told otherwise after it, copies were off by 35 to 83 cm
 /// (the same) for as long as the room ran.
-TEST(ToldFacts, WhoWasGoneAgreesAgainAndNoEnergyComesFromIt) {
+TEST(ReturningClient, AReturningClientAgreesAgainWithoutAddingEnergy) {
   for (const char* reconcile : {"rollback", "resimulate"}) {
     for (const FaultKind kind : {FaultKind::kCut, FaultKind::kKill}) {
       SCOPED_TRACE(std::string(reconcile) + ", " + ToString(kind));
@@ -143,7 +143,7 @@ Energies EnergiesAfter(FaultKind kind, const char* reconcile, const char* impair
 }
 
 /// The server, which has gone on with all of it, speaks for who is cut off: nothing is lost.
-TEST(ContestedCrowd, WhoWasCutOffHasMissedNothing) {
+TEST(ContestedCrowd, ADisconnectedClientMissesNothing) {
   for (const char* impair : {"demo", "4g"}) {
     SCOPED_TRACE(impair);
     const Energies seen = EnergiesAfter(FaultKind::kCut, "rollback", impair, 1);
@@ -154,7 +154,7 @@ TEST(ContestedCrowd, WhoWasCutOffHasMissedNothing) {
 
 /// Who did not run, or begins anew, has other discs than the server goes on with. Before one owner
 /// decided them the room had up to 15 times its energy after 24 s of this network, rising.
-TEST(ContestedCrowd, TheServerDecidesOnWhatItsOwnersDoNotAgreeOn) {
+TEST(ContestedCrowd, TheServerDecidesBodiesThatTheirOwnersDisputeAfterAPause) {
   for (const FaultKind kind : {FaultKind::kPause, FaultKind::kKill}) {
     for (const char* reconcile : {"rollback", "resimulate"}) {
       SCOPED_TRACE(std::string(reconcile) + ", " + ToString(kind));

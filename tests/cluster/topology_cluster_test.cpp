@@ -127,7 +127,7 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Networks, TopologyUnder, ::testing::Values("perfect", "4g", "terrible"));
 
-TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
+TEST(TopologyCluster, ADivergedPeerIsFoundAndRepaired) {
   ClusterConfig config;
   config.scene_text = kBar;
   config.reconcile = "retrospect";
@@ -160,7 +160,7 @@ TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
   }
 }
 
-TEST(TopologyCluster, WhoIsRepairedNeverShowsWhereTheSceneBegan) {
+TEST(TopologyCluster, ARepairedClientNeverShowsTheInitialPoses) {
   // So much that its world does not come in one datagram.
   const std::string many = kBar + R"(
 [[part]]
@@ -199,7 +199,7 @@ velocity = [4, 0]
   }
 }
 
-TEST(TopologyCluster, WhoJoinsLateGetsAllEdits) {
+TEST(TopologyCluster, ALatecomerGetsAllEdits) {
   ClusterConfig config;
   config.scene_text = kBar;
   config.reconcile = "retrospect";
@@ -219,7 +219,7 @@ TEST(TopologyCluster, WhoJoinsLateGetsAllEdits) {
             cluster.server().replica().world().composition().hash);
 }
 
-TEST(TopologyCluster, AClientMayNotEditWhatIsNotItsOwnNorWhatPhysicsCouldNotFind) {
+TEST(TopologyCluster, AClientMayOnlyProposeEditsThatPhysicsFindsOnItsOwnBodies) {
   ClusterConfig config;
   config.scene_text = kBar;
   config.reconcile = "retrospect";

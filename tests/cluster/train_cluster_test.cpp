@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, NeverThrough, ::testing::Values("oracle", "cen
                            return name;
                          });
 
-TEST(TrainCluster, WhereNobodyFeelsTheOtherTheNoseIsShownInsideACrate) {
+TEST(TrainCluster, TheNoseIsShownInsideACrateWithoutMutualCollision) {
   const float deepest = DeepestNose(RunTrain("strict", "", "delay=200ms"));
   EXPECT_GT(deepest, 1) << "the measure sees nothing";
 }

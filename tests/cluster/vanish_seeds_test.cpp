@@ -16,7 +16,7 @@ constexpr int kSeeds = 4, kSeedsSoak = 20;
 /// Of the holder's last state, s, and m.
 constexpr double kStandsMax = 0.3, kJumpMax = 0.5;
 
-TEST(VanishCluster, NothingStandsOrJumpsWhoeverVanishesWherever) {
+TEST(VanishCluster, NoBodyStopsOrJumpsWhenAClientVanishes) {
   const int seeds = Soak(kSeeds) > kSeeds ? kSeedsSoak : kSeeds;
   for (const VanishKind& kind : VanishKinds()) {
     Vanished worst;

@@ -72,7 +72,7 @@ std::pair<int, int> EqualTicks(const char* begins, std::int64_t seed) {
   return out;
 }
 
-TEST(FirstTicks, WhoeverDrivesFromTheStartOnAllComeToTheSameBits) {
+TEST(FirstTicks, AllPeersAgreeBitForBitWhenPlayersDriveFromTheStart) {
   for (const char* begins : {"0.02", "0.1", "0.25"}) {
     for (std::int64_t seed = 1; seed <= 3; ++seed) {
       const auto [equal, all] = EqualTicks(begins, seed);

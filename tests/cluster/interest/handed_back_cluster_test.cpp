@@ -14,7 +14,7 @@ namespace handed_back_cluster_test {
 
 /// Where the plan's followers were those that the question to let go had left, nobody else was
 /// told: seed 400001 of the soak of narrow rooms.
-TEST(HandedBackCluster, WhoIsNearHearsOfItWithinTwoSeconds) {
+TEST(HandedBackCluster, NearbyClientsHearOfItWithinTwoSeconds) {
   const Scene scene = LoadScene("scenes/swarm.toml");
   ClusterConfig config;
   config.scene = "swarm";

@@ -66,7 +66,7 @@ std::uint64_t KnownBy(Cluster& cluster, int client) {
   return cluster.client(client)->replica()->rest().Hash();
 }
 
-TEST(RestInterest, WhomItIsNothingIsToldInTurnAndTheOthersAtOnce) {
+TEST(RestInterest, RelevantClientsHearOfRestAtOnceAndTheOthersInTurn) {
   Cluster* room = nullptr;
   std::map<int, std::int64_t> at_ann, by_bob;  // by body: when it was first told, us
   int told_ann = 0, told_by_bob = 0;           // messages
@@ -100,7 +100,7 @@ TEST(RestInterest, WhomItIsNothingIsToldInTurnAndTheOthersAtOnce) {
 
 /// Both ways: of a message with rest that is lost for good (acknowledged, but without its content)
 /// only the block is said again.
-TEST(RestInterest, WhatWasLostOfABlockIsSaidAgainAndNoMore) {
+TEST(RestInterest, OnlyTheBlockWithALostRestIsRepeated) {
   for (const std::size_t loser : {0u, 1u}) {
     Cluster* room = nullptr;
     int lost = -1, again = 0, before = 0;
