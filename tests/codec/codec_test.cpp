@@ -126,7 +126,7 @@ Bytes With(Bytes bytes, std::size_t at, std::size_t size, std::uint64_t value) {
   return bytes;
 }
 
-TEST(CodecHostile, StringLengthsDoNotKill) {
+TEST(CodecHostile, SurvivesHostileStringLengths) {
   Bye bye;
   bye.reason = "because";
   const Bytes bytes = Encode(bye);
@@ -144,7 +144,7 @@ TEST(CodecHostile, StringLengthsDoNotKill) {
   }
 }
 
-TEST(CodecHostile, ArrayCountsDoNotKill) {
+TEST(CodecHostile, SurvivesHostileArrayCounts) {
   View view;
   const Bytes bytes = Encode(view);  // the count is its last field
   for (const std::uint64_t count : {1u, 255u, 1901u, 0x7fffu, 0x8000u, 0xff00u, 0xffffu}) {
@@ -215,7 +215,7 @@ TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
   EXPECT_LE(Encode(room).size(), kBusMessageBytesMax);
 }
 
-TEST(CodecBounds, WhatBreaksABoundIsNotValid) {
+TEST(CodecBounds, AMessageThatBreaksABoundIsNotValid) {
   const auto broken = [](auto change) {
     RandomMessages random(9);
     View view;

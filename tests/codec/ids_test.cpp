@@ -54,7 +54,7 @@ View OneView(std::int32_t id) {
   return view;
 }
 
-TEST(Ids, AboveSixteenBitsArriveAsTheyWereSent) {
+TEST(Ids, IdsAboveSixteenBitsArriveAsTheyWereSent) {
   for (const std::int32_t id : {32768, kHigh, kIdsMax - 1}) {
     EXPECT_EQ(Arrived(OneState(id)).id, (std::vector<std::int32_t>{3, id}));
     EXPECT_EQ(Arrived(OneView(id)).id, (std::vector<std::int32_t>{3, id}));
@@ -112,7 +112,7 @@ TEST(Ids, AboveSixteenBitsArriveAsTheyWereSent) {
   }
 }
 
-TEST(Ids, BeyondTheLimitAndBelowZeroAreRefused) {
+TEST(Ids, RefusesIdsBeyondTheLimitAndBelowZero) {
   ASSERT_TRUE(IsTaken(OneState(kHigh), kHigh, kIdsMax - 1));
   EXPECT_FALSE(IsTaken(OneState(kHigh), kHigh, kIdsMax));
   EXPECT_FALSE(IsTaken(OneState(kHigh), kHigh, -1));

@@ -56,7 +56,7 @@ void ExpectSame(const Inputs& got, const Inputs& sent) {
   EXPECT_EQ(got.buttons, sent.buttons);
 }
 
-TEST(PackedInputs, TellWhatWasPutInWhateverItIs) {
+TEST(PackedInputs, UnpackToAnyInputsThatWerePacked) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(200)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -84,7 +84,7 @@ TEST(PackedInputs, TellWhatWasPutInWhateverItIs) {
   }
 }
 
-TEST(PackedInputs, TheFirstAndTheLastTickThereCanBe) {
+TEST(PackedInputs, HoldTheFirstAndTheLastPossibleTick) {
   Random random(1);
   for (const std::int64_t first : {std::int64_t{0}, kTickMax - 64}) {
     Inputs inputs = Driven(255, first + 63, 64, false, &random);
@@ -104,7 +104,7 @@ TEST(PackedInputs, PlayersAscendInAMessage) {
 
 /// A player of 64 who all drive like bots hears of the others; their newest acknowledged input is
 /// `behind` ticks old.
-TEST(PackedInputs, SixtyThreePlayersTakeATenthOfWhatTheyTookAsInputs) {
+TEST(PackedInputs, SixtyThreePlayersTakeATenthOfPlainInputs) {
   for (const int behind : {3, 8, 16}) {
     std::size_t plain = 0, packed = 0;
     for (std::int64_t tick = 100; tick < 700; ++tick) {
@@ -142,7 +142,7 @@ void TakeAny(const Bytes& data) {
   }
 }
 
-TEST(PackedInputs, NoBitsDoHarm) {
+TEST(PackedInputs, NoBitPatternDoesHarm) {
   Random random(3);
   for (int round = 0; round < Soak(60); ++round) {
     std::vector<Inputs> all;

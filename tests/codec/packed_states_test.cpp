@@ -180,7 +180,7 @@ Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
   return traffic;
 }
 
-TEST(PackedStates, ArriveAsTheyWereToldWhateverThePathDoes) {
+TEST(PackedStates, ArriveAsTheyWereSentOverAnyNetwork) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(4)); ++seed) {
     SCOPED_TRACE(seed);
     Send(seed, Path{}, 200);
@@ -195,7 +195,7 @@ TEST(PackedStates, ArriveAsTheyWereToldWhateverThePathDoes) {
   }
 }
 
-TEST(PackedStates, TheReceiverForgetsWhatNoDifferenceWillBeFrom) {
+TEST(PackedStates, TheReceiverForgetsBaselinesThatAreNoLongerUsed) {
   Balls balls(7, 20);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion);
@@ -219,7 +219,7 @@ TEST(PackedStates, TheReceiverForgetsWhatNoDifferenceWillBeFrom) {
   EXPECT_LT(unpacker.kept(), 6 * bodies) << "of about 60 that were told of each";
 }
 
-TEST(PackedStates, ABodyThatFliesTakesAThirdOfAPlainEntry) {
+TEST(PackedStates, AFlyingBodyTakesAThirdOfAPlainEntry) {
   const Traffic near = Send(1, Path{0, 6, 0, 20, true}, 600);
   EXPECT_LT(static_cast<double>(near.bytes), 21.0 / 3 * static_cast<double>(near.bodies));
   const Traffic never = Send(1, Path{1, 6, 0, 20, true}, 600);
@@ -236,7 +236,7 @@ void TakeAny(const Bytes& data, StatesUnpacker* unpacker) {
   for (const States& states : *all) EXPECT_TRUE(Valid(states));
 }
 
-TEST(PackedStates, NoBitsDoHarm) {
+TEST(PackedStates, NoBitPatternDoesHarm) {
   Balls balls(3, 90);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion), fooled(kMotion);
@@ -273,7 +273,7 @@ TEST(PackedStates, NoBitsDoHarm) {
   }
 }
 
-TEST(PackedStates, WhatWasLostIsAskedForUntilSomethingOfItHasArrived) {
+TEST(PackedStates, ALostStateIsRequestedUntilALaterOneArrives) {
   constexpr std::int64_t kLateUs = 100000;
   Balls balls(5, 20);
   StatesPacker packer(kMotion);
@@ -307,7 +307,7 @@ TEST(PackedStates, WhatWasLostIsAskedForUntilSomethingOfItHasArrived) {
   EXPECT_EQ(lost(6000000), 0u) << "what nobody wants is forgotten";
 }
 
-TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
+TEST(PackedStates, RefusesDifferencesFromABaselineThatNeverCame) {
   Balls balls(5, 20);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion);
