@@ -44,7 +44,7 @@ std::string Player(const std::string& name, const std::string& more) {
   return "[[player]]\nname = \"" + name + "\"\n" + more + "\n";
 }
 
-TEST(LabCheck, FindsNothingInWhatIsRight) {
+TEST(LabCheck, FindsNothingInACorrectScene) {
   EXPECT_EQ(Found(std::string(kGround) + kBox), std::vector<std::string>{});
   // Touching, or as far in as two decimals round it.
   EXPECT_EQ(Found(std::string(kGround) + kBox +
@@ -145,7 +145,7 @@ TEST(LabCheck, FindsJointLimitsThatTheJointBeginsOutsideOf) {
             12, "joint 'r': its ends begin 2.00 m apart, the rope is 1 m");
 }
 
-TEST(LabCheck, ACommentThatSaysItIsMeantIsBelieved) {
+TEST(LabCheck, ACommentSuppressesAFinding) {
   const std::string inside = "name = \"box\"\nbox = [1, 1]\nposition = [0, 0.3]\n";
   EXPECT_EQ(Found(std::string(kGround) + "[[part]]  # check: meant\n" + inside),
             std::vector<std::string>{});

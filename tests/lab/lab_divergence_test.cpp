@@ -26,7 +26,7 @@ Recording Session() {
   return cluster.recording();
 }
 
-TEST(FirstDivergence, OfARecordingAndItselfThereIsNone) {
+TEST(FirstDivergence, ARecordingDoesNotDivergeFromItself) {
   const Recording a = Session();
   const Comparison all = CompareViews(a, a, -1, false);
   EXPECT_FALSE(all.first.has_value());
@@ -125,7 +125,7 @@ void CopyLog(const std::string& from, const std::string& to,
   ASSERT_EQ(writer.failures(), 0);
 }
 
-TEST(FirstDivergence, TheProgramSaysWhereAndByHowMuch) {
+TEST(FirstDivergence, TheProgramPrintsThePlaceAndTheAmount) {
   const LabWorkspace files;
   RunCommand command;
   command.settings.scene = "scenes/crossing.toml";

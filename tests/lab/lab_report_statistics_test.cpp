@@ -43,7 +43,7 @@ TEST(CsvTable, FindsColumnsByNameAndReadsQuotedFields) {
   EXPECT_FALSE(t.Has("penetration_m"));
 }
 
-TEST(CsvTable, SaysInWhichLineItIsDamaged) {
+TEST(CsvTable, NamesTheDamagedLine) {
   EXPECT_EQ(Mistake("a,b\n1,2\n1,2,3\n"), "t.csv:3: 3 fields, but the header has 2");
   EXPECT_EQ(Mistake("a,b\n1,2\n1,"),
             "t.csv:3: the line has no end: its writer was interrupted, or still writes");
@@ -53,7 +53,7 @@ TEST(CsvTable, SaysInWhichLineItIsDamaged) {
   EXPECT_EQ(Mistake("a,b\n1,2\n"), "nothing");
 }
 
-TEST(CsvTable, RefusesWhatIsNoNumberAndTakesInfinity) {
+TEST(CsvTable, RefusesTextForANumberAndAcceptsInfinity) {
   const CsvTable t = CsvTable::Parse("error\ninf\n1.5x\n-2e-3\n", "t.csv");
   EXPECT_EQ(t.Number(0, "error"), kInfinity);
   EXPECT_EQ(t.Number(2, "error"), -0.002);
@@ -93,13 +93,13 @@ TEST(Quartiles, CountRunsThatFailedAsTheLargest) {
   EXPECT_EQ(q->high, kInfinity);
 }
 
-TEST(ParetoFront, HoldsWhatNothingBeats) {
+TEST(ParetoFront, HoldsEveryTrialThatNoOtherBeats) {
   // (1, 10) and (3, 4) and (8, 1) are on it; (2, 10) costs more for the same, (4, 4) too.
   const std::vector<CostError> trials = {{8, 1}, {2, 10}, {3, 4}, {4, 4}, {1, 10}, {9, 2}, {3, 6}};
   EXPECT_EQ(ParetoFront(trials), (std::vector<std::size_t>{4, 2, 0}));
 }
 
-TEST(ParetoFront, LeavesOutWhatFailedAndKeepsTheFirstOfEquals) {
+TEST(ParetoFront, LeavesOutFailuresAndKeepsTheFirstOfEquals) {
   const std::vector<CostError> trials = {{1, kInfinity}, {2, 3}, {2, 3}, {std::nan(""), 0}, {5, 0}};
   EXPECT_EQ(ParetoFront(trials), (std::vector<std::size_t>{1, 4}));
   EXPECT_TRUE(ParetoFront({{1, kInfinity}}).empty());
@@ -126,14 +126,14 @@ TEST(Range, PutsZeroAndInfinityAtTheEdgesOfALogarithmicAxis) {
   EXPECT_GT(nothing.high, nothing.low);
 }
 
-TEST(Range, OfALinearAxisBeginsAtZeroUnlessThereIsLess) {
+TEST(Range, ALinearAxisBeginsAtZeroUnlessAValueIsNegative) {
   EXPECT_EQ(FindRange({3, 10}, false).low, 0);
   EXPECT_GT(FindRange({3, 10}, false).high, 10);
   EXPECT_LT(FindRange({-1, 10}, false).low, -1);
   EXPECT_GT(FindRange({0, 0}, false).high, 0) << "all values equal";
 }
 
-TEST(Digits, AreThreeThatCount) {
+TEST(Digits, AreThreeSignificantOnes) {
   EXPECT_EQ(Digits(0), "0");
   EXPECT_EQ(Digits(0.0123456), "0.0123");
   EXPECT_EQ(Digits(12.345), "12.3");

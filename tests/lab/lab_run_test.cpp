@@ -49,7 +49,7 @@ TEST(LabRun, TwoProcessesWriteTheSameBytesAsThisOne) {
   }
 }
 
-TEST(LabRun, TheLogIsWhatThePeersPublishedInVirtualTime) {
+TEST(LabRun, TheLogEqualsTheMessagesPublishedInVirtualTime) {
   const LabWorkspace files;
   const RunCommand command = Short(files / "a.lcm");
   EXPECT_EQ(RunLog(command), 0);
@@ -114,7 +114,7 @@ TEST(LabRun, AnOperatorsMistakeIsOneLineAndWritesNothing) {
   EXPECT_EQ(files.Read("kept.lcm"), "mine");
 }
 
-TEST(LabRun, ANetworkThatLetsNobodyInIsSaid) {
+TEST(LabRun, ReportsANetworkThatLetsNobodyIn) {
   SessionSettings settings;
   settings.scene = "scenes/crossing.toml";
   settings.impair = "loss=100%";

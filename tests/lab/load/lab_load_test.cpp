@@ -40,7 +40,7 @@ SessionLoad LoadOf(const std::string& mode, int server_follow, Recorder* onlooke
   return MeasureLoad(config);
 }
 
-TEST(LabLoad, TellsWhoDoesTheWork) {
+TEST(LabLoad, ReportsTheLoadOfServerAndClients) {
   Onlooker onlooker;
   const SessionLoad relieved = LoadOf("buffer", 0), unseen = LoadOf("buffer", 256);
   const SessionLoad doubled = LoadOf("buffer", 256, &onlooker), central = LoadOf("central", 0);

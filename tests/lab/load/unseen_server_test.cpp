@@ -52,7 +52,7 @@ std::vector<int> FollowsAndHas(Publish publish, bool keep) {
   return counts;
 }
 
-TEST(UnseenServer, SimulatesNothingOfWhatClientsHold) {
+TEST(UnseenServer, SimulatesNoBodyThatAClientHolds) {
   const std::vector<int> all = {2, 2}, nothing = {0, 0};
   EXPECT_EQ(FollowsAndHas(Publish::kAll, true), all) << "its view is as good as a player's";
   EXPECT_EQ(FollowsAndHas(Publish::kNone, true), nothing) << "it shows nothing";
@@ -91,7 +91,7 @@ repeat = {count = [8, 2], step = [20, 0.71]}
 )";
 
 /// What rests is the server's, which looks at it only when something of its own may touch it.
-TEST(UnseenServer, HasNothingThereOfWhatRests) {
+TEST(UnseenServer, HasNoRestingBodyInItsWorld) {
   ClusterConfig config;
   config.scene = "plain";
   config.scene_text = kPlain;
@@ -125,7 +125,7 @@ double ErrorOfOthers(const std::string& text, int seed) {
 /// Bursts of losses make holders silent for longer than 0.2 s. A server that only then begins to
 /// simulate a character, from its last state, does not know where it was in its step: what it said
 /// in the holder's name made those who simulated it all along err by two to five times as much.
-TEST(UnseenServer, SaysNothingOfASilentHoldersThingsToWhoKnowsMoreOfThem) {
+TEST(UnseenServer, SendsNoStatesForASilentHolderToBetterInformedFollowers) {
   const std::string text = LoadScene("scenes/obstacle.toml").text;
   for (const int seed : {1, 2, 3}) {
     const double followed = ErrorOfOthers(text, seed);
@@ -194,7 +194,7 @@ float MostHidden(Publish publish, bool keep) {
   return most;
 }
 
-TEST(UnseenServer, HidesNoCorrectionsInViewsThatNobodyGets) {
+TEST(UnseenServer, SmoothsNoViewsThatNobodyReceives) {
   EXPECT_GT(MostHidden(Publish::kAll, true), 0.01f);
   EXPECT_LT(MostHidden(Publish::kNone, true), 0.001f) << "it shows nothing";
   EXPECT_LT(MostHidden(Publish::kAll, false), 0.001f) << "nobody listens";

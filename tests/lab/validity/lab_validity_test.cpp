@@ -52,7 +52,7 @@ std::map<std::string, std::string> RowOf(const std::string& expect, const std::s
   return row;
 }
 
-TEST(Validity, ARowWithoutWhatItsSceneExpectsHasAReasonAndNoFigures) {
+TEST(Validity, ARowThatMissesAnExpectedEventHasAReasonAndNoFigures) {
   const std::map<std::string, std::string> reasons = {
       {"'contact'", "no contact between two players' bodies"},
       {"'hand-over'", "no hand-over"},
@@ -74,7 +74,7 @@ TEST(Validity, AHandOverIsExpectedOnlyOfModesThatHaveThem) {
   EXPECT_EQ(RowOf("'hand-over'", "methods = 'strict'")["valid"], "no hand-over");
 }
 
-TEST(Validity, ARowSaysByWhichOracleItIsJudged) {
+TEST(Validity, ARowNamesItsOracle) {
   EXPECT_EQ(RowOf("", "methods = 'buffer/resimulate'")["oracle"], "barrier");
   EXPECT_EQ(RowOf("", "methods = 'buffer/fade'")["oracle"], "plain");
   EXPECT_EQ(RowOf("", "methods = 'central/all'")["oracle"], "barrier");
@@ -98,7 +98,7 @@ TEST(Validity, TheLossMayBeSmallerOnlyByChance) {
   EXPECT_TRUE(LossTooSmall(bursts, {10000, 300}));
 }
 
-TEST(Validity, AnImpairedNetworkCountsWhatItTakes) {
+TEST(Validity, AnImpairedNetworkCountsItsLosses) {
   ClusterConfig config;
   config.scene = "crossing";
   config.impair = "loss=20%";
