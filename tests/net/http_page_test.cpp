@@ -70,7 +70,7 @@ class Peer {
   int fd_;
 };
 
-TEST(HttpPage, AGetBringsThePageWhateverItsLength) {
+TEST(HttpPage, AGetReturnsAPageOfAnyLength) {
   const std::string long_page(3000000, 'x');
   for (const std::string& text : {std::string("seam_tick 7\n"), std::string(), long_page}) {
     Served served(text);
@@ -99,7 +99,7 @@ TEST(HttpPage, OtherMethodsOtherPagesAndNonsenseAreRefused) {
   }
 }
 
-TEST(HttpPage, WhoAsksWithoutEndIsCutOffAndOthersAreAnswered) {
+TEST(HttpPage, CutsOffEndlessRequestsAndAnswersTheOthers) {
   Served served("page");
   Peer endless(served.port());
   endless.Say("GET /" + std::string(2 * HttpPage::kRequestBytesMax, 'a'));
@@ -115,7 +115,7 @@ TEST(HttpPage, WhoAsksWithoutEndIsCutOffAndOthersAreAnswered) {
   EXPECT_EQ(body, "page");
 }
 
-TEST(HttpPage, NobodyListensAndATakenPortAreOneLineEach) {
+TEST(HttpPage, AnUnreachableAndATakenPortAreOneLineEach) {
   std::string body;
   EXPECT_EQ(FetchPage("127.0.0.1:1", 1000000, &body).why(), "no page at 127.0.0.1:1");
   Served served("");

@@ -117,7 +117,7 @@ TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
   EXPECT_FALSE(link.Receive(0, Forge({kSession, 9, 0, 0}, Bytes(1177, 1)), kIgnore));  // too long
 }
 
-TEST(Link, NeverDeliversWhatWasNotSentHoweverDatagramsAreMutated) {
+TEST(Link, NeverDeliversMutatedDatagrams) {
   Random random(20240817);
   Link a(kSession), b(kSession);
   std::vector<Bytes> samples;
@@ -150,7 +150,7 @@ TEST(Link, NeverDeliversWhatWasNotSentHoweverDatagramsAreMutated) {
   EXPECT_GT(b.rejected(), kRounds - 100);
 }
 
-TEST(Link, StandsAnyContentThatHasARightChecksum) {
+TEST(Link, SurvivesAnyContentWithARightChecksum) {
   Random random(77);
   Link link(kSession);
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(link.SendReliable(Text("waiting")));
@@ -205,7 +205,7 @@ TEST(SequenceWindow, UnwrapsToTheNearestNumber) {
   EXPECT_EQ(Unwrap(3, 10 * 65536 - 2), 10 * 65536 + 3);
 }
 
-TEST(SequenceWindow, KnowsWhatArrivedAndWhatShareDidNot) {
+TEST(SequenceWindow, RemembersArrivalsAndTheShareOfLosses) {
   SequenceWindow window;
   EXPECT_EQ(window.loss_ppm(), 0);
   for (const std::int64_t number : {10, 11, 13, 12, 19}) {

@@ -75,7 +75,7 @@ struct Path {
   std::size_t sent_bytes = 0;
 };
 
-TEST(LinkRepeat, WhatIsLostOnceComesThreeTicksLater) {
+TEST(LinkRepeat, AMessageThatIsLostOnceArrivesThreeTicksLater) {
   for (const int losses : {0, 1}) {
     Path path;
     path.Settle();
@@ -90,7 +90,7 @@ TEST(LinkRepeat, WhatIsLostOnceComesThreeTicksLater) {
   }
 }
 
-TEST(LinkRepeat, CopiesAreFewAndCauseNoAnswersOfTheirOwn) {
+TEST(LinkRepeat, CopiesAreFewAndAreNotAcknowledgedSeparately) {
   Path path;
   path.Settle();
   ASSERT_TRUE(path.a.SendUrgent(Text("grant")));
@@ -99,7 +99,7 @@ TEST(LinkRepeat, CopiesAreFewAndCauseNoAnswersOfTheirOwn) {
   EXPECT_LE(path.answers, 3) << "one for the message, and those that come every 100 ms";
 }
 
-TEST(LinkRepeat, CopiesOfMuchTakeABoundedShareOfThePath) {
+TEST(LinkRepeat, CopiesTakeABoundedShareOfThePath) {
   Path path;
   path.Settle();
   std::size_t bytes = 0;

@@ -123,7 +123,7 @@ TEST(Link, CarriesALargeRoomInChunksBothWaysAtOnceUnderLoss) {
 
 /// As many as a holder's hand-overs at their worst: what is lost holds up what comes after it, and
 /// no more than that.
-TEST(Link, ManySmallMessagesASecondDoNotPileUpWhereAQuarterIsLost) {
+TEST(Link, ManySmallMessagesDoNotPileUpAtAQuarterLoss) {
   Pair pair("delay=96ms,jitter=16ms,loss=27%");
   const int per_s = 120, ticks = 1200;
   std::vector<double> told_s, late_s;  // by message: when it was said, and how long it took

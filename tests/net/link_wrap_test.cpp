@@ -152,7 +152,7 @@ TEST(LinkWrap, TheWindowKnowsItsEdgesAcrossAWrap) {
   EXPECT_FALSE(window.IsNew(window.Full(static_cast<std::uint16_t>(far + 32'768))));
 }
 
-TEST(LinkWrap, AFirstNumberNearTheEdgeIsAsGoodAsAnyOther) {
+TEST(LinkWrap, AFirstNumberNearTheEdgeWorks) {
   for (const int first : {0, 1, 255, 32767, 32768, 65535}) {
     SequenceWindow window;
     window.Insert(window.Full(static_cast<std::uint16_t>(first)));
@@ -166,7 +166,7 @@ TEST(LinkWrap, AFirstNumberNearTheEdgeIsAsGoodAsAnyOther) {
   }
 }
 
-TEST(Link, WhatItsGateRefusesIsAsIfItHadBeenLost) {
+TEST(Link, ADatagramThatTheGateRefusesCountsAsLost) {
   Link a(kSession), b(kSession);
   ASSERT_TRUE(a.SendReliable(Number(5)));
   std::vector<Bytes> sent;

@@ -186,7 +186,7 @@ TEST(Impair, FrequentAdvancesChangeNothing) {
   EXPECT_EQ(coarse, trace(1000));
 }
 
-TEST(Impair, NothingPassesWhileCutAndWhatWasUnderWayIsLost) {
+TEST(Impair, ACutStopsAllTrafficAndLosesDatagramsInFlight) {
   MemoryNetwork network;
   auto a = network.Attach(kHere), b = network.Attach(kThere);
   const ImpairProfile profile = FindProfile("delay=10ms");
