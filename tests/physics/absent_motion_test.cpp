@@ -24,7 +24,7 @@ std::unique_ptr<World> TwoDiscs() {
       "", kNoGravity);
 }
 
-TEST(AbsentBody, IsPassedThroughAndGoesItsWay) {
+TEST(AbsentBody, OthersPassThroughItAndItFollowsItsPath) {
   const std::unique_ptr<World> world = TwoDiscs();
   world->SetMotion(kShown, Motion::kAbsent);
   const BodyState start{{3, 0}, 0.25f, {-1, 0.125f}, 2};
@@ -44,7 +44,7 @@ TEST(AbsentBody, IsPassedThroughAndGoesItsWay) {
   EXPECT_NEAR(world->Read(kBall).position.x(), 6, 1e-4);
 }
 
-TEST(AbsentBody, HitsAgainAsSoonAsItIsBack) {
+TEST(AbsentBody, CollidesAgainAfterItsReturn) {
   const std::unique_ptr<World> world = TwoDiscs();
   world->SetMotion(kShown, Motion::kAbsent);
   Steps(world.get(), 5);
@@ -68,7 +68,7 @@ TEST(AbsentBody, SleepsWhenItsPathStandsStill) {
   EXPECT_TRUE(world->awake(kShown));
 }
 
-TEST(AbsentBody, KeepsTheMotionOfItsOriginWhereItsMassLiesElsewhere) {
+TEST(AbsentBody, KeepsTheMotionOfItsOriginIfItsMassLiesElsewhere) {
   // Three quarters of the mass left of the root's middle: it turns about the common centre.
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"heavy\"\nbox = [1, 1]\ndensity = 3\nposition = [10, 5]\n"
@@ -86,7 +86,7 @@ TEST(AbsentBody, KeepsTheMotionOfItsOriginWhereItsMassLiesElsewhere) {
   EXPECT_EQ(back.spin, state.spin);
 }
 
-TEST(AbsentBody, KeepsItsPoseAmongManyThatAreAbsent) {
+TEST(AbsentBody, KeepsItsPoseAmongManyAbsentBodies) {
   constexpr int kMany = 100;  // several of a snapshot's pages
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\n"
@@ -114,7 +114,7 @@ TEST(AbsentBody, KeepsItsPoseAmongManyThatAreAbsent) {
   EXPECT_EQ(world->Read(70).position, placed[70].position) << "it goes back as well";
 }
 
-TEST(AbsentBody, EachBarrierTellsOfEveryBodyWhateverCameGoesAndWasMoved) {
+TEST(AbsentBody, EachBarrierHoldsEveryBodyThroughAbsenceAndWrites) {
   constexpr int kMany = 100;
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\nvelocity = [0.5, 0]\n"
@@ -198,7 +198,7 @@ double Open(const World& world) {
   return worst;
 }
 
-TEST(AbsentBody, ItsJointsAreKnownWhileItIsAwayAndHoldWhenItIsBack) {
+TEST(AbsentBody, ItsJointsAreKnownWhileAbsentAndHoldAfterItsReturn) {
   for (const char* joints : {"joints = \"exact\"\n", "joints = \"iterative\"\n"}) {
     const std::unique_ptr<World> world = SmallWorld(kRope, joints);
     Steps(world.get(), 30);
@@ -217,7 +217,7 @@ TEST(AbsentBody, ItsJointsAreKnownWhileItIsAwayAndHoldWhenItIsBack) {
   }
 }
 
-TEST(AbsentBody, AWorldGoesBackToATickAtWhichOthersWereThere) {
+TEST(AbsentBody, AWorldGoesBackToATickWithOtherPresentBodies) {
   const std::unique_ptr<World> world = SmallWorld(kRope);
   Steps(world.get(), 30);
   const WorldSnapshot then = world->Barrier();
@@ -233,7 +233,7 @@ TEST(AbsentBody, AWorldGoesBackToATickAtWhichOthersWereThere) {
   EXPECT_EQ(world->Hash(), hash) << "bit for bit as without the absence";
 }
 
-TEST(AbsentBody, AnEditReachesWhatIsAway) {
+TEST(AbsentBody, AnEditReachesAnAbsentBody) {
   const std::unique_ptr<World> world = SmallWorld(kRope);
   SetRope(world.get(), Motion::kAbsent);
   Steps(world.get(), 2);
@@ -251,7 +251,7 @@ TEST(AbsentBody, AnEditReachesWhatIsAway) {
 
 class AbsentInScene : public testing::TestWithParam<const char*> {};
 
-TEST_P(AbsentInScene, EverySecondMechanismGoesAndComesBackAndTheRestGoesOn) {
+TEST_P(AbsentInScene, RemovingAndReturningEverySecondMechanismKeepsTheRest) {
   ScriptedWorld run(GetParam());
   World& world = run.world;
   run.StepTo(30);

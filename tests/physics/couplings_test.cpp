@@ -124,7 +124,7 @@ TEST(Couplings, AGearGoesWithAPartOfItsJoints) {
   Steps(world.get(), 10);
 }
 
-TEST(Couplings, BondsLeaveAGearsWheelsWhereTheyAre) {
+TEST(Couplings, BondsDoNotMoveAGearsWheels) {
   const auto world = SmallWorld(Gearbox("motor = {speed = 3, torque = 100}") +
                                     Named("lump", "circle = 0.1\nposition = [20, 0]"),
                                 "", kWeightless);

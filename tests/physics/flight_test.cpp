@@ -68,7 +68,7 @@ TEST(Flight, BouncesOffFloorsWallsAndLinesFromTheirSolidSide) {
 }
 
 /// Boxes that tumble land where the engine's do, roughly, and never in the floor or behind it.
-TEST(Flight, WhateverIsThrownStaysOutOfWhatIsAnchored) {
+TEST(Flight, ThrownBodiesStayOutsideAnchoredBodies) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> drawn(-1, 1);
   const std::string room =
@@ -101,7 +101,7 @@ TEST(Flight, WhateverIsThrownStaysOutOfWhatIsAnchored) {
   EXPECT_GT(bounced, 400);
 }
 
-TEST(Flight, WhatItLandsOnWithoutABounceItRestsOn) {
+TEST(Flight, ABodyThatDoesNotBounceComesToRest) {
   World world = WorldOf("[[part]]\nname = \"it\"\nbox = [1, 1]\nposition = [0, 2]\nfriction = 1\n" +
                         std::string(kFloor));
   const BodyState at = world.AfterFlight(0, world.Read(0), 2);
@@ -109,7 +109,7 @@ TEST(Flight, WhatItLandsOnWithoutABounceItRestsOn) {
   EXPECT_LT(at.velocity.norm(), 0.05f);
 }
 
-TEST(Flight, FiltersAndWhatIsNotAnchoredAreNotMet) {
+TEST(Flight, PassesThroughFilteredAndMovingBodies) {
   World through = WorldOf(Ball("position = [0, 3]\ngroup = -2\n") + kFloor + "group = -2\n" +
                           "[[part]]\nname = \"other\"\nbox = [4, 1]\nposition = [0, 1]\n");
   EXPECT_LT(through.AfterFlight(0, through.Read(0), 1.5f).position.y(), -5);

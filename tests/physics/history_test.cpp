@@ -57,7 +57,7 @@ TEST(History, CorrectionsStayAndClearForgets) {
   EXPECT_EQ(history.At(99, 0), nullptr);
 }
 
-TEST(HistoryDeathTest, GapsAreOurOwnBug) {
+TEST(HistoryDeathTest, AGapAborts) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   History history(2, 5);
   history.Record(3, StatesOf(3));

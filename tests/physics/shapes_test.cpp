@@ -95,7 +95,7 @@ TEST(Shapes, AStockCapsuleRestsAboveTheGroundAsBoxesDo) {
   EXPECT_NEAR(world->Read(0).angle, 0, 2e-3);
 }
 
-TEST(Shapes, ThingsSlideDownAWedgeByItsSlope) {
+TEST(Shapes, BodiesSlideDownAWedgeByItsSlope) {
   // a = g (sin - mu cos) with tan = 3/4, mu = 0.25: 10 (0.6 - 0.2) = 4 m/s^2 along the slope.
   const auto world = SmallWorld(
       "[[part]]\nname = \"ramp\"\nwedge = [40, 30]\nanchored = true\nfriction = 0.25\n"

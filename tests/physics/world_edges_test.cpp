@@ -32,7 +32,7 @@ TEST(WorldEdges, MovingAssembliesAreNumberedByTheirIds) {
   EXPECT_EQ(world->tick(), 501);
 }
 
-TEST(WorldEdgesDeathTest, WriteRefusesWhatIsNotFinite) {
+TEST(WorldEdgesDeathTest, WriteRefusesNonFiniteStates) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto world = SmallWorld(Box("a", 0, 0));
   const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -62,7 +62,7 @@ void DoSomething(World* world, Random* random) {
   }
 }
 
-TEST(WorldStill, EveryChangeOfWhatLiesStillIsAmongThoseThatAreTold) {
+TEST(WorldStill, ReportsEveryChangeOfAStillBody) {
   int told = 0, still = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     World world(ParseScene(kBoxes, "boxes.toml"));
@@ -94,7 +94,7 @@ TEST(WorldStill, EveryChangeOfWhatLiesStillIsAmongThoseThatAreTold) {
   EXPECT_GT(still, 2000);
 }
 
-TEST(WorldStill, WhatIsTooLongAgoIsNotKnown) {
+TEST(WorldStill, ForgetsChangesTooLongAgo) {
   World world(ParseScene(kBoxes, "boxes.toml"));
   world.SetMotion(3, Motion::kAbsent);
   world.Step();

@@ -67,11 +67,11 @@ TEST(ElasticImpacts, DiscsInAClosedBoxKeepTheirEnergyAtAnySubsteps) {
   }
 }
 
-TEST(ElasticImpacts, TheEngineAloneDoesNot) {
+TEST(ElasticImpacts, TheEngineAloneLosesTheEnergy) {
   EXPECT_GT(EnergyChange(Gas("circle = 0.6", 11), "joints = \"iterative\"\n"), 2e-3);
 }
 
-TEST(ElasticImpacts, SquaresThatTumbleKeepIt) {
+TEST(ElasticImpacts, TumblingSquaresKeepTheirEnergy) {
   EXPECT_LT(EnergyChange(Gas("box = [1, 1]", 13), ""), 1e-3);
 }
 
@@ -119,7 +119,7 @@ TEST(ElasticImpacts, APileUnderGravityKeepsItsEnergy) {
   EXPECT_GT(LeftInAPit("joints = \"iterative\"\n"), 1.1);  // the engine heats it
 }
 
-TEST(ElasticImpacts, OfARowOfDiscsTheLastFlies) {
+TEST(ElasticImpacts, TheLastDiscOfARowFlies) {
   std::string parts;
   for (int i = 0; i < 5; ++i) {
     parts += Elastic("disc" + std::to_string(i),
@@ -133,7 +133,7 @@ TEST(ElasticImpacts, OfARowOfDiscsTheLastFlies) {
   }
 }
 
-TEST(ElasticImpacts, SlowOnesBounceWhereNothingWeighs) {
+TEST(ElasticImpacts, SlowImpactsBounceWithoutGravity) {
   const auto world =
       SmallWorld(Walls() + Elastic("disc", "circle = 0.5\nposition = [5, 0]\nvelocity = [0.3, 0]"),
                  "", kWeightless);
@@ -141,7 +141,7 @@ TEST(ElasticImpacts, SlowOnesBounceWhereNothingWeighs) {
   EXPECT_NEAR(world->Read(0).velocity.x(), -0.3, 1e-6);
 }
 
-TEST(ElasticImpacts, WhatLiesOnElasticGroundLies) {
+TEST(ElasticImpacts, ABoxAtRestOnElasticGroundStaysAtRest) {
   const auto world =
       SmallWorld(Elastic("ground", "box = [20, 1]\nposition = [0, -0.5]\nanchored = true", 0.5) +
                  Elastic("box", "box = [1, 1]\nposition = [0, 0.505]", 0.5));
@@ -163,7 +163,7 @@ TEST(ElasticImpacts, WithFrictionNoEnergyIsGained) {
   }
 }
 
-TEST(ElasticImpacts, LessThanRestitutionOneIsTheEngines) {
+TEST(ElasticImpacts, RestitutionBelowOneIsLeftToTheEngine) {
   std::string parts = Gas("circle = 0.6", 14);
   for (std::size_t at = 0; (at = parts.find("restitution = 1\n", at)) != std::string::npos; ++at) {
     parts.replace(at, 15, "restitution = 0.9");
@@ -175,7 +175,7 @@ TEST(ElasticImpacts, LessThanRestitutionOneIsTheEngines) {
   EXPECT_EQ(ours->Hash(), engines->Hash());
 }
 
-TEST(ElasticImpacts, AreHeardAsImpacts) {
+TEST(ElasticImpacts, AreReportedAsImpacts) {
   const auto world =
       SmallWorld(Elastic("left", "circle = 0.5\nposition = [-1, 0]\nvelocity = [3, 0]") +
                      Elastic("right", "circle = 0.5\nposition = [1, 0]\nvelocity = [-3, 0]"),
@@ -189,7 +189,7 @@ TEST(ElasticImpacts, AreHeardAsImpacts) {
   EXPECT_NEAR(heard[0].dv, 6, 1e-4);
 }
 
-TEST(ElasticImpacts, GoBackBitForBit) {
+TEST(ElasticImpacts, ReplayBitForBit) {
   const auto world = SmallWorld(Gas("circle = 0.6", 15), "substeps = 2\n", kWeightless);
   Steps(world.get(), 50);
   const WorldSnapshot barrier = world->Barrier();

@@ -91,7 +91,7 @@ TEST(ExactJam, CratesThatOverlapByHalfComeApartAlthoughTheyAreJammed) {
   EXPECT_LT(MiddleOverlap(JamPlace::kPit, 21), 0.25);
 }
 
-TEST(ExactJam, APressThatSqueezesWhatIsJointedThrowsNothing) {
+TEST(ExactJam, APressThatSqueezesJointedPlanksThrowsNothing) {
   // Two planks of 0.3 m, hinged; the press comes down to 0.2 m at 0.4 m/s and goes up again.
   const auto world = ExactWorld(std::string(kGround) + PressText(1, 0.2) +
                                 PartText("plank",
@@ -102,14 +102,14 @@ TEST(ExactJam, APressThatSqueezesWhatIsJointedThrowsNothing) {
   EXPECT_LT(Drift(*world), 1e-4);
 }
 
-TEST(ExactJam, APressOnRandomJamsThrowsNothingFarAway) {
+TEST(ExactJam, APressOnRandomJamsThrowsNoBodyFar) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto world = ExactWorld(JamMaker(seed).Text(JamPlace::kPit, PressText(3, 1)));
     EXPECT_LT(FastestOf(world.get(), 150), 25) << "m/s, seed " << seed;
   }
 }
 
-TEST(ExactJam, AJamThatIsLeftToTheEngineTakesNoImpulsesAlongThatItCannotCarry) {
+TEST(ExactJam, AJamLeftToTheEngineDropsImpulsesItCannotCarry) {
   // Cost decides from tick to tick who solves these.
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto world =

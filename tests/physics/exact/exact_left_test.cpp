@@ -53,14 +53,14 @@ void ExpectTheSame(World* ours, World* engines, int bodies) {
   EXPECT_GT(heard, 10u) << "it hits the ground";
 }
 
-TEST(ExactLeft, AGridIsTheEngines) {
+TEST(ExactLeftToEngine, AGridIsLeftToTheEngine) {
   const auto ours = SmallWorld(FallingGrid());
   const auto engines = SmallWorld(FallingGrid(), "joints = \"iterative\"\n");
   ExpectTheSame(ours.get(), engines.get(), 196);
   EXPECT_EQ(ours->Hash(), engines->Hash());
 }
 
-TEST(ExactLeft, BesideAnExactPendulumItIsAsWellAndItsBlowsAreHeard) {
+TEST(ExactLeftToEngine, BesideAnExactPendulumAGridIsLeftTooWithItsImpacts) {
   const auto ours = SmallWorld(FallingGrid() + FarPendulum());
   const auto engines = SmallWorld(FallingGrid() + FarPendulum(), "joints = \"iterative\"\n");
   ExpectTheSame(ours.get(), engines.get(), 196);
@@ -93,7 +93,7 @@ double CostOfTicks(World* world) {
   return least;
 }
 
-TEST(ExactLeft, AHeapThatABladeShovesCostsLittleMoreThanTheEngines) {
+TEST(ExactLeftToEngine, AHeapThatABladeShovesCostsLittleMoreThanTheEngines) {
   const auto ours = SmallWorld(ShovedHeap());
   const auto engines = SmallWorld(ShovedHeap(), "joints = \"iterative\"\n");
   for (World* world : {ours.get(), engines.get()}) {
@@ -120,7 +120,7 @@ std::string CartIntoCrates(int columns) {
                       std::to_string(columns) + ", 3], step = [0.71, 0.71]}");
 }
 
-TEST(ExactLeft, WhatTakesTooMuchInAHeapIsTheEnginesForAWhile) {
+TEST(ExactLeftToEngine, AnExpensiveHeapIsLeftToTheEngineForAWhile) {
   const auto ours = SmallWorld(CartIntoCrates(5));
   const auto exact = SmallWorld(CartIntoCrates(5), kExactJoints);
   int left = 0, begun = 0, steps = 0;
@@ -139,7 +139,7 @@ TEST(ExactLeft, WhatTakesTooMuchInAHeapIsTheEnginesForAWhile) {
   EXPECT_GE(left, 20 * begun) << "what one step found is not found anew after each barrier";
 }
 
-TEST(ExactLeft, AFewCratesAreNoHeap) {
+TEST(ExactLeftToEngine, AFewCratesAreSolvedExactly) {
   const auto world = SmallWorld(CartIntoCrates(1));
   for (int tick = 0; tick < 300; ++tick) {
     world->Step();
@@ -148,7 +148,7 @@ TEST(ExactLeft, AFewCratesAreNoHeap) {
   EXPECT_GT(world->Read(world->BodyOfId(1)).position.x(), 5) << "the cart is among them";
 }
 
-TEST(ExactLeft, WhatBreaksOffHasChangedNothing) {
+TEST(ExactLeftToEngine, AnAbandonedStepChangesNothing) {
   // The step in which it is found is the engine's, of the world as it was.
   const auto ours = SmallWorld(CartIntoCrates(5));
   bool found = false;
@@ -190,7 +190,7 @@ std::vector<std::uint64_t> HashesInMemoryFullOf(int byte) {
   return hashes;
 }
 
-TEST(ExactLeft, WhatANewJointsMemoryHeldBeforeIsOfNoMatter) {
+TEST(ExactLeftToEngine, UninitialisedMemoryDoesNotAffectANewJoint) {
   // As floats: 0, 3.4e38, -1.2e-38 and not a number.
   const std::vector<std::uint64_t> zero = HashesInMemoryFullOf(0);
   for (const int byte : {0x7f, 0x80, 0xff}) {
