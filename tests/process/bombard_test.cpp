@@ -156,7 +156,7 @@ Bytes Bad(Random* random, const std::vector<Bytes>& real) {
   }
 }
 
-TEST_F(Bombarded, TheServerCountsWhatIsForeignRunsOnAndKeepsItsClients) {
+TEST_F(Bombarded, TheServerCountsForeignDatagramsAndKeepsItsClients) {
   Relay relay(server_port_);
   auto ann = Join("ann", relay.port());
   auto bob = Join("bob", server_port_);

@@ -155,7 +155,7 @@ Messages Count(const std::string& path) {
   return messages;
 }
 
-TEST_F(EndToEnd, TheServersOwnRecordIsWhatTheLoggerCaptured) {
+TEST_F(EndToEnd, TheServersOwnRecordEqualsTheLoggersCapture) {
   SEAM_INSIDE_ONLY();
   ASSERT_TRUE(Played().ended);
   const Messages captured = Count(Capture("retrospect"));

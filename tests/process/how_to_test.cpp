@@ -66,7 +66,7 @@ TEST(HowTo, EachMarkedBlockRunsInAnEmptyFolder) {
   }
 }
 
-TEST(HowTo, ABlockThatFailsIsSeen) {
+TEST(HowTo, ReportsABlockThatFails) {
   const std::vector<Block> blocks =
       BlocksOf("# x\n<!-- run -->\n```sh\nfalse\ntrue\n```\n<!-- file: a -->\n```toml\nb\n```\n");
   ASSERT_EQ(blocks.size(), 2u);

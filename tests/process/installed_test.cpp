@@ -61,7 +61,7 @@ std::string Between(const std::string& text, const std::string& begin, const std
   return to == std::string::npos ? "" : text.substr(from, to - from);
 }
 
-TEST_F(Installed, TheProgramOfTheEmbeddingPageCompilesAndPrintsWhatThePageSays) {
+TEST_F(Installed, TheEmbeddingPagesProgramCompilesAndPrintsAsDocumented) {
   std::ifstream file(Root() / "docs/embedding.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::string code = Between(page, "```cpp\n", "```");
@@ -79,7 +79,7 @@ TEST_F(Installed, TheProgramOfTheEmbeddingPageCompilesAndPrintsWhatThePageSays) 
   EXPECT_EQ(slide->output(), printed + "\n");
 }
 
-TEST_F(Installed, PkgConfigAndEveryProgramSayTheVersion) {
+TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {
   const Workspace folder;
   EXPECT_EQ(Run({"pkg-config", "--modversion", "seam2d"}, folder)->output(),
             std::string(kVersion) + "\n");
@@ -137,7 +137,7 @@ TEST_F(Installed, ASceneOfTheCurrentFolderComesBeforeAnInstalledOne) {
   EXPECT_EQ(file->errors().rfind("seam-server: crossing:1: ", 0), 0u) << file->Story();
 }
 
-TEST_F(Installed, AScenesNameThatIsNowhereIsOneLineThatSaysWhereItLooked) {
+TEST_F(Installed, AnUnknownSceneIsOneLineThatListsTheFoldersSearched) {
   const Workspace folder;
   const auto server = Run(ServerWords("crosing"), folder);
   EXPECT_EQ(server->status(), 2);

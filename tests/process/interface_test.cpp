@@ -209,7 +209,7 @@ std::string Lacking(const Names& a, const Names& b) {
   return lines;
 }
 
-TEST(Interface, WhatScriptsDependOnIsWhatTheFileSays) {
+TEST(Interface, TheNamesThatScriptsUseMatchTheFile) {
   Interface found;
   AddTables(&found);
   AddPrograms(&found);
@@ -227,7 +227,7 @@ TEST(Interface, WhatScriptsDependOnIsWhatTheFileSays) {
   EXPECT_TRUE(pinned == found.lines()) << "the same names in another order, or some twice";
 }
 
-TEST(Interface, HelpIsReadHoweverItIsLaidOut) {
+TEST(Interface, ReadsHelpInAnyLayout) {
   const std::string help =
       "about\nUsage: x\n\nOPTIONS:\n  -o,--out TEXT  where\n  -h,     --help\n"
       "          --bind TEXT\n                   --not-this\n  --no-floor{false}  no\n\n"

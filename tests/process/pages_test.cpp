@@ -51,7 +51,7 @@ std::string Complaints(const Words& words) {
   return run.errors() + (run.status() == 0 ? "" : "status " + std::to_string(run.status()));
 }
 
-TEST(Pages, SayEveryFlagAndSubcommand) {
+TEST(Pages, DocumentEveryFlagAndSubcommand) {
   for (const std::string program : kPrograms) {
     const Words names = NamesOf(program);
     EXPECT_GT(names.size(), 8u) << program;
@@ -77,7 +77,7 @@ TEST(Pages, SayEveryFlagAndSubcommand) {
   }
 }
 
-TEST(Pages, AreReadByManBashZshAndFishWithoutAWord) {
+TEST(Pages, AreAcceptedByManBashZshAndFishWithoutMessages) {
   const Workspace folder;
   for (const std::string program : kPrograms) {
     folder.Write(program + ".1", Generated(program, "man"));

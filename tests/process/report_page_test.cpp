@@ -68,7 +68,7 @@ class ReportInBrowser : public ::testing::Test {
   std::unique_ptr<Browser> browser_;
 };
 
-TEST_F(ReportInBrowser, SaysWhatToUseForTheLatencyAndTheSceneThatAreAsked) {
+TEST_F(ReportInBrowser, RecommendsAMethodForTheChosenLatencyAndScene) {
   Ask("latency", "60");
   Ask("scene", "stack");
   EXPECT_EQ(Verdict(), "Use fade: error 0.004 m, 5 ms of CPU per second, 2 kB/s.");
@@ -78,7 +78,7 @@ TEST_F(ReportInBrowser, SaysWhatToUseForTheLatencyAndTheSceneThatAreAsked) {
   EXPECT_EQ(Verdict(), "Use fade: error 0.002 m, 5 ms of CPU per second, 2 kB/s.");
 }
 
-TEST_F(ReportInBrowser, AFigureAnswersTheMouseAndLeavesOutWhatIsSwitchedOff) {
+TEST_F(ReportInBrowser, AFigureAnswersTheMouseAndHidesDisabledMethods) {
   Open("latency");
   EXPECT_EQ(browser_->Number("document.querySelectorAll('.chapter.shown').length"), 1);
   const std::string curves = "document.querySelectorAll('.shown .plot [data-curve=fade]').length";

@@ -121,7 +121,7 @@ std::string Contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST_F(SwarmProgram, ItsHeapIsOnHugePagesWhereTheSystemHasAny) {
+TEST_F(SwarmProgram, ItsHeapIsOnHugePagesIfTheSystemHasAny) {
   SEAM_INSIDE_ONLY();
   const std::string offered = Contents("/sys/kernel/mm/transparent_hugepage/enabled");
   if (offered.empty() || offered.find("[never]") != std::string::npos) GTEST_SKIP() << offered;

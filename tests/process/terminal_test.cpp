@@ -48,7 +48,7 @@ class Terminals : public ::testing::Test {
   std::string address_;
 };
 
-TEST_F(Terminals, ATakenOrUnknownNameIsOneLineThatSaysWhatIsFreeAndStatus2) {
+TEST_F(Terminals, ATakenOrUnknownNameListsFreeNamesInOneLineWithStatus2) {
   Start({});
   Program ann(ClientWords("ann"));
   ASSERT_TRUE(server_->WaitForErrors("ann is here", kPatience)) << server_->Story();
@@ -64,7 +64,7 @@ TEST_F(Terminals, ATakenOrUnknownNameIsOneLineThatSaysWhatIsFreeAndStatus2) {
             "on\n");
 }
 
-TEST_F(Terminals, TheServerSaysWhoComesAndGoesAndEndsWithATableAndWithoutProgressInAFile) {
+TEST_F(Terminals, TheServerReportsJoinsAndLeavesAndEndsWithATable) {
   Start({});
   Program ann(ClientWords("ann"));
   ASSERT_TRUE(server_->WaitForErrors("ann is here as peer 1, 127.0.0.1:", kPatience));
@@ -87,7 +87,7 @@ TEST_F(Terminals, TheServerSaysWhoComesAndGoesAndEndsWithATableAndWithoutProgres
   }
 }
 
-TEST_F(Terminals, QuietLeavesOutWhoComesAndGoes) {
+TEST_F(Terminals, QuietOmitsJoinsAndLeaves) {
   Start({"--quiet", "--duration", "0.5"});
   Program ann(ClientWords("ann"));
   ASSERT_TRUE(server_->Wait(kPatience));
