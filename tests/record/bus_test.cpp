@@ -88,7 +88,7 @@ View MakeView(std::int32_t sequence, std::size_t bodies) {
   return view;
 }
 
-TEST_F(BusInNamespace, HearsWhatIsPublishedUpToTheLargestMessage) {
+TEST_F(BusInNamespace, ReceivesMessagesUpToTheLargest) {
   SEAM_ENTER(kMulticast);
   Bus speaker(""), listener("");
   std::vector<HeardMessage> heard;
@@ -124,7 +124,7 @@ TEST_F(BusInNamespace, ABurstOfLargeMessagesArrivesWhole) {
   EXPECT_EQ(heard.size(), 60u);
 }
 
-TEST_F(BusInNamespace, RefusesAndCountsWhatDoesNotFit) {
+TEST_F(BusInNamespace, RefusesAndCountsOversizedMessages) {
   SEAM_ENTER(kMulticast);
   Bus bus("");
   bus.Publish("A", 0, Bytes(kBusMessageBytesMax + 1));
@@ -174,7 +174,7 @@ std::string Complaint(const std::string& url) {
   return "";
 }
 
-TEST_F(BusInNamespace, WithoutARouteItSaysWhatToType) {
+TEST_F(BusInNamespace, NamesTheFixForAMissingRoute) {
   SEAM_ENTER("ip link set lo up");
   ::testing::internal::CaptureStderr();
   const std::string line = Complaint("");
@@ -192,7 +192,7 @@ TEST_F(BusInNamespace, AWrongUrlIsNamed) {
   }
 }
 
-TEST_F(BusInNamespace, BehindAFirewallItSaysSoInsteadOfCrashing) {
+TEST_F(BusInNamespace, ReportsAFirewallInsteadOfCrashing) {
   SEAM_ENTER(std::string(kMulticast) +
              "; tc qdisc add dev lo root pfifo limit 0 || export SEAM_TEST_NO_TC=1");
   if (std::getenv("SEAM_TEST_NO_TC") != nullptr) GTEST_SKIP() << "tc cannot play the firewall";
@@ -215,7 +215,7 @@ TEST_F(BusInNamespace, TheDoctorFindsAHealthyMachineHealthy) {
   EXPECT_NE(Text(report).find("60000 bytes comes back"), std::string::npos) << Text(report);
 }
 
-TEST_F(BusInNamespace, TheDoctorSaysWhatToTypeWithoutARoute) {
+TEST_F(BusInNamespace, TheDoctorNamesTheFixForAMissingRoute) {
   SEAM_ENTER("ip link set lo up");
   const DoctorReport report = RunDoctor("");
   EXPECT_FALSE(report.healthy) << Text(report);
@@ -236,7 +236,7 @@ TEST(Doctor, FindsTheMostSpecificUsableRoute) {
   EXPECT_EQ(RouteInterface("", "nonsense"), "");
 }
 
-TEST_F(BusInNamespace, StockLoggerRecordsWhatItPublishes) {
+TEST_F(BusInNamespace, TheStockLoggerRecordsItsMessages) {
   SEAM_ENTER(kMulticast);
   TemporaryFile file;
   ChildProcess logger({"lcm-logger", "--quiet", "--flush-interval=10", file.path()});
