@@ -251,7 +251,7 @@ const readable = {size: async () => BigInt(bytes.length), read: async (offset, l
   EXPECT_EQ(read.output(), std::to_string(ReadMcap(files_->Read("a.mcap")).counted) + "\n");
 }
 
-TEST(Crc32OfMcap, IsTheOneOfZip) {
+TEST(Crc32OfMcap, EqualsTheCrcOfZip) {
   EXPECT_EQ(Crc32("123456789"), 0xcbf43926u);  // the check value of the catalogue of CRCs
   EXPECT_EQ(Crc32("6789", Crc32("12345")), Crc32("123456789"));
 }

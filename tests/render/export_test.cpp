@@ -168,7 +168,7 @@ TEST_F(ExportProgram, NamesChooseViewsAndBodies) {
             expected);
 }
 
-TEST_F(ExportProgram, JsonAndTraceSayWhatTheTableSays) {
+TEST_F(ExportProgram, JsonAndTraceAgreeWithTheTable) {
   for (const char* format : {"csv", "json", "trace"}) {
     Export({std::string("--") + format, "-o", At(std::string("all.") + format), "--force"});
   }
@@ -262,7 +262,7 @@ void WriteWithout(const std::string& from, const std::string& to, const std::str
   }
 }
 
-TEST_F(ExportProgram, AViewThatTheLogLacksIsNamedAndTheRestIsThere) {
+TEST_F(ExportProgram, AMissingViewIsNamedAndTheRestIsExported) {
   WriteWithout(Log(), At("no-bob.lcm"), ".view.2");
   const std::string csv = Run({"seam-export", At("no-bob.lcm"), "--csv"});
   EXPECT_NE(errors_.find("no view of bob"), std::string::npos) << errors_;
@@ -275,7 +275,7 @@ TEST_F(ExportProgram, AViewThatTheLogLacksIsNamedAndTheRestIsThere) {
   }
 }
 
-TEST_F(ExportProgram, ThePythonOfThePageReadsWhatIsExported) {
+TEST_F(ExportProgram, ThePagesPythonReadsTheExports) {
   std::ifstream file(Root() / "docs/read-a-log.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::size_t begin = page.find("```python\n") + 10, end = page.find("```", begin);

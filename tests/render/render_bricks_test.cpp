@@ -50,7 +50,7 @@ TEST(DrawBricks, BlocksCoverEachBrickOnceAndAreFew) {
   EXPECT_LT(blocks * 6, bricks);
 }
 
-TEST(DrawBricks, PixelsAreFilledWhereBricksAreAndNowhereElse) {
+TEST(DrawBricks, FillsExactlyThePixelsOfBricks) {
   const FeatherStore store = SmallCity();
   DrawList list(TestFont());
   list.Begin(800, 600);

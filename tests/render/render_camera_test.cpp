@@ -63,7 +63,7 @@ double FilledShare(const Playback& playback, int peer, const Viewport& viewport,
 
 class CameraOnScene : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(CameraOnScene, ShowsTheContactWholeAndWhatMovesLarge) {
+TEST_P(CameraOnScene, ShowsTheWholeContactAndMovingBodiesLarge) {
   const std::vector<Playback> playbacks = PlaybacksOf(GetParam(), "rollback");
   const auto contact = ContactMoment(playbacks);
   ASSERT_TRUE(contact.has_value());
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, CameraOnScene,
                                            "harbour"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-TEST(CameraWishes, AFixedPlaceAFollowedPartAndAZoomAreWhatTheySay) {
+TEST(CameraWishes, AFixedPlaceAFollowedPartAndAZoomAreObeyed) {
   std::vector<Playback> playbacks;
   playbacks.push_back(MakePlayback(0));
   Page page = MakePage(playbacks.front(), 1);

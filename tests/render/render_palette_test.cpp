@@ -79,7 +79,7 @@ void ExpectApart(const Named& colours) {
   }
 }
 
-TEST(Palette, TenPlayersCanBeToldApartByEveryEye) {
+TEST(Palette, TenPlayersAreDistinguishableToEveryEye) {
   Named colours = Everywhere();
   for (int peer = 1; peer <= kPeerHues; ++peer) {
     colours.emplace_back("peer " + std::to_string(peer), PeerColour(peer));
@@ -87,7 +87,7 @@ TEST(Palette, TenPlayersCanBeToldApartByEveryEye) {
   ExpectApart(colours);
 }
 
-TEST(Palette, TenRunsCanBeToldApartByEveryEye) {
+TEST(Palette, TenRunsAreDistinguishableToEveryEye) {
   Named colours = Everywhere();
   for (int run = 0; run < kPeerHues; ++run) {
     colours.emplace_back("run " + std::to_string(run), RunColour(run));

@@ -63,7 +63,7 @@ TEST(DrawRules, ATriggerIsDrawnUntilItIsTaken) {
       Differences(Drawn(taken, scene, kTick, &viewport), Drawn(taken, bare, kTick, &viewport)), 0);
 }
 
-TEST(DrawRules, ScoresAreSaidFromWhenTheyAreKnown) {
+TEST(DrawRules, ScoresAppearOnceTheyAreKnown) {
   const Scene scene = synthetic::MakeScene();
   const Recording scored = WithMeta(kMetaPlayer, 0, kMetaScore, 7);
   const Recording none = synthetic::MakeRecording(0);

@@ -189,7 +189,7 @@ TEST_F(RenderLog, TheManifestNamesTheLogAndEachFramesMomentAndBox) {
   EXPECT_NE(frame.find("log.lcm fnv1a-64:"), std::string::npos);
 }
 
-TEST_F(RenderLog, AViewIsNamedByItsPlayerAndAWrongNameSaysWhichThereAre) {
+TEST_F(RenderLog, AViewIsNamedByItsPlayerAndAWrongNameListsThem) {
   std::string said;
   const std::vector<std::string> common{log_,     "--oracle", oracle_, "--size",
                                         "320x240", "--fps",    "1",     "-o"};
@@ -286,7 +286,7 @@ TEST_F(RenderLog, AViewThatClaimsTheEndOfTimeIsLeftOut) {
   EXPECT_EQ(Frames(folder_ / "out").size(), 16u);
 }
 
-TEST_F(RenderLog, MistakesInWhatIsAskedOfALogWriteNothing) {
+TEST_F(RenderLog, MistakesInTheRequestWriteNothing) {
   const std::string out = folder_ / "out";
   const std::vector<std::vector<std::string>> mistakes{
       {log_, "-o", out, "--view", "7"},
