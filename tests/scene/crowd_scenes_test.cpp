@@ -11,7 +11,7 @@
 namespace seam {
 namespace crowd_scenes_test {
 
-TEST(Gas, AloneItKeepsItsEnergyForAMinuteAndBlowsCrossTheSeam) {
+TEST(Gas, KeepsItsEnergyForAMinuteAndImpactsCrossTheSeam) {
   ScriptedWorld run("gas");
   ASSERT_EQ(run.world.body_count(), 200);
   const double at_first = KineticEnergy(run.world);
