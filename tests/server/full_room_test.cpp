@@ -17,7 +17,7 @@ class Counting : public Entropy {
   std::uint64_t number_ = 0;
 };
 
-TEST(FullRoom, TakesAllItsPlayersAfterSpectatorsHaveTakenWhatTheyMay) {
+TEST(FullRoom, AdmitsAllPlayersAfterSpectatorsFilledTheirPlaces) {
   const Scene scene = ParseScene(R"(
 [[player]]
 name = "p"

@@ -73,7 +73,7 @@ TEST(Gather, HundredsAreServedForTenWakesATickAndNoneWaitsForMoreThanTwoMillisec
   }
 }
 
-TEST(Gather, WhereNobodySpeaksAnyMoreItIsNotWokenToGather) {
+TEST(Gather, StopsGatheringWhenTrafficStops) {
   Gather gather;
   for (int i = 1; i <= 5; ++i) {
     gather.NotePolled(i * 1000);

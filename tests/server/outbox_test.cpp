@@ -52,7 +52,7 @@ repeat = {count = [20, 10], step = [1, 1]}
   NewestStates newest_;
 };
 
-TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
+TEST_F(OutboxTest, WithoutABudgetEverythingGoesAtOnceInMessagesThatFit) {
   Outbox outbox(0);
   for (int id = 0; id < kBodies; ++id) outbox.Add(0, id, Urgency::kFar);
   std::set<int> told;
@@ -69,7 +69,7 @@ TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
   EXPECT_TRUE(outbox.empty());
 }
 
-TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
+TEST_F(OutboxTest, KeepsTheBudgetSendsUrgentBodiesFirstAndAllEventually) {
   constexpr double kBudget = 8000;  // bytes/s: about 330 bodies
   Outbox outbox(kBudget);
   outbox.Spend(2 * static_cast<std::size_t>(kBudget));  // the room was just sent
@@ -101,7 +101,7 @@ TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
   ASSERT_EQ(told.size(), static_cast<std::size_t>(kBodies)) << "each once";
 }
 
-TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
+TEST_F(OutboxTest, RaisingAPendingBodyRaisesThatBody) {
   Outbox outbox(2000);
   EXPECT_TRUE(outbox.Compose(0, newest_).empty());
   outbox.Spend(4000);  // the room

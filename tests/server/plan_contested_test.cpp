@@ -58,30 +58,30 @@ TEST_F(PlanContested, ACrowdOfTwoOwnersBecomesTheServers) {
   EXPECT_EQ(Decided(), 12);
 }
 
-TEST_F(PlanContested, NotWhereTheyAgree) {
+TEST_F(PlanContested, AgreedBodiesKeepTheirOwners) {
   AddRow(12, kContestedSum / 13);
   EXPECT_EQ(Decided(), 0) << "a surprise now and then";
 }
 
-TEST_F(PlanContested, NotWhereSomebodyDrives) {
+TEST_F(PlanContested, DrivenBodiesKeepTheirOwners) {
   AddRow(12, kContestedSum);
   view_.exact = false;
   EXPECT_EQ(Decided(), 0);
 }
 
-TEST_F(PlanContested, WhatOneHasAloneIsItsOwnHoweverTheServerErrs) {
+TEST_F(PlanContested, BodiesOfOneOwnerStayItsOwnDespiteTheServersError) {
   for (int i = 0; i < 6; ++i) Add(-20 + 0.6f * static_cast<float>(i), kContestedSum);
   Add(20, kContestedSum);
   EXPECT_EQ(Decided(), 0) << "the seventh is far away";
 }
 
-TEST_F(PlanContested, WhatSleepsIsLeftAlone) {
+TEST_F(PlanContested, SleepingBodiesAreIgnored) {
   AddRow(12, kContestedSum);
   view_.mechanisms[3].asleep = true;
   EXPECT_EQ(Decided(), 11);
 }
 
-TEST_F(PlanContested, ItStaysTheServersUntilItIsAloneOrSleeps) {
+TEST_F(PlanContested, StaysTheServersUntilItIsAloneOrSleeps) {
   AddRow(12, 0);
   for (MechanismView& mechanism : view_.mechanisms) {
     mechanism.decided = true;

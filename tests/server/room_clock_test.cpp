@@ -34,7 +34,7 @@ struct BusyServer {
   }
 };
 
-TEST(RoomClock, WhileTheServerKeepsUpTicksAreDueWhereTheyAlwaysWere) {
+TEST(RoomClock, TicksKeepTheirScheduleWhileTheServerKeepsUp) {
   BusyServer server;
   server.RunFor(20000000, kPeriodUs / 2);
   EXPECT_EQ(server.clock.speed_ppm(), kFullSpeedPpm);
@@ -60,7 +60,7 @@ TEST(RoomClock, ATickOfTwicePeriodHalvesTheSpeedAndBoundsTheLateness) {
   EXPECT_LE(server.said, 3) << "people are told, but not each second";
 }
 
-TEST(RoomClock, WhenTheLoadIsGoneTheSpeedIsRealTimeAgain) {
+TEST(RoomClock, TheSpeedReturnsToRealTimeAfterTheLoad) {
   BusyServer server;
   server.RunFor(10000000, 2 * kPeriodUs);
   ASSERT_LT(server.clock.speed_ppm(), 600000);
@@ -72,7 +72,7 @@ TEST(RoomClock, WhenTheLoadIsGoneTheSpeedIsRealTimeAgain) {
               static_cast<double>(server.now_us - begin_us) * 1e-6 * kHz, 1.5);
 }
 
-TEST(RoomClock, OneStallIsMadeUpForAndSlowsNothing) {
+TEST(RoomClock, OneStallIsCaughtUpWithoutSlowing) {
   BusyServer server;
   server.RunFor(3000000, kPeriodUs / 4);
   server.now_us += 2000000;  // suspended
@@ -82,7 +82,7 @@ TEST(RoomClock, OneStallIsMadeUpForAndSlowsNothing) {
   EXPECT_EQ(server.tick, (server.now_us - 5000000) * kHz / 1000000);
 }
 
-TEST(RoomClock, HoweverSlowTheServerTheSpeedHasABoundAndTheClockNeverRunsBackwards) {
+TEST(RoomClock, TheSpeedHasABoundAndTheClockNeverRunsBackwards) {
   BusyServer server;
   std::int64_t room_us = -1;
   for (int i = 0; i < 200; ++i) {

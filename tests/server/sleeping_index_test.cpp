@@ -122,7 +122,7 @@ PlanWorld Room(int players, int mechanisms, float width, float height) {
   return world;
 }
 
-TEST(Lying, APlanWithoutWhatLiesFarIsThePlanOfEverything) {
+TEST(SleepingIndex, APlanWithoutDistantSleepersEqualsTheFullPlan) {
   for (const PlanWorld& world : {Room(3, 400, 3000, 60), Room(6, 500, 900, 900),
                                  Room(16, 600, 1500, 40), Room(1, 300, 400, 400)}) {
     SCOPED_TRACE(std::to_string(world.players) + " players");
@@ -133,7 +133,7 @@ TEST(Lying, APlanWithoutWhatLiesFarIsThePlanOfEverything) {
   }
 }
 
-TEST(Lying, InACrowdItSeesEveryoneAndInARoomOfSleepersNobody) {
+TEST(SleepingIndex, MatchesTheFullPlanInACrowdAndFindsNothingWithoutMovers) {
   const Counts crowd = Compare(Room(20, 400, 70, 70), 15);
   EXPECT_EQ(crowd.differ, 0);
   Lying lying;
@@ -154,7 +154,7 @@ TEST(Lying, InACrowdItSeesEveryoneAndInARoomOfSleepersNobody) {
 }
 
 /// Coming and going it finds what one does that looks at each.
-TEST(Lying, FindsTheSameHoweverItCameToLieThere) {
+TEST(SleepingIndex, FindsTheSameAfterAnyHistory) {
   Random random(7);
   Lying lying;
   constexpr int kCount = 600;
