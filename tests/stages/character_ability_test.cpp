@@ -160,7 +160,7 @@ TEST(CharacterAbility, ClimbsOutOfWaterOverALedge) {
   EXPECT_GE(climbs.good, 20) << climbs.failed;
 }
 
-TEST(CharacterAbility, GetsUpAgainAfterItWentLimpByItsPlayerACommandOrABlow) {
+TEST(CharacterAbility, GetsUpAfterItWentLimpByItsPlayerACommandOrAnImpact) {
   const Tally up = TryFrom(7001, "limp", 7032);
   ASSERT_EQ(up.count, 32);
   EXPECT_GE(up.good, 30) << up.failed;

@@ -86,7 +86,7 @@ TEST(Grip, ASwimmerHoldsTheWallThatItComesToByItsFingertip) {
   }
 }
 
-TEST(Grip, OfManyAnchoredTilesItHoldsTheOneThatItTouches) {
+TEST(Grip, HoldsTheTouchedTileAmongManyAnchoredOnes) {
   // They are so many that they share a body, which lies elsewhere than each of them.
   ScriptedWorld run(CharacterScene(
       "position = [-1.3, -1.45]\nangle = -0.3\ndensity = 0.92\ngrip = true\n",
@@ -140,7 +140,7 @@ BondEdit CrateGrip(const Scene& scene) {
   return bond;
 }
 
-TEST(Grip, OnlyAHandOfACharacterWithGripsMayAndOnlyOneThingAtATime) {
+TEST(Grip, OnlyAHandWithGripMayHoldAndOnlyOneBodyAtATime) {
   const Scene scene = PoolScene();
   const BondEdit good = CrateGrip(scene);
   ASSERT_EQ(scene.parts[1].name, "crate");
@@ -169,7 +169,7 @@ TEST(Grip, OnlyAHandOfACharacterWithGripsMayAndOnlyOneThingAtATime) {
             now.assembly_of_part[static_cast<std::size_t>(good.b)]);
 }
 
-TEST(Grip, GoesOverTheWireAndIntoWhatALatePeerGets) {
+TEST(Grip, IsSentAndIsPartOfALatecomersTopology) {
   const Scene scene = PoolScene();
   const BondEdit grip = CrateGrip(scene);
   const Edit back = ToEdit(ToOrder(Edit(grip)));

@@ -58,7 +58,7 @@ TEST(Kinematic, TurningIsAboutTheAnchor) {
   EXPECT_NEAR(state.velocity.norm(), 0.5, 1e-6);
 }
 
-TEST(Kinematic, ItCarriesWhatLiesOnIt) {
+TEST(Kinematic, CarriesItsLoad) {
   for (const char* solver : {"", "substeps = 3"}) {
     const auto world =
         SmallWorld(Platform("path = [[0, 0], [40, 0]]\nperiod = 40") +
@@ -93,7 +93,7 @@ std::string Ride() {
          "anchor_a = [-1, 2]\nlength = 3\n";
 }
 
-TEST(Kinematic, ItIsExactlyWhereThePathSaysAtEveryTick) {
+TEST(Kinematic, FollowsItsPathExactlyAtEveryTick) {
   // Seen through what is hung from it by a rigid rod: the rod's length is the proof.
   const Scene scene = ParseScene("[solver]\nsleep = false\n" + Ride(), "s.toml");
   World world(scene);
@@ -107,7 +107,7 @@ TEST(Kinematic, ItIsExactlyWhereThePathSaysAtEveryTick) {
   }
 }
 
-TEST(Kinematic, WhoJoinsLaterHasItAtTheSamePlace) {
+TEST(Kinematic, ALatecomerHasItAtTheSamePlace) {
   // Contact tells where it is: a box put on it at tick 500 rides as one in a world from the start.
   const Scene scene = ParseScene(Ride(), "s.toml");
   World from_start(scene), late(scene);

@@ -113,14 +113,14 @@ bool StandsWithout(CharacterJoint joint) {
   return std::abs(Look(run).lean) < 0.6f && run.Read("hero.torso").position.y() > 1;
 }
 
-TEST(Severed, WithoutAnArmOrAForearmItStandsOnAndWithoutALegItFalls) {
+TEST(Severed, StandsWithoutAnArmOrAForearmAndFallsWithoutALeg) {
   EXPECT_TRUE(StandsWithout(kShoulderLeft));
   EXPECT_TRUE(StandsWithout(kElbowRight));
   EXPECT_FALSE(StandsWithout(kHipLeft));
   EXPECT_FALSE(StandsWithout(kKneeRight));
 }
 
-TEST(Severed, OneArmedItRunsOnAndLimbByLimbNothingBreaksDown) {
+TEST(Severed, ACharacterWithOneArmRunsOnAndLosingEveryLimbIsSafe) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n", "[[0.5, {drive = 0.6}]]"));
   run.StepTo(60);
   const auto joints = run.world.scene().characters[0].joints;

@@ -60,7 +60,7 @@ TEST(SeatWay, IsFoundFromPlaceAndSpeed) {
   }
 }
 
-TEST(SeatWay, WhoStandsFarFromTheSeatHasNotSetOutAndWhoIsThereStays) {
+TEST(SeatWay, ADistantCharacterHasNotStartedAndASeatedOneStays) {
   Seat seat;
   const Solver solver;
   SeatWay way{3, {{9, 9}, 1}};

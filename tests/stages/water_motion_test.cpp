@@ -57,7 +57,7 @@ TEST(WaterMotion, BobbingWithoutDragKeepsItsHeight) {
   EXPECT_NEAR(highest, 0.1, 0.003);
 }
 
-TEST(WaterMotion, EnergyWithTheWatersIsKeptWhileThingsBobAndRock) {
+TEST(WaterMotion, EnergyWithTheWatersIsKeptWhileBodiesBobAndRock) {
   const auto world = SmallWorld(
       Floater("p",
               "polygon = [[-1, -0.4], [0.8, -0.6], [1.2, 0.2], [0, 0.8]]\ndensity = 0.6\n"

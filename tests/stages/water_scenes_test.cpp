@@ -34,7 +34,7 @@ TEST(Regatta, TheThinBoatOutrunsTheThickOneOfTheSameDisplacement) {
   EXPECT_NEAR(race.Read("thin").angle, 0, 0.05) << "on an even keel";
 }
 
-TEST(Regatta, PaddlesWithNothingToPushAgainstMoveNothing) {
+TEST(Regatta, PaddlesWithoutDragMoveNothing) {
   // No cheating force: without drag the wheels turn and the boats stay.
   const std::string text =
       With(LoadScene("scenes/regatta.toml").text, "viscosity = 0.05\ndrag_tangent = 0.02",
@@ -49,7 +49,7 @@ TEST(Regatta, PaddlesWithNothingToPushAgainstMoveNothing) {
   }
 }
 
-TEST(Harbour, TheBoatCrossesTheSeamAndPushesWhatFloats) {
+TEST(Harbour, TheBoatCrossesTheSeamAndPushesFloaters) {
   ScriptedWorld harbour("harbour");
   const float crate = harbour.Read("crate.0").position.x();
   harbour.StepTo(10 * 60);
