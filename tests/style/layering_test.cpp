@@ -118,9 +118,9 @@ std::string WrongIncludes(const std::vector<Source>& sources) {
   return offenders;
 }
 
-TEST(Layering, EachRoomIncludesOnlyWhatIsBelowIt) { EXPECT_EQ(WrongIncludes(Code()), ""); }
+TEST(Layering, EachRoomIncludesOnlyRoomsBelowIt) { EXPECT_EQ(WrongIncludes(Code()), ""); }
 
-TEST(Layering, TheFileAndTheIncludeThatBreakTheOrderAreNamed) {
+TEST(Layering, NamesTheFileAndTheIncludeThatBreakTheOrder) {
   Source source;
   source.path = "common/scene/a.cpp";
   source.includes = {"common/base/check.h", "common/physics/world.h", "vector"};
@@ -147,7 +147,7 @@ TEST(Layering, TheTableHasNoCycles) {
 
 /// Folders inside a room, and the neighbours in that room that they may include; what is in the
 /// room itself only puts them together.
-TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
+TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/physics/exact", "common/physics"},
       {"common/physics/flight", "none"},

@@ -168,7 +168,7 @@ std::pair<std::string, int> MissingPaths(const Source& page, bool tables_only) {
   return missing;
 }
 
-TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
+TEST(Docs, EveryPathInTheReadmesTablesContributingAndArchitectureExists) {
   for (const Source& page : Pages()) {
     const bool readme = page.path == "README.md";
     const bool all = page.path == "docs/contributing.md" || page.path == "docs/architecture.md";
@@ -186,7 +186,7 @@ TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
   EXPECT_EQ(MissingPaths(page, false).second, 5);
 }
 
-TEST(Docs, AQuestionOfTheReadmeThatAsksWhereIsAnsweredByAtMostTwoFiles) {
+TEST(Docs, AtMostTwoFilesAnswerAWhereIsQuestionOfTheReadme) {
   std::string offenders;
   bool below = false;
   int rows = 0;
@@ -238,7 +238,7 @@ bool Hardens(const std::string& header) {
   return accepted > 0;
 }
 
-TEST(LcmTypes, TheHardeningRefusesWhatItDoesNotUnderstand) {
+TEST(LcmTypes, TheHardeningRefusesUnknownCode) {
   const std::string decoder = "int a_t::_decodeNoHash(const void *buf, int offset, int maxlen)\n";
   const std::string check = "    if(__s_len__ > maxlen - pos) return -1;\n";
   const std::string assign =
