@@ -63,12 +63,12 @@ std::uint64_t HashOfWorld(bool barriers) {
   return world.Hash();
 }
 
-TEST(Alone, WhatNobodyElseStepsIsSteppedWithoutBarriers) {
+TEST(Alone, AMechanismSimulatedByOnePeerStepsWithoutBarriers) {
   ASSERT_NE(HashOfWorld(false), HashOfWorld(true)) << "or this shows nothing";
   EXPECT_EQ(HashOf(false), HashOfWorld(false));
 }
 
-TEST(Alone, WhatAnotherFollowsHasABarrierAtEverySendTick) {
+TEST(Alone, AFollowedMechanismHasABarrierAtEverySendTick) {
   EXPECT_EQ(HashOf(true), HashOfWorld(true));
 }
 

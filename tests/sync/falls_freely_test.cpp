@@ -40,7 +40,7 @@ std::map<int, Told> ToldOf(const std::string& scene) {
   return told;
 }
 
-TEST(FallsFreely, IsWhatIsThrownAndWhatBounces) {
+TEST(FallsFreely, AppliesToThrownAndBouncingBodies) {
   std::map<int, Told> told = ToldOf(
       "[[part]]\nname = \"ground\"\nchain = [[-90, 0], [90, 0]]\nfriction = 0.5\n"
       "[[part]]\nname = \"thrown\"\nbox = [1, 0.5]\nposition = [-30, 300]\nvelocity = [4, 9]\n"
@@ -54,7 +54,7 @@ TEST(FallsFreely, IsWhatIsThrownAndWhatBounces) {
   EXPECT_GE(told[2].falling, told[2].states - 4);
 }
 
-TEST(FallsFreely, IsNothingThatLiesSlidesRollsHangsOrSwims) {
+TEST(FallsFreely, ExcludesBodiesThatRestSlideRollHangOrSwim) {
   std::map<int, Told> told = ToldOf(
       std::string("[solver]\nsleep = false\n") + kGround +
       "[[part]]\nname = \"lies\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
@@ -103,7 +103,7 @@ float ApartAfterABlow(int silent) {
   return (pair.Shown(0) - pair.truth.Read(0).position).norm();
 }
 
-TEST(FallsFreely, WhatNobodyElseSawStruckGoesOnFromWhatWasHeardOfItALittleAgo) {
+TEST(FallsFreely, ABodyStruckOnlyHereContinuesFromARecentState) {
   EXPECT_LT(ApartAfterABlow(2), 1);
   EXPECT_GT(ApartAfterABlow(40), 2) << "of what was long ago the copy knows better";
 }

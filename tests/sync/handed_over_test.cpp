@@ -112,7 +112,7 @@ void GiveCrate(std::int64_t given, std::int64_t known,
 
 /// A state that rests on what was assumed would be put in by all others as it is, and never become
 /// what the inputs make of it.
-TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) {
+TEST(HandedOver, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
   const Scene scene = Squeezed();
   const std::vector<std::vector<BodyState>> truth = Truth(scene);
   for (const std::int64_t given : {63, 94, 136}) {  // inputs have just changed
@@ -124,7 +124,7 @@ TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) 
 
 /// Of a player who is not heard nothing is assumed for up to kDriverSilentUs: what changes hands
 /// then is told of as it was when it was last heard.
-TEST(HandedOver, WhatAPlayerMayReachWhoIsNotHeardIsToldOfAsItWasWhenHeWas) {
+TEST(HandedOver, SendsTheStateFromTheLastInputOfASilentPlayer) {
   const Scene scene = Squeezed();
   constexpr std::int64_t kCut = 60, kGiven = 107, kHeard = 115;
   WiredReplicas room = Room(scene);
@@ -136,7 +136,7 @@ TEST(HandedOver, WhatAPlayerMayReachWhoIsNotHeardIsToldOfAsItWasWhenHeWas) {
 }
 
 /// Right after an edit nobody has looked yet how far inputs reach.
-TEST(HandedOver, WhatAnEditHasJustMadeIsToldOfSinceItIsThere) {
+TEST(HandedOver, SendsANewPartNoEarlierThanItsEdit) {
   WiredReplicas room = Room(Squeezed());
   room.StepTo(120);
   InsertEdit insert;
@@ -159,7 +159,7 @@ TEST(HandedOver, WhatAnEditHasJustMadeIsToldOfSinceItIsThere) {
 /// While a client loads the room it may be given something and asked for it again: all of that can
 /// come in one datagram, before its first step. And the server plans in its first ticks, of which
 /// it looks at every second.
-TEST(HandedOver, WhatIsTakenBackBeforeTheFirstStepIsToldOfAsItIs) {
+TEST(HandedOver, SendsTheCurrentStateIfRevokedBeforeTheFirstStep) {
   Replica ann(Squeezed(), MakeSyncConfig("buffer", "rollback"), 1, 0);
   const int hers = ann.world().mechanism(0);
   const auto grant = [&](int peer, int epoch) {
@@ -180,7 +180,7 @@ TEST(HandedOver, WhatIsTakenBackBeforeTheFirstStepIsToldOfAsItIs) {
   EXPECT_EQ(told[0].y[0], 0.5f);
 }
 
-TEST(HandedOver, WhatTheServerGivesAwayInItsFirstTickIsToldOfAsItIs) {
+TEST(HandedOver, SendsTheCurrentStateInTheServersFirstTick) {
   Replica server(Squeezed(), MakeSyncConfig("buffer", "rollback"), 0, -1);
   server.Step();
   const std::vector<ExactStates> told = server.MakeExact({server.world().mechanism(0)}, 1);

@@ -64,7 +64,7 @@ class Room {
 
 constexpr int kToRest = 90;  // ticks
 
-TEST(Idle, WhatRestsIsNotThereWhileADiscGoesByFiveMetresAway) {
+TEST(Idle, ARestingCrateIsAbsentWhileADiscPassesAtFiveMetres) {
   Room room("position = [-5, -4]\nvelocity = [0, 2]\n");
   room.Steps(kToRest);
   for (const int crate : {kFirst, 1, kLast}) EXPECT_FALSE(room.There(crate)) << crate;
@@ -74,7 +74,7 @@ TEST(Idle, WhatRestsIsNotThereWhileADiscGoesByFiveMetresAway) {
 }
 
 /// It does as it does where all are there all the time, to the bit.
-TEST(Idle, WhatIsFastFindsItThere) {
+TEST(Idle, AFastDiscFindsItPresent) {
   for (const float speed : {1.0f, 3.0f, 10.0f, 40.0f, 80.0f}) {
     const float away = std::max(8.0f, 2.5f * speed);
     const std::string disc = "position = [" + std::to_string(-away) + ", 0]\nvelocity = [" +
@@ -95,7 +95,7 @@ TEST(Idle, WhatIsFastFindsItThere) {
   }
 }
 
-TEST(Idle, WhoIsDoubtfulFindsItThereThoughItIsOnlyDisplayed) {
+TEST(Idle, AnUnreliablePeersDiscFindsItPresent) {
   Room room("position = [-1.2, 0]\n");
   room.Give(kDisc, 1);
   room.replica.RolesChanged();
@@ -110,7 +110,7 @@ TEST(Idle, WhoIsDoubtfulFindsItThereThoughItIsOnlyDisplayed) {
   EXPECT_TRUE(room.There(kDisc));
 }
 
-TEST(Idle, RestsOnWhenItIsThereAgain) {
+TEST(Idle, StaysAtRestWhenItReturns) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
@@ -123,7 +123,7 @@ TEST(Idle, RestsOnWhenItIsThereAgain) {
   for (int body = 0; body <= kDisc; ++body) EXPECT_TRUE(room.replica.rest().Holds(body)) << body;
 }
 
-TEST(Idle, IsThereWhenAnEditActs) {
+TEST(Idle, IsPresentWhenAnEditActs) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
@@ -155,7 +155,7 @@ repeat = {count = 10, step = [0, 0.71]}
 
 /// Pushed by an edit, it does as it does where it has been there all the time, to the bit: its
 /// contacts begin with what they pressed with.
-TEST(Idle, ATowerThatIsThereAgainStandsAsItStood) {
+TEST(Idle, ATowerThatReturnsStandsAsBefore) {
   const auto push = [](Replica* replica) {
     PushEdit edit;
     edit.part = replica->world().id(9);
@@ -194,7 +194,7 @@ TEST(Idle, ATowerThatIsThereAgainStandsAsItStood) {
   EXPECT_TRUE(woken);
 }
 
-TEST(Idle, GoesOverToAClientAndComesBack) {
+TEST(Idle, IsHandedToAClientAndBack) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));

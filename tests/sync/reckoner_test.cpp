@@ -73,7 +73,7 @@ std::vector<BodyState> Turning(const World& world, float spin, const Vec2& veloc
   return states;
 }
 
-TEST(Reckoner, AMechanismGoesOnAsOneAndItsWheelGoesOnTurning) {
+TEST(Reckoner, AMechanismMovesRigidlyAndItsWheelKeepsTurning) {
   World world(ParseScene(kRods, "test.toml"));
   ASSERT_EQ(world.body_count(), 3);
   Snapshots snapshots(3);
@@ -130,7 +130,7 @@ BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodySta
   return out;
 }
 
-TEST(Reckoner, WhatASpringHoldsSwingsAndTravelsNoFurther) {
+TEST(Reckoner, ASpringedBodySwingsAndTravelsNoFurther) {
   const float swing = 2 * kPiFloat * 5;
   for (const std::int64_t ticks : {1, 30, 119}) {
     BodyState moves;
@@ -155,7 +155,7 @@ TEST(Reckoner, WhatASpringHoldsSwingsAndTravelsNoFurther) {
   EXPECT_NEAR(slides.position.y(), -1.1, 0.02) << "within that it moves as it did";
 }
 
-TEST(Reckoner, StatesOfDifferentTicksDoNotTearIt) {
+TEST(Reckoner, StatesOfDifferentTicksDoNotOpenItsJoints) {
   World world(ParseScene(kRods, "test.toml"));
   Snapshots snapshots(3);
   const std::vector<BodyState> states = Turning(world, 1, Vec2(0, 0));
@@ -211,7 +211,7 @@ sleep = false
 
 /// What is heard of a mechanism may be torn by a metre, where its holder is. Closing it finds
 /// another way at each tick, and none of that is a motion: it would hit what is near at 100 m/s.
-TEST(Reckoner, WhatClosingTornJointsFindsIsNoMotion) {
+TEST(Reckoner, ClosingOpenJointsAddsNoMotion) {
   World world(ParseScene(kFourBar, "test.toml"));
   std::mt19937 random(1);
   std::uniform_real_distribution<float> off(-1.5f, 1.5f);
@@ -268,7 +268,7 @@ velocity = [-1, 1]
 spin = 1
 )";
 
-TEST(Reckoner, WhatFallsFreelyBouncesOffWhatIsAnchored) {
+TEST(Reckoner, AFreelyFallingBodyBouncesOffAnchoredOnes) {
   World world(ParseScene(kThrown, "test.toml"));
   const JointCloser joints(world);
   Snapshots falling(2), straight(2);
@@ -297,7 +297,7 @@ TEST(Reckoner, WhatFallsFreelyBouncesOffWhatIsAnchored) {
 }
 
 /// What is absent is looked at every few ticks and goes straight on between: to where it is then.
-TEST(Reckoner, WhatIsAbsentIsTakenToWhereItFallsUntilTheNextLook) {
+TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
   World world(ParseScene(kThrown, "test.toml"));
   World truth(ParseScene(kThrown, "test.toml"));
   world.SetMotion(0, Motion::kAbsent);

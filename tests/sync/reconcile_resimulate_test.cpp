@@ -101,7 +101,7 @@ TEST(Resimulate, IsAsExactAsRoundingLetsItBetweenAMovingBodyAndAPile) {
   EXPECT_GT(WorstAfter(&other, By(0.1f, 0.5f), 150), 1.5f * ours);
 }
 
-TEST(Resimulate, OneReplayFromTheOldestOfManyMessages) {
+TEST(Resimulate, ReplaysOnceFromTheOldestOfManyMessages) {
   // Half a second of silence, then all at once.
   FollowedCopy f(kRampage, "resimulate", 4);
   f.Steps(20);
@@ -114,7 +114,7 @@ TEST(Resimulate, OneReplayFromTheOldestOfManyMessages) {
   EXPECT_LT(f.Apart(3).norm(), 0.02f);
 }
 
-TEST(Resimulate, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
+TEST(Resimulate, AStateOlderThanTheBarriersPlacesADistantCopy) {
   FollowedCopy f(
       "gravity = [0, 0]\n[solver]\nsleep = false\n"
       "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [3, 0]\n",
@@ -127,7 +127,7 @@ TEST(Resimulate, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
   EXPECT_LT(f.Apart(0).norm(), 0.26f);
 }
 
-TEST(Resimulate, OwnBodiesStayWhereTheyAreWhileOthersAreSteppedAgain) {
+TEST(Resimulate, OwnBodiesStayWhileOthersAreReplayed) {
   // Peer 1 has the ram itself; what it told of it stays true through every replay.
   FollowedCopy f(kRampage, "resimulate", 12, {3});
   f.Steps(30);

@@ -58,7 +58,7 @@ TEST(Spring, ConvergesAsTheDampedOscillatorDoes) {
   EXPECT_LT(std::fabs(x), 0.01) << "after 2 s it is nearly there";
 }
 
-TEST(Spring, AsksForNoMoreThanItsCap) {
+TEST(Spring, DemandsNoMoreThanItsCap) {
   for (const float apart : {0.1f, 1.0f, 7.0f, 1000.0f}) {
     PullMemory memory;
     PullInput in = Apart({0.6f * apart, -0.8f * apart}, {-3 * apart, 4 * apart});
@@ -71,7 +71,7 @@ TEST(Spring, AsksForNoMoreThanItsCap) {
   }
 }
 
-TEST(Spring, PlacesOnlyWhatIsFarOff) {
+TEST(Spring, PlacesOnlyDistantCopies) {
   ReconcileInput in;
   in.remote.velocity = Vec2(10, 0);
   in.dt = 0.1f;
@@ -91,7 +91,7 @@ const char* kWall =
     "[[joint]]\nname = \"moves\"\nkind = \"kinematic\"\nb = \"wall\"\n"
     "path = [[0, 0], [0, 0.1]]\nperiod = 600\n";
 
-TEST(Spring, GivesWayWhereAWallHoldsTheCopyBack) {
+TEST(Spring, YieldsIfAWallBlocksTheCopy) {
   // The authority's body is beyond the wall; the copy can never get there.
   FollowedCopy f(std::string(kWeightless) + kWall, "spring", 6);
   f.Steps(10);
@@ -112,7 +112,7 @@ TEST(Spring, GivesWayWhereAWallHoldsTheCopyBack) {
   EXPECT_LE(last, first + 0.01f) << "nor ever harder";
 }
 
-TEST(Spring, ComesBackInFullWhenTheWayIsFree) {
+TEST(Spring, ReturnsToFullStrengthWhenThePathIsFree) {
   PullMemory memory;
   PullInput in = Apart({-1, 0});
   const float full = PullSpring(in, &memory).now.velocity.x();
@@ -133,7 +133,7 @@ TEST(Spring, ComesBackInFullWhenTheWayIsFree) {
   EXPECT_FLOAT_EQ(asked, full);
 }
 
-TEST(Spring, StandingOnTheGroundIsNotBeingBlocked) {
+TEST(Spring, StandingOnTheGroundIsNoBlock) {
   // Beside a resting authority's body, on the ground: gravity is taken up, the pull is not.
   FollowedCopy f(
       "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"

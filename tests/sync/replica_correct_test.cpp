@@ -108,7 +108,7 @@ Shown CorrectPaddle(float before, float after) {
   return {view.angle[0] - was.angle, (shown - was.position - Turned(centre, was.angle)).norm()};
 }
 
-TEST(Correct, WhatSpinsIsShownAtItsAngleAtOnceAndItsCentreGlides) {
+TEST(Correct, ASpinningBodyTakesItsAngleAtOnceAndItsCentreGlides) {
   for (const auto& [before, after] : {std::pair{20.0f, 20.0f}, {20.0f, 0.0f}, {0.0f, -20.0f}}) {
     const Shown spinning = CorrectPaddle(before, after);
     EXPECT_NEAR(spinning.turned, 0.8f, 1e-5f) << before << " to " << after;

@@ -28,7 +28,7 @@ std::uint64_t HashOf(PartId id, const RestRecord& record) {
   return hash ^ (hash >> 33);
 }
 
-TEST(RestTable, ASumThatChangesWithABodyIsTheOneOverEverything) {
+TEST(RestTable, TheIncrementalSumEqualsTheFullSum) {
   for (const int count : {1, 32, 33, 300}) {
     RestTable table(count);
     Random random(7);
@@ -66,7 +66,7 @@ TEST(RestTable, ASumThatChangesWithABodyIsTheOneOverEverything) {
 }
 
 /// Sums of weak hashes would not tell two swapped poses, or two equal changes, apart.
-TEST(RestTable, WhatLiesWhereCountsAndNotOnlyThatSomethingLiesThere) {
+TEST(RestTable, TheHashTellsBodiesWithSwappedPosesApart) {
   const auto lies = [](float a, float b) {
     RestTable table(2);
     table.Commit(0, 0, 1, 5, {Vec2(a, 0), 0, Vec2(0, 0), 0});
@@ -94,7 +94,7 @@ TEST(RestBlocks, EachBodyIsInOneBlockAndHasItsTurn) {
   }
 }
 
-TEST(RestBlocks, WhatGoesOnToDifferIsLostAndWhatChangesIsUnderWay) {
+TEST(RestBlocks, APersistentDifferenceIsALossAndAChangingOneIsInFlight) {
   const RestBlock first{2, 0}, second{2, 1};
   RestBlocks blocks;
   EXPECT_FALSE(blocks.Lost(0, first, 1, 2));

@@ -45,7 +45,7 @@ std::int64_t Looks(int far) {
   return replica->world().looks() - before;
 }
 
-TEST(TickWork, IsTheSameHoweverManyBodiesAreFar) {
+TEST(TickWork, DoesNotGrowWithDistantBodies) {
   const std::int64_t few = Looks(10);
   EXPECT_GT(few, 0);
   EXPECT_EQ(Looks(2000), few);
@@ -66,13 +66,13 @@ double BytesWithJoint(int far) {
 }
 
 /// The exact solver is made anew at every barrier: of what takes part.
-TEST(TickWork, NextToJointsItAsksForNoMemoryForWhatIsFar) {
+TEST(TickWork, DistantBodiesTakeNoMemoryBesideJoints) {
   const double few = BytesWithJoint(10), many = BytesWithJoint(2010);
   EXPECT_GT(few, 0);
   EXPECT_LT((many - few) / 2000, 8) << "a number for each, at every second tick";
 }
 
-TEST(TickWork, OfWhatIsFarItBeginsWhereItsAuthorityPutsItNear) {
+TEST(TickWork, ADistantBodyBecomesPresentIfItsAuthorityPlacesItNear) {
   const std::unique_ptr<Replica> replica = RoomOf(500);
   for (int tick = 0; tick < 60; ++tick) replica->Step();
   constexpr int kFirst = 2;  // of the far ones

@@ -26,7 +26,7 @@ constexpr std::int64_t kLate = 10;  // ticks
 
 /// The other's disc strikes the own one here alone: its authority has it 20 m away, and says so
 /// when the blow has been told already. The first step back is to before it.
-TEST(ToldFact, WhatWasToldAsStruckMovesOnThoughNothingStruckIt) {
+TEST(SentImpact, ABodySentAsStruckMovesOnAfterTheImpactIsUndone) {
   FollowedCopy peers(kTwoDiscs, "rollback", kLate, {kOwn});
   peers.Steps(90);
   ASSERT_FALSE(peers.copy_world().awake(kOwn)) << "what wakes it is the blow";
