@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-bool GivenToWhoAsks() {
+bool HugePagesOnRequest() {
   std::FILE* const file = std::fopen("/sys/kernel/mm/transparent_hugepage/enabled", "re");
   if (file == nullptr) return false;
   std::array<char, 128> text{};
@@ -31,7 +31,7 @@ std::string OwnPath() {
 }  // namespace
 
 void UseHugePages(char** argv) {
-  if (std::getenv("GLIBC_TUNABLES") != nullptr || !GivenToWhoAsks()) return;
+  if (std::getenv("GLIBC_TUNABLES") != nullptr || !HugePagesOnRequest()) return;
   const std::string path = OwnPath();
   if (path.empty()) return;
   const char* const tunables = "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=1";

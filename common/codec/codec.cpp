@@ -148,7 +148,7 @@ const std::vector<MessageType>& MessageTypes() {
   return types;
 }
 
-std::int32_t ForeignProtocol(ByteView bytes) {
+std::int32_t OldRoomProtocol(ByteView bytes) {
   // Type hash (8 bytes), utime (8), sequence (4 in protocols 1 and 2, then 8), protocol (4).
   constexpr std::uint64_t kRoomHashBefore3 = 0xfc29582c30d1354e;
   constexpr std::uint64_t kRoomHashOf3 = 0xc7e41b86538767b7;

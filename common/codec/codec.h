@@ -38,6 +38,6 @@ const std::vector<MessageType>& MessageTypes();
 
 /// Returns the protocol version of a Room that Decode rejects because an older version wrote it. 0
 /// unless the bytes are a Room of a recognised old version (1 to 3).
-std::int32_t ForeignProtocol(ByteView bytes);
+std::int32_t OldRoomProtocol(ByteView bytes);
 
 }  // namespace seam

@@ -16,7 +16,7 @@ namespace seam {
 /// Raised when any message changes: peers of different versions do not talk.
 constexpr std::int32_t kProtocolVersion = 12;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
-constexpr std::int32_t kOldestRecorded = 8;
+constexpr std::int32_t kOldestReadableProtocol = 8;
 
 /// Client -> server, repeated until answered: asks for a room and its protocol version. No version
 /// may change these fields, so that peers of any two versions can exchange theirs.

@@ -11,13 +11,13 @@
 namespace seam {
 
 /// Longest time to wait for a Bye to get through, us; the slowest profile (soak) delays it by 1 s.
-constexpr std::int64_t kFarewellUsMax = 3000000;
+constexpr std::int64_t kDrainUsMax = 3000000;
 
 /// Waits until the simulated network has passed on all datagrams sent. Without this a Bye would
-/// never leave the process. Takes as long as the profile's delay, at most kFarewellUsMax; datagrams
+/// never leave the process. Takes as long as the profile's delay, at most kDrainUsMax; datagrams
 /// that arrive meanwhile are ignored.
-inline void LetThrough(UdpNet& udp, ImpairedNet& net) {
-  const std::int64_t deadline = SteadyClockUs() + kFarewellUsMax;
+inline void DrainNetwork(UdpNet& udp, ImpairedNet& net) {
+  const std::int64_t deadline = SteadyClockUs() + kDrainUsMax;
   for (std::int64_t now = 0; net.sending() && (now = SteadyClockUs()) < deadline;) {
     udp.Wait(std::clamp<std::int64_t>(net.next_due_us() - now, 0, 20000));
     net.Advance(SteadyClockUs());

@@ -85,13 +85,13 @@ struct HttpPage::Impl {
 
   /// Returns true if a connection is pending. A tenth of the cost of an accept without one: accept
   /// makes a socket first.
-  bool SomebodyWaits() const {
+  bool ConnectionPending() const {
     pollfd waiting{fd, POLLIN, 0};
     return poll(&waiting, 1, 0) > 0;
   }
 
   void Accept(std::int64_t now_us) {
-    while (connections.size() < kConnectionsMax && SomebodyWaits()) {
+    while (connections.size() < kConnectionsMax && ConnectionPending()) {
       const int got = accept4(fd, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
       if (got < 0) return;
       Connection connection;

@@ -25,7 +25,7 @@ constexpr std::size_t kSentRecords = 1024;
 constexpr std::int64_t kIdleUs = 100'000;
 constexpr std::int64_t kIdleQuietUs = 1'500'000;
 /// Minimum retransmission timeout, us; normally it is 1.25 round trips.
-constexpr std::int64_t kLateUsMin = 50'000;
+constexpr std::int64_t kTimeoutUsMin = 50'000;
 /// Sequence numbers that one ack field and its 32 bits cover.
 constexpr std::int64_t kAckSpan = 33;
 /// Acknowledged records kept for reuse of their memory.
@@ -52,7 +52,7 @@ struct Link::Impl {
 
   SequenceWindow window;
   std::int64_t flushed_newest = -1;  // window.newest() at the last Flush
-  bool ack_owed = false;             // a reliable message came since the last datagram sent
+  bool ack_pending = false;          // a reliable message came since the last datagram sent
   ReliableInbox inbox;
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;
@@ -91,7 +91,7 @@ struct Link::Impl {
   }
 
   /// Records the contents of the datagram in the writer.
-  void NoteSent(std::int64_t now_us) {
+  void RecordSent(std::int64_t now_us) {
     if (sent.size() >= kSentRecords) sent.pop_front();
     carried.sent_us = now_us;
     sent.push_back(std::exchange(carried, {}));
@@ -110,12 +110,12 @@ struct Link::Impl {
       header.ack = static_cast<std::uint16_t>(ack);
       header.ack_bits = window.BitsBefore(ack);
     }
-    NoteSent(packing.now_us);
+    RecordSent(packing.now_us);
     packing.send(writer.Finish(header));
     ++packing.datagrams;
     writer.Clear();
     last_send_us = packing.now_us;
-    ack_owed = false;
+    ack_pending = false;
   }
 
   void Pack(Packing& packing, const DatagramMessage& message) {
@@ -125,13 +125,13 @@ struct Link::Impl {
   }
 
   /// Returns true if a datagram must be sent even without messages.
-  bool OwesDatagram(std::int64_t now_us) const {
-    return ack_owed || last_send_us < 0 ||
+  bool MustSendDatagram(std::int64_t now_us) const {
+    return ack_pending || last_send_us < 0 ||
            now_us - last_send_us >= (quiet ? kIdleQuietUs : kIdleUs);
   }
 
   bool Sends(std::int64_t now_us) const {
-    if (!unreliable.empty() || OwesDatagram(now_us)) return true;
+    if (!unreliable.empty() || MustSendDatagram(now_us)) return true;
     return reliable.Due(now_us);
   }
 
@@ -143,7 +143,7 @@ struct Link::Impl {
   void Flush(std::int64_t now_us, const Sink& send) {
     FindAckPoints();
     Packing packing{now_us, send};
-    const bool rides = !unreliable.empty() || OwesDatagram(now_us);
+    const bool rides = !unreliable.empty() || MustSendDatagram(now_us);
     reliable.Take(now_us, rides, [&](std::int64_t id, ByteView message) {
       Pack(packing, {true, static_cast<std::uint16_t>(id), message});
       carried.ids.push_back(id);
@@ -153,7 +153,7 @@ struct Link::Impl {
       for (const Receipt& receipt : message.receipts) carried.receipts.push_back(receipt);
     }
     unreliable.clear();
-    if (!writer.empty() || OwesDatagram(now_us)) Emit(packing);
+    if (!writer.empty() || MustSendDatagram(now_us)) Emit(packing);
     while (packing.datagrams > 0 && packing.datagrams < acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
   }
@@ -163,7 +163,7 @@ struct Link::Impl {
   void SampleRtt(std::int64_t sample_us) {
     if (sample_us < 0) return;
     srtt_us = srtt_us < 0 ? sample_us : srtt_us + (sample_us - srtt_us) / 8;
-    reliable.SetLate(std::max(srtt_us + srtt_us / 4, kLateUsMin));
+    reliable.SetRetransmissionTimeout(std::max(srtt_us + srtt_us / 4, kTimeoutUsMin));
   }
 
   /// Marks datagram `number` as arrived. Karn's rule (never time a retransmission) holds by itself:
@@ -180,7 +180,7 @@ struct Link::Impl {
       largest = std::max(largest, receipt.number);
       if (receipt.slot == kListedSlot) listed.push_back(receipt.number);
     }
-    for (const std::int64_t id : record.ids) reliable.NoteAcked(id);
+    for (const std::int64_t id : record.ids) reliable.MarkAcked(id);
     Spare(&record);
   }
 
@@ -224,7 +224,7 @@ struct Link::Impl {
   void DeliverReliable(std::int64_t now_us, const DatagramMessage& message, const Sink& deliver) {
     const bool repeated = inbox.Has(message.id);
     // A repeated message was acknowledged before, but that ack may have been lost.
-    ack_owed = ack_owed || !repeated || now_us - last_send_us >= kLateUsMin;
+    ack_pending = ack_pending || !repeated || now_us - last_send_us >= kTimeoutUsMin;
     if (!repeated) inbox.Take(message, deliver);
   }
 
@@ -314,7 +314,7 @@ std::int64_t Link::acked(int slot) const {
   SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
   return impl_->arrived[static_cast<std::size_t>(slot)];
 }
-std::vector<std::int64_t> Link::TakeArrived() { return std::exchange(impl_->listed, {}); }
+std::vector<std::int64_t> Link::TakeAckedNumbers() { return std::exchange(impl_->listed, {}); }
 bool Link::SendsNow(std::int64_t now_us) const {
   if (impl_->Sends(now_us)) return true;
   idle_until_us_ = impl_->IdleUntilUs();

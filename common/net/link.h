@@ -29,7 +29,7 @@ constexpr std::size_t kReliableWindowBytes = 64 * kMessageBytesMax;
 
 /// Number of receipt slots, one for each player's inputs: Link reports the newest arrival per slot.
 constexpr int kReceiptSlots = kPlayersMax;
-/// The slot for which every arrival is listed (Link::TakeArrived).
+/// The slot for which every arrival is listed (Link::TakeAckedNumbers).
 constexpr int kListedSlot = kReceiptSlots;
 
 class Link {
@@ -75,7 +75,7 @@ class Link {
   /// Returns the largest acknowledged `number` of the slot; -1 if none.
   std::int64_t acked(int slot) const;
   /// Returns the numbers of kListedSlot that were acknowledged since the last call.
-  std::vector<std::int64_t> TakeArrived();
+  std::vector<std::int64_t> TakeAckedNumbers();
   /// Returns true if Flush would send anything now. Costs one comparison while nothing is due: a
   /// server asks all its links at each call.
   bool Sends(std::int64_t now_us) const { return now_us >= idle_until_us_ && SendsNow(now_us); }

@@ -17,9 +17,9 @@ class ReliableQueue {
   /// Queues a message; false when 4096 are queued. `urgent`: send one speculative duplicate.
   bool Push(ByteView message, bool urgent);
   /// Marks the message as acknowledged.
-  void NoteAcked(std::int64_t id);
+  void MarkAcked(std::int64_t id);
   /// Sets the retransmission timeout, us.
-  void SetLate(std::int64_t late_us);
+  void SetRetransmissionTimeout(std::int64_t late_us);
 
   /// Returns true if a message is due now, even in a datagram of its own.
   bool Due(std::int64_t now_us) const;
@@ -46,14 +46,14 @@ class ReliableQueue {
   /// Extends the window by as many messages as fit.
   void FillWindow();
   /// Charges a speculative duplicate to the rate limit.
-  void Pay(std::int64_t now_us, const Message& message);
+  void ChargeDuplicate(std::int64_t now_us, const Message& message);
 
   std::deque<Message> messages_;
   std::size_t window_ = 0;        // number of leading messages in the window
   std::size_t window_bytes_ = 0;  // their bytes
   std::int64_t next_id_ = 0;
   std::int64_t late_us_;
-  std::int64_t chances_paid_us_ = 0;  // time at which past duplicates fit the rate limit
+  std::int64_t duplicates_paid_us_ = 0;  // time at which past duplicates fit the rate limit
   mutable std::int64_t due_us_ = 0;   // no message of the window is due before
 };
 

@@ -26,7 +26,7 @@ constexpr int kSocketBufferBytes = 1 << 20;
 /// One byte more than we accept, so that a longer datagram is recognised as too long.
 constexpr std::size_t kSlotBytes = kDatagramBytesMax + 1;
 /// Most pending socket errors (an ICMP for an earlier send) skipped in one Receive.
-constexpr int kErrorsPassedOver = 8;
+constexpr int kErrorsSkippedMax = 8;
 /// Most datagrams of a wrong size skipped in one Receive, so that a flood cannot block it.
 constexpr int kDiscardsMax = 1024;
 
@@ -181,7 +181,7 @@ struct UdpNet::Impl {
     for (unsigned i = 0; i < in_count; ++i) in.Reset(i, kSlotBytes);  // the filled slots
     in_count = in_next = 0;
     if (std::exchange(drained, false)) return false;
-    for (int errors = 0; errors < kErrorsPassedOver; ++errors) {
+    for (int errors = 0; errors < kErrorsSkippedMax; ++errors) {
       const int got = recvmmsg(fd, in.headers.data(), kBatch, MSG_DONTWAIT, nullptr);
       if (got > 0) {
         in_count = static_cast<unsigned>(got);

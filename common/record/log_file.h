@@ -89,12 +89,12 @@ class LogReader {
   bool ReadHeader(std::int64_t at, bool magic_matters, Header* header);
   std::int64_t FindHeader(std::int64_t from, std::int64_t to);
   bool FollowedByEvent(std::int64_t end);
-  bool SwallowsAnother(std::int64_t at, const Header& header);
+  bool ContainsNextEvent(std::int64_t at, const Header& header);
 
   std::FILE* file_ = nullptr;
   Bytes window_;  ///< a stretch of the file, from window_at_
   std::int64_t window_at_ = 0;
-  std::uint8_t glance_[kChannelBytesMax] = {};
+  std::uint8_t peeked_header_[kChannelBytesMax] = {};
   std::int64_t at_ = 0;  ///< expected start of the next event
   std::int64_t size_bytes_ = 0;
   std::int64_t skipped_bytes_ = 0;

@@ -51,8 +51,8 @@ const std::uint8_t* LogReader::Peek(std::int64_t at, std::size_t bytes) {
   if (inside >= 0 && static_cast<std::size_t>(inside) + bytes <= window_.size()) {
     return window_.data() + inside;
   }
-  if (bytes <= sizeof glance_) {
-    return ReadAt(at, glance_, bytes) == bytes ? glance_ : nullptr;
+  if (bytes <= sizeof peeked_header_) {
+    return ReadAt(at, peeked_header_, bytes) == bytes ? peeked_header_ : nullptr;
   }
   const auto left = static_cast<std::size_t>(size_bytes_ - at);
   window_.resize(std::min(left, std::max(bytes, kReadBytes)));
@@ -123,7 +123,7 @@ bool LogReader::FollowedByEvent(std::int64_t end) {
 /// this one. If an event follows at this one's end, the inner one must have the next number (a
 /// message may contain a piece of another log); if none follows, any inner event will do. If there
 /// is neither, the damage lies after this event.
-bool LogReader::SwallowsAnother(std::int64_t at, const Header& header) {
+bool LogReader::ContainsNextEvent(std::int64_t at, const Header& header) {
   const std::int64_t inner_at = FindHeader(at + 1, header.end);
   if (inner_at == header.end) return false;
   Header inner;
@@ -138,7 +138,7 @@ bool LogReader::Next(LogEvent* event) {
   for (;; ++at_) {
     at_ = FindHeader(at_, size_bytes_);
     if (at_ == size_bytes_ || !ReadHeader(at_, true, &header)) break;
-    if (!SwallowsAnother(at_, header)) break;
+    if (!ContainsNextEvent(at_, header)) break;
   }
   if (at_ != expected) {
     ++damaged_places_;

@@ -68,7 +68,7 @@ bool RecordingBuilder::Add(const std::string& channel, ByteView message, std::in
         using M = std::decay_t<decltype(m)>;
         if constexpr (std::is_same_v<M, std::monostate>) {
           ++recording_.undecodable;
-          const std::int32_t protocol = ForeignProtocol(message);
+          const std::int32_t protocol = OldRoomProtocol(message);
           if (protocol != 0) recording_.foreign_protocol = protocol;
           return false;
         } else if constexpr (MessageTraits<M>::kTravels == Travels::kEdge) {
@@ -120,7 +120,7 @@ bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int64_t sequ
 }
 
 bool RecordingBuilder::Keep(Room& room) {
-  if (room.protocol < kOldestRecorded || room.protocol > kProtocolVersion) {
+  if (room.protocol < kOldestReadableProtocol || room.protocol > kProtocolVersion) {
     recording_.foreign_protocol = room.protocol;
     ++recording_.foreign;
     return false;
@@ -284,8 +284,9 @@ Recording ReadRecording(const std::string& path, const std::string& room) {
     const std::int32_t other = builder.recording().foreign_protocol;
     if (other != 0) {
       throw OperatorError(path + ": recorded with protocol " + std::to_string(other) +
-                          "; this program reads protocol " + std::to_string(kOldestRecorded) +
-                          " to " + std::to_string(kProtocolVersion));
+                          "; this program reads protocol " +
+                          std::to_string(kOldestReadableProtocol) + " to " +
+                          std::to_string(kProtocolVersion));
     }
     const std::string which = room.empty() ? "no Seam2D room" : "no room \"" + room + "\"";
     throw OperatorError(path + ": " + which + " in this log (record channels SEAM.*)");

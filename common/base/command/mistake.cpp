@@ -26,7 +26,7 @@ const CLI::App& Innermost(const CLI::App& app) {
 }
 
 /// Appends the probable correction to "--drive: scrpt not in {script,bot}".
-std::string WithMember(const std::string& text) {
+std::string WithSuggestion(const std::string& text) {
   const std::string mark = " not in {";
   const std::size_t at = text.find(mark), from = text.find(": "), end = text.find('}');
   if (at == std::string::npos || from == std::string::npos || end == std::string::npos) return text;
@@ -52,7 +52,7 @@ std::string CommandMistake(const CLI::App& app, const CLI::ParseError& e) {
     const std::string& name = rest.front();
     return "there is no subcommand '" + name + "' (" + Suggestion(name, CommandNames(table)) + ")";
   }
-  return WithMember(e.what());
+  return WithSuggestion(e.what());
 }
 
 }  // namespace seam

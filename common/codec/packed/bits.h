@@ -115,9 +115,9 @@ class BitReader {
 
 /// An adaptive Golomb parameter that follows the median width of the coded numbers, so that a rare
 /// large one hardly moves it. Writer and reader adapt identically.
-class Learned {
+class AdaptiveGolomb {
  public:
-  explicit Learned(int k) : quarters_(4 * k + 2) {}
+  explicit AdaptiveGolomb(int k) : quarters_(4 * k + 2) {}
   int k() const { return quarters_ / 4; }
   void Note(std::uint32_t value) {
     const int width = BitWidth(value), now = k();

@@ -31,8 +31,8 @@ PackedMotion::PackedMotion(float x, float y, int hz) : tick_hz(std::max(1, hz)) 
   gravity_y = fine(y);
 }
 
-PackedState GuessVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
-                          bool falls) {
+PackedState PredictVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
+                            bool falls) {
   PackedState to = from;
   to.tick = tick;
   if (!falls) return to;
@@ -42,7 +42,7 @@ PackedState GuessVelocity(const PackedMotion& motion, const PackedState& from, s
   return to;
 }
 
-void GuessPlace(const PackedMotion& motion, const PackedState& from, PackedState* to) {
+void PredictPose(const PackedMotion& motion, const PackedState& from, PackedState* to) {
   const std::int64_t ticks = Ticks(from.tick, to->tick);
   // Positions are in 1/512 m and velocities in 1/256 m/s, so the sum of two velocities is their
   // mean in position units per second.

@@ -50,17 +50,19 @@ constexpr std::size_t kPackedFields = 6;
 
 /// Predicts the velocities of `from` at `tick`: under gravity if it `falls`, else unchanged. Epoch
 /// and flags are those of `from`.
-PackedState GuessVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
-                          bool falls);
+PackedState PredictVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
+                            bool falls);
 /// Predicts the pose of `to` at to->tick from the pose of `from` and the mean of both velocities.
-void GuessPlace(const PackedMotion& motion, const PackedState& from, PackedState* to);
+void PredictPose(const PackedMotion& motion, const PackedState& from, PackedState* to);
 
 /// Adaptive state of the coding of one message; reset for each message.
 struct PackedContext {
-  std::array<Learned, kPackedFields> known{Learned(2), Learned(2), Learned(1),
-                                           Learned(2), Learned(2), Learned(3)};
-  std::array<Learned, kPackedFields> fresh{Learned(9),  Learned(9),  Learned(8),
-                                           Learned(10), Learned(10), Learned(13)};
+  std::array<AdaptiveGolomb, kPackedFields> known{AdaptiveGolomb(2), AdaptiveGolomb(2),
+                                                  AdaptiveGolomb(1), AdaptiveGolomb(2),
+                                                  AdaptiveGolomb(2), AdaptiveGolomb(3)};
+  std::array<AdaptiveGolomb, kPackedFields> fresh{AdaptiveGolomb(9),  AdaptiveGolomb(9),
+                                                  AdaptiveGolomb(8),  AdaptiveGolomb(10),
+                                                  AdaptiveGolomb(10), AdaptiveGolomb(13)};
   PackedState last;         // state of the previous entry
   std::int32_t id_gap = 0;  // id distance of the previous entry in the group; 0: none
   std::int32_t id = -1;     // id of the previous entry in the group

@@ -11,7 +11,7 @@ constexpr std::uint32_t kQuantaPerMetre = 512;
 /// Most messages with contents remembered until they are acknowledged.
 constexpr std::size_t kSentMost = 256;
 /// Time between resends of a lost state, us: the first, and the longest.
-constexpr std::int64_t kAgainUs = 100000, kAgainUsMax = 400000;
+constexpr std::int64_t kResendUs = 100000, kResendUsMax = 400000;
 /// Most emptied records kept for reuse of their memory.
 constexpr std::size_t kSpareMost = 16;
 /// Most bytes of an entry, a group's header and all end marks together.
@@ -74,7 +74,7 @@ std::int32_t Difference(std::int16_t a, std::int16_t b) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
 }
 
-std::int32_t OffBy(const PackedState& state, const PackedState& guess) {
+std::int32_t VelocityError(const PackedState& state, const PackedState& guess) {
   return std::abs(Difference(state.vx, guess.vx)) + std::abs(Difference(state.vy, guess.vy));
 }
 
@@ -144,10 +144,10 @@ void StatesPacker::End() {
 }
 
 void StatesPacker::PutDifferences(const PackedState& state, const PackedState& guess,
-                                  std::array<Learned, kPackedFields>* learned) {
+                                  std::array<AdaptiveGolomb, kPackedFields>* learned) {
   Run run(&bits_);
   const auto put = [&](PackedField field, std::int32_t difference) __attribute__((always_inline)) {
-    Learned& with = (*learned)[field];
+    AdaptiveGolomb& with = (*learned)[field];
     const std::uint32_t code = ZigZag(difference);
     run.PutGolomb(code, with.k());
     with.Note(code);
@@ -188,12 +188,12 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
   }
   if (kept) {
     // Chooses the better prediction: free fall or constant velocity.
-    const PackedState fallen = GuessVelocity(motion_, before, state.tick, true);
-    const bool falls = OffBy(state, fallen) < OffBy(state, before);
+    const PackedState fallen = PredictVelocity(motion_, before, state.tick, true);
+    const bool falls = VelocityError(state, fallen) < VelocityError(state, before);
     run.Put(falls ? 1 : 0, 1);
     run.End();
     PackedState now = state;
-    GuessPlace(motion_, before, &now);
+    PredictPose(motion_, before, &now);
     now.vx = falls ? fallen.vx : before.vx;
     now.vy = falls ? fallen.vy : before.vy;
     now.spin = before.spin;
@@ -244,23 +244,23 @@ void StatesPacker::Add(const PackedHeader& header, const PackedEntry* begin,
 
 std::vector<StatesPacker::Message> StatesPacker::Take(std::int64_t now_us) {
   End();
-  for (const Message& message : ready_) under_way_.push_back({message.number, now_us});
+  for (const Message& message : ready_) in_flight_.push_back({message.number, now_us});
   return std::exchange(ready_, {});
 }
 
-std::vector<StatesPacker::Sent>* StatesPacker::SentIn(std::int64_t number) {
+std::vector<StatesPacker::Sent>* StatesPacker::StatesSentIn(std::int64_t number) {
   const std::int64_t age = number_ - number;
   if (age < 0 || age >= static_cast<std::int64_t>(sent_.size())) return nullptr;
   return &sent_[sent_.size() - 1 - static_cast<std::size_t>(age)];
 }
 
-void StatesPacker::FindOwed(std::int64_t until_us) {
+void StatesPacker::FindLostStates(std::int64_t until_us) {
   const std::size_t before = owed_.size();
-  for (; !under_way_.empty() && under_way_.front().sent_us <= until_us; under_way_.pop_front()) {
-    const std::vector<Sent>* const bodies = SentIn(under_way_.front().number);
+  for (; !in_flight_.empty() && in_flight_.front().sent_us <= until_us; in_flight_.pop_front()) {
+    const std::vector<Sent>* const bodies = StatesSentIn(in_flight_.front().number);
     if (bodies == nullptr) continue;
     for (const Sent& sent : *bodies) {
-      if (KnownOf(sent.id).count < sent.count) owed_.push_back({sent.id, sent.count, 0, kAgainUs});
+      if (KnownOf(sent.id).count < sent.count) owed_.push_back({sent.id, sent.count, 0, kResendUs});
     }
   }
   if (owed_.size() == before) return;
@@ -280,7 +280,7 @@ void StatesPacker::FindOwed(std::int64_t until_us) {
 
 std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64_t late_us,
                                                  const Wanted& wanted) {
-  FindOwed(now_us - late_us);
+  FindLostStates(now_us - late_us);
   std::vector<std::int32_t> again;
   std::size_t left = 0;
   for (Owed owed : owed_) {
@@ -289,7 +289,7 @@ std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64
       if (!wanted(owed.id)) continue;
       again.push_back(owed.id);
       owed.due_us = now_us + owed.again_us;
-      owed.again_us = std::min(2 * owed.again_us, kAgainUsMax);
+      owed.again_us = std::min(2 * owed.again_us, kResendUsMax);
     }
     owed_[left++] = owed;
   }
@@ -298,7 +298,7 @@ std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64
 }
 
 void StatesPacker::Acknowledge(std::int64_t number) {
-  std::vector<Sent>* const bodies = SentIn(number);
+  std::vector<Sent>* const bodies = StatesSentIn(number);
   if (bodies == nullptr) return;
   for (const Sent& sent : *bodies) {
     Known& known = KnownOf(sent.id);

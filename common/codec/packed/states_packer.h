@@ -48,7 +48,7 @@ class StatesPacker {
     PackedState state;
   };
   /// A message in flight or lost.
-  struct UnderWay {
+  struct InFlight {
     std::int64_t number = 0, sent_us = 0;
   };
   /// A body with a lost state, its `count`-th.
@@ -71,12 +71,12 @@ class StatesPacker {
   void Spare(std::vector<Sent>* bodies);
   void AddBody(const PackedState& state, std::int32_t id);
   void PutDifferences(const PackedState& state, const PackedState& guess,
-                      std::array<Learned, kPackedFields>* learned);
+                      std::array<AdaptiveGolomb, kPackedFields>* learned);
   Known& KnownOf(std::int32_t id);
   /// Returns the states in a message, empty once acknowledged; nullptr if no longer recorded.
-  std::vector<Sent>* SentIn(std::int64_t number);
+  std::vector<Sent>* StatesSentIn(std::int64_t number);
   /// Adds to owed_ the unacknowledged states that were sent by `until_us`.
-  void FindOwed(std::int64_t until_us);
+  void FindLostStates(std::int64_t until_us);
 
   const PackedMotion motion_;
   std::vector<Message> ready_;
@@ -88,7 +88,7 @@ class StatesPacker {
   std::int32_t revision_ = 0;
   std::int64_t composition_ = 0;
   std::deque<std::vector<Sent>> sent_;    // states in successive messages up to number_
-  std::deque<UnderWay> under_way_;        // oldest first, until checked for loss
+  std::deque<InFlight> in_flight_;        // oldest first, until checked for loss
   std::vector<Owed> owed_;                // ascending by id
   std::vector<std::vector<Sent>> spare_;  // empty vectors for reuse
   std::vector<std::int32_t> place_;       // by id: index in known_; -1: nothing sent

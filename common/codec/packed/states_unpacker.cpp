@@ -117,7 +117,8 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
     state.epoch = static_cast<std::int32_t>(bits->GetGolomb(4));
     state.flags = static_cast<std::int8_t>(bits->Get(3));
   }
-  std::array<Learned, kPackedFields>& learned = from != nullptr ? context.known : context.fresh;
+  std::array<AdaptiveGolomb, kPackedFields>& learned =
+      from != nullptr ? context.known : context.fresh;
   const auto get = [&](PackedField field) {
     const std::uint32_t code = bits->GetGolomb(learned[field].k());
     learned[field].Note(code);
@@ -127,7 +128,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
     *value = Low(static_cast<std::uint32_t>(*value) + get(field));
   };
   if (from != nullptr) {
-    const PackedState guess = GuessVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
+    const PackedState guess = PredictVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
     state.vx = guess.vx;
     state.vy = guess.vy;
     state.spin = guess.spin;
@@ -136,7 +137,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   add(kPackedVy, &state.vy);
   add(kPackedSpin, &state.spin);
   if (from != nullptr) {
-    GuessPlace(motion_, *from, &state);
+    PredictPose(motion_, *from, &state);
   } else {
     state.x = context.last.x;
     state.y = context.last.y;
