@@ -1,4 +1,4 @@
-/// Quantiles as Prometheus has them, of counts that are known.
+/// Quantiles of known counts, computed as Prometheus computes them.
 
 #include "common/base/bucket_histogram.h"
 

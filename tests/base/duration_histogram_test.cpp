@@ -1,4 +1,4 @@
-/// Percentiles from classes, against those of the sorted values.
+/// Compares percentiles from buckets with those of the sorted values.
 
 #include "common/base/duration_histogram.h"
 

@@ -1,4 +1,4 @@
-/// What a player or a room may be called.
+/// Checks which names players and rooms may have.
 
 #include "common/base/names.h"
 

@@ -39,7 +39,7 @@ class TerminalErrors {
     size.ws_row = 24;
     ioctl(window_, TIOCSWINSZ, &size);
   }
-  /// What was written since the last time; at least one character is waited for.
+  /// Returns the text written since the last call; waits for at least one character.
   std::string Read() const {
     char text[1000];
     const ssize_t bytes = read(window_, text, sizeof text);
