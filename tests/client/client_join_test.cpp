@@ -1,4 +1,4 @@
-/// How a client gets in, and what it says when it cannot: against a server written by hand.
+/// Tests how a client joins, and its messages when it cannot, against a hand-written server.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// With what a client begins that joins late: what it was told last, at the tick it was told of.
+/// Tests the states with which a late client begins: the last ones received, at their ticks.
 
 #include "client/join_buffer.h"
 

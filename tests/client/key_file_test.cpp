@@ -1,4 +1,4 @@
-/// The file of a player's key is nobody else's, or it is not used.
+/// A player's key file must be readable by its owner alone, or it is refused.
 
 #include "client/key_file.h"
 
@@ -16,7 +16,7 @@ namespace key_file_test {
 
 class KeyFileTest : public ::testing::Test {
  protected:
-  /// What is wrong with the file; "": nothing.
+  /// Returns the reason that the file is refused; "": accepted.
   std::string Refusal(const std::string& name) {
     try {
       KeyFile file(folder_ / name);

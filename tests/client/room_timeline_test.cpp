@@ -1,4 +1,4 @@
-/// The room's clock as a client follows it: never backwards, and in the end where the server's is.
+/// The client's estimate of the room's clock never goes backwards and converges to the server's.
 
 #include "client/room_timeline.h"
 

@@ -1,4 +1,4 @@
-/// SceneCache: the same text is one scene, and what is no scene is refused as ParseScene does.
+/// SceneCache: equal texts share one scene, and an invalid text is refused as by ParseScene.
 
 #include "client/scene_cache.h"
 

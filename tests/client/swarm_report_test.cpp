@@ -1,4 +1,4 @@
-/// What seam-swarm says of the server, from what it was told.
+/// Tests the server's part of seam-swarm's report, from given load messages.
 
 #include <gtest/gtest.h>
 

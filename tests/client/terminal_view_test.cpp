@@ -1,4 +1,4 @@
-/// The world in a terminal: dots where things are, in their holder's colour.
+/// The world in a terminal: bodies are dots in their holder's colour.
 
 #include "client/terminal_view.h"
 

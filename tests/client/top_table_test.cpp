@@ -1,4 +1,4 @@
-/// seam-top's table: rates between two tellings, and rooms that fall silent.
+/// seam-top's table: rates between two load messages, and rooms that fall silent.
 
 #include "client/top/top_table.h"
 
