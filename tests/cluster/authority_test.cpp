@@ -1,4 +1,4 @@
-/// Who has authority over what, when, in clusters whose network loses a lot: never two at once.
+/// Authority over lossy networks: a mechanism never has two authorities at once.
 
 #include <gtest/gtest.h>
 

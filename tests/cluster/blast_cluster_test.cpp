@@ -1,4 +1,5 @@
-/// Explosions in the real server with real clients: ordered once, felt by everybody at one tick.
+/// Explosions with the real server and real clients: each is ordered once and acts on every peer at
+/// one tick.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -177,7 +178,7 @@ TEST(BlastCluster, UnderRollbackTheBlastEqualsTheOraclesAtItsTick) {
   const Recording recording = RunCluster(config);
   const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));
   ASSERT_EQ(recording.edits.size(), 1u);
-  // A second later the order has long come, and whoever has felt it at another tick is 10 cm off.
+  // A second later the order has long arrived; a peer that applied it at another tick is 10 cm off.
   EXPECT_LT(WorstAt(recording, oracle, 125), 0.02);
   EXPECT_GT(recording.edits.begin()->second.tick, 55);
 }

@@ -1,5 +1,4 @@
-/// What leaves the bounds of its scene is removed by the server's edits, for everybody, and
-/// counted.
+/// The server removes mechanisms that leave the scene's bounds, for all peers, and counts them.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// The boxes of scenes/conveyor.toml go round for ten minutes.
+/// The boxes of scenes/conveyor.toml circulate for ten minutes.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-/// Edits that physics found happen at the tick at which they would without a network, on every peer
-/// that goes back.
+/// Edits found by physics act at the same tick as without a network, on every peer that replays.
 
 #include <gtest/gtest.h>
 
@@ -41,8 +40,8 @@ double Last(const Recording& recording, const Oracle& oracle) {
   return worst;
 }
 
-/// A break waits until everybody's inputs of its tick are known: also those of who drives nothing
-/// that moves, and would have nothing to send.
+/// A break waits for all inputs of its tick, also for those of players that drive nothing moving
+/// and would have nothing to send.
 TEST(EditTick, AnIdlePlayerDoesNotDelayABreak) {
   const Recording recording = Break("perfect", 1);
   const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));

@@ -1,4 +1,4 @@
-/// What changes hands begins at its successor where its holder left it.
+/// A mechanism that changes hands begins at its successor with its holder's last state.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST(ExactHandOver, TheSuccessorBeginsAtTheHoldersLastState) {
   }
 }
 
-/// Nine of ten States are lost: what was heard of a body is a third of a second old.
+/// Nine of ten States are lost: the last received one is a third of a second old.
 TEST(ExactHandOver, TheLastExactStateAloneIsEnough) {
   ClusterConfig config;
   config.scene = "pendulums.toml";

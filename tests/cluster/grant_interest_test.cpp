@@ -1,6 +1,5 @@
-/// In a large room a change of authority is told to those whom it concerns, at once, to the others
-/// soon, and to those to whom it is nothing at last: nobody is left with another owner, whatever
-/// happens in between.
+/// In a large room, clients that need a change of authority hear of it at once, the others soon,
+/// and distant ones last: no client keeps a wrong owner.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// How long a hand-over takes, from the order to let go to the next grant.
+/// Measures a hand-over, from the revocation to the next grant.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Who has no session, or somebody else's name: what a room of real players suffers from them.
+/// Attacks on a room of real players by senders without a session or under another player's name.
 
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ Guest GuestOf(Cluster* cluster, const std::string& name) {
   return guest;
 }
 
-/// Runs for so many ticks; the guest says Hello or Join until it is in, then what it has to say.
+/// Runs for `ticks`; the guest sends Hello or Join until it is admitted, then its other messages.
 void RunWith(Cluster* cluster, Guest* guest, std::int64_t ticks) {
   cluster->each_instant = [=] {
     guest->Read(cluster->now_us());
@@ -237,7 +237,7 @@ TEST(Hostile, AFlooderIsDecodedWithinItsBudgetAndHasToLeave) {
   }
   const double seconds = static_cast<double>(cluster.server().tick() - began) / 60;
   const double decoded = static_cast<double>(cluster.server().decoded() - before);
-  // Its own, and what the two players say besides.
+  // Its own messages, and those of the two players.
   const double allowed = AllowedTraffic(60, 30).messages, honest = HonestTraffic(60, 30).messages;
   EXPECT_LE(decoded, allowed * (seconds + kBudgetBurst) + 2 * honest * seconds);
   EXPECT_GT(static_cast<double>(sent), 10 * decoded);
@@ -259,7 +259,7 @@ TEST(Hostile, NoHonestClientLosesAnythingToItsBudgetOverAnyNetwork) {
     SCOPED_TRACE(config.scene + " " + config.mode + " over " + config.impair);
     const Stats& stats = cluster.server().stats();
     EXPECT_EQ(stats.dropped_budget, 0);
-    // And what we think that a client needs is not less than what these send.
+    // And the rate assumed for an honest client is not less than the rate sent here.
     const double sent = 12.0 * cluster.client_count();
     const TrafficRate need = HonestTraffic(cluster.scene().solver.tick_hz, config.send_hz);
     EXPECT_LT(static_cast<double>(stats.bytes_in) / sent, need.bytes);

@@ -1,4 +1,4 @@
-/// An input acts so many ticks after it was read, at every peer and in the oracle.
+/// An input acts a fixed number of ticks after it was read, on every peer and in the oracle.
 
 #include <gtest/gtest.h>
 

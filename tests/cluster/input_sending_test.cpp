@@ -1,4 +1,4 @@
-/// Inputs over a bad network: every change arrives, and what is held costs little.
+/// Inputs over a bad network: every change arrives, and held inputs cost little.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(InputSending, EveryChangeReachesTheServerAndTheOthersWithAThirdOfTheDatagra
     const std::int64_t end = cluster.server().tick() - 30;  // what is under way does not count
     ASSERT_GT(end, 200);
     int changes = 0;
-    // What each peer has: the server, and bob's client.
+    // The inputs known to the server and to bob's client.
     InputTrack servers = cluster.server().replica().inputs(kAnn);
     InputTrack bobs = cluster.client(1)->replica()->inputs(kAnn);
     for (std::int64_t tick = 60; tick < end; ++tick) {
@@ -106,7 +106,7 @@ double BytesInFullRoom(int players) {
   cluster.RunToTick(90);
   const std::int64_t before = cluster.client(0)->stats().bytes_in;
   cluster.RunToTick(270);
-  // Every other player's inputs have come: what is counted is not that they were left out.
+  // Every other player's inputs have arrived: the count does not profit from omitted ones.
   const std::int64_t end = cluster.server().tick() - 12;
   for (int player = 1; player < players; ++player) {
     EXPECT_TRUE(cluster.client(0)->replica()->inputs(player).At(end) ==

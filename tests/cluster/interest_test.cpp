@@ -1,6 +1,6 @@
-/// What a client hears of: everything of what it follows, of the rest what it would not guess, of
-/// what is far not every detail, of what is nothing to it hardly anything; and of inputs those that
-/// move something that it simulates.
+/// States that a client receives: all of followed bodies, of others only those it would reckon
+/// wrongly, few of distant ones, hardly any outside its interest area; and inputs that move a body
+/// that it simulates.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace seam {
 namespace interest_test {
 
-/// Counts what comes to a client: states by body, inputs by player.
+/// Counts a client's received states by body, and inputs by player.
 class CountingNet : public Net {
  public:
   struct Counts {

@@ -1,5 +1,5 @@
-/// The measure's own error: a session in mode oracle over a perfect network is the oracle, exactly,
-/// in every scene.
+/// The error of the measure itself: in every scene, a session in mode oracle over a perfect network
+/// equals the oracle exactly.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(OracleRow, IsExactlyZeroInEveryScene) {
   }
 }
 
-/// What the server's view is off by, RMS of points of bodies, m.
+/// Error of the server's view, RMS over points of bodies, m.
 double ServerIsOff(const std::string& scene, double duration_s) {
   ClusterConfig config;
   config.scene = scene;

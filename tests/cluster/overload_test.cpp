@@ -1,4 +1,4 @@
-/// A server that cannot keep up slows its room down for everyone alike: in virtual time, with ticks
+/// A server that cannot keep up slows its room down for all clients: in virtual time, with ticks
 /// that take twice their period.
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ constexpr std::int64_t kPeriodUs = 1000000 / 60;
 /// The server is overloaded from the first of these ticks to the second.
 constexpr std::int64_t kFrom = 120, kUntil = 480, kEnd = 900;
 
-/// What was seen of a run.
+/// Observations of a run.
 struct Seen {
   std::int64_t worst_late_us = 0;  ///< of the server's next tick, once it had time to notice
   std::int64_t worst_wait_us = 0;  ///< between two ticks of a client

@@ -1,5 +1,5 @@
-/// Authority by contact islands in whole sessions: who touches something has it, clients do the
-/// work, and there is never a second authority.
+/// Authority by contact islands in whole sessions: a player that touches a body gets it, clients do
+/// the work, and there is never a second authority.
 
 #include <gtest/gtest.h>
 

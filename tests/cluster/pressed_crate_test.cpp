@@ -1,4 +1,5 @@
-/// Damage goes by what the authorities felt: a crate between two of them, and blows between two.
+/// Damage follows the impacts found by the authorities: a crate between two of them, and impacts
+/// between two.
 
 #include <gtest/gtest.h>
 
@@ -164,7 +165,7 @@ TEST(PressedCrate, ForgedReportsAreCountedAndDamageNothing) {
       ImpactReport report;
       report.tick = states.tick;
       report.revision = states.revision;
-      // Of what is bob's; far off; and of more than anything near it could give.
+      // About bob's body; far off; and stronger than any nearby body could cause.
       const std::int32_t struck = static_cast<std::int32_t>(forged % 3 == 0 ? 1 : 0);
       report.id = {struck};
       report.epoch = {states.epoch.at(0)};

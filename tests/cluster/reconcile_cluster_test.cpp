@@ -1,4 +1,4 @@
-/// The rules that act every tick, and the one that goes back, in whole sessions.
+/// Rules that correct every tick, and the one that replays, in whole sessions.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 namespace seam {
 namespace reconcile_cluster_test {
 
-/// What is beyond the buffer zone is displayed only: a rule that pulls a copy of all there is on in
-/// every tick is another matter.
+/// Bodies beyond the buffer zone are only displayed: rules that pull every copy in every tick are
+/// tested elsewhere.
 ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   std::ifstream file("scenes/" + scene + ".toml");
   std::stringstream text;
@@ -29,9 +29,9 @@ ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   return config;
 }
 
-/// A cradle's fourth blow meets copies that are a centimetre off, between balls that hang two
+/// A cradle's fourth impact meets copies that are a centimetre off, between balls that hang two
 /// apart: under a rule that pulls, two balls fly instead of one with two seeds of five (error .05
-/// or .19 m over all 10 s). What a rule does is seen before that, s.
+/// or .19 m over all 10 s). The effect of a rule shows before that, s.
 constexpr double kCradleSeconds = 8;
 
 /// Of five seeds the worst in the cradle, else the median: after a collision one network's dice say
@@ -50,8 +50,8 @@ double ErrorOf(const std::string& scene, const std::string& reconcile) {
   return cradle ? errors.back() : errors[2];
 }
 
-/// Bounds are twice what was measured, m, with iterative joints: exact ones keep a cradle's blows
-/// going, and a rule that is late for one is late for all of them.
+/// Bounds are twice the measured error, m, with iterative joints: exact ones keep a cradle's
+/// impacts going, and a rule that is late for one is late for all of them.
 struct Bound {
   const char* rule;
   double crossing, cradle;

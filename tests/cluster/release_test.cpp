@@ -1,5 +1,5 @@
-/// What a client can do by its answers, or by answering late or not at all: it can give away what
-/// it has, and nothing else.
+/// A client's releases, early, late or missing: it can give away its own mechanisms and affect no
+/// others.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ ClusterConfig Shuttle(const std::string& impair) {
   return config;
 }
 
-/// What ann sends passes `rewrite`.
+/// Ann's messages pass through `rewrite`.
 void Tamper(ClusterConfig* config, RewritingNet::Rewrite rewrite,
             RewritingNet::RewriteHeader rewrite_header = {}) {
   config->client_net = [=](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
@@ -56,7 +56,7 @@ int Said(const Recording& recording, const std::string& why) {
   return count;
 }
 
-/// The longest that the server's grants left a mechanism between revocation and what followed, us.
+/// The longest time in the server's grants between a revocation and the next grant, us.
 std::int64_t LongestHandOverUs(const Recording& recording) {
   const std::vector<double> ms = HandOverMs(recording);
   return ms.empty() ? 0 : static_cast<std::int64_t>(ms.back() * 1000);
@@ -258,7 +258,7 @@ TEST(Release, AnEditThatOvertakesAHandOverLeavesNobodyWaiting) {
     const auto& grants = cluster.recording().grants;
     const AuthorityTable& table = cluster.server().replica().authority();
     if (grants.empty() || grants.back().authority.at(0) != 0) return false;
-    // The first: what becomes of all three goes on from it.
+    // The first: the fate of all three follows from it.
     return grants.back().mechanism.at(0) == table.id(0) && table.at(0).authority != 0;
   };
   while (cluster.server().tick() < 60 * 10 && !revoking()) {

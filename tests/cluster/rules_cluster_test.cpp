@@ -1,5 +1,5 @@
-/// Rules in the real server with real clients: what is decided once is known to all, whatever the
-/// network does.
+/// Rules with the real server and real clients: each decision is made once and reaches all peers
+/// over any network.
 
 #include <gtest/gtest.h>
 
@@ -98,7 +98,7 @@ TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersAgreeAtTheEnd) {
       const float bob = server.Get({kMetaPlayer, 1, kMetaScore});
       EXPECT_EQ(ann + bob, 12) << mode;
       EXPECT_GE(std::min(ann, bob), 5) << mode << ": they meet in the middle";
-      // 2 m of acid at 3 m/s, and the margin of leaving: 41 ticks, whatever the network does.
+      // 2 m of acid at 3 m/s, and the margin of leaving: 41 ticks over any network.
       EXPECT_NEAR(server.Get({kMetaPart, 0, kMetaHealth}), 93.2, 0.3) << mode << " " << seed;
       for (int c = 0; c < cluster.client_count(); ++c) {
         EXPECT_EQ(cluster.client(c)->metadata().values(), server.values()) << mode << " " << c;

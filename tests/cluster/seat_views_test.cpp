@@ -1,4 +1,4 @@
-/// Who gets into a seat and out of it is seen to go there, by everybody: no view jumps.
+/// Players get into and out of a seat: no view of it jumps on any peer.
 
 #include <gtest/gtest.h>
 
@@ -117,8 +117,8 @@ TEST(SeatViews, NobodySeesAJumpOverFiveCentimetresWhenAPlayerGetsInOrOut) {
   }
 }
 
-/// A cart with two seats rolls past ann and bob, who both press when it is there; later they get
-/// out of it while it drives.
+/// A cart with two seats rolls past ann and bob; both press as it passes, and later get out while
+/// it drives.
 std::string Passing(double speed, double where) {
   constexpr double kAt = 2;  // s
   const double from = where - speed * kAt;
@@ -197,7 +197,7 @@ TEST(SeatViews, NobodySeesAJumpWhenSomebodyEntersOrLeavesAMovingVehicle) {
     config.impair = "4g";
     config.seed = c.seed;
     const Recording recording = RunCluster(config);
-    // It is fast, and who gets out of it falls: then there are blows that each has elsewhere.
+    // It is fast, and a player that gets out falls: its impacts differ between peers.
     const Jump in = LargestJump(recording, 1.9, 4.9), out = LargestJump(recording, 6.9, 8.0);
     std::printf("[          ] %g m/s, seed %lld: in %.4f m (%s), out %.4f m (%s)\n", c.speed,
                 static_cast<long long>(c.seed), in.metres, in.where.c_str(), out.metres,
@@ -240,10 +240,10 @@ TEST(SeatViews, ADriverThatLeavesTheRoomStopsDriving) {
 }
 
 TEST(SeatViews, AClientThatJoinsMidwayAgreesAfterASecond) {
-  // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h). The first
-  // of these jumped: what was heard of ann as she stopped was no news, since she had been reckoned
-  // past it (43, 114, 125, 154); her legs were a turn beyond their limits (93); limits of the
-  // glide, and closing joints, added up (36, 346).
+  // Bob derives ann's progress from her place and speed (common/stages/seat_way.h). The first of
+  // these seeds jumped: a state of ann as she stopped was ignored, since the reckoning had passed
+  // it (43, 114, 125, 154); her legs were a turn beyond their limits (93); limits of the glide, and
+  // closing joints, added up (36, 346).
   std::vector<std::pair<int, int>> starts = {{43, 110}, {114, 90}, {125, 140}, {154, 110},
                                              {93, 150}, {36, 120}, {346, 120}};
   for (int i = 0; i < 7 * Soak(2); ++i) starts.emplace_back(31 + i / 7, 90 + 10 * (i % 7));

@@ -1,4 +1,4 @@
-/// What the soak excuses of an open joint, and what it does not.
+/// Tests which open joints the soak check accepts.
 
 #include "tests/support/soak/soak_check.h"
 

@@ -1,4 +1,4 @@
-/// That the invariants of the soak can be broken, and are then found so.
+/// Breaks each invariant of the soak and checks that it is reported.
 
 #include <gtest/gtest.h>
 

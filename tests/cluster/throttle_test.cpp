@@ -12,8 +12,8 @@
 namespace seam {
 namespace throttle_test {
 
-/// Sessions with bots of other seeds: the bar is for their median, since what tumbles otherwise
-/// once stays so, in either.
+/// Sessions with bots of other seeds: the bar is for their median, since a body that once tumbles
+/// differently stays so, in either.
 constexpr int kSeeds = 6;
 
 TEST(Throttle, ASlowClientSimulatesItsShareAndOthersSeeLittleOfIt) {

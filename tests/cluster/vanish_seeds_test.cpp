@@ -1,5 +1,5 @@
-/// A holder is killed or cut off, in rooms of several kinds and over networks drawn from seeds:
-/// what it had stands nowhere for longer than 0.3 s, and jumps nowhere by more than half a metre.
+/// A holder is killed or cut off, in several rooms and over networks drawn from seeds: none of its
+/// bodies stops for longer than 0.3 s or jumps by more than half a metre.
 
 #include <gtest/gtest.h>
 

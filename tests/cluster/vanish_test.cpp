@@ -1,4 +1,4 @@
-/// A holder's process dies. What it had goes on in every view, long before its lease ends.
+/// A holder's process dies. Its bodies keep moving in every view, long before its lease ends.
 
 #include <gtest/gtest.h>
 

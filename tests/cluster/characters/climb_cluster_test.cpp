@@ -1,5 +1,5 @@
-/// Out of the water hand over hand, where each hold is an edit that the server orders: others see
-/// who climbs come out, as without a network.
+/// A character climbs out of the water; each grip is an edit ordered by the server. Other peers see
+/// it come out as without a network.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

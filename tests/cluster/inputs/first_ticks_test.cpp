@@ -1,6 +1,5 @@
-/// What is told in the first ticks, of which nobody has heard the others' inputs yet, must not be
-/// told as if they had none: others would put it in, rounded as the wire has it, and never come to
-/// the same bits again.
+/// States of the first ticks, when no other player's inputs are known yet, must not assume that
+/// there are none: others would apply them, rounded by the wire, and never agree bit for bit again.
 
 #include <gtest/gtest.h>
 

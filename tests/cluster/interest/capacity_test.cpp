@@ -1,6 +1,6 @@
-/// A room of elastic discs whose clients may only step a few of them: what one has and what it
-/// meets are simulated by the same peer, or each blow is another one for each of two and energy
-/// comes of it.
+/// A room of elastic discs whose clients may simulate only a few of them: a client's discs and
+/// those they meet are simulated by the same peer; otherwise the two sides of an impact differ and
+/// the room gains energy.
 
 #include <gtest/gtest.h>
 

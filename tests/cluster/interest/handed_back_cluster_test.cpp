@@ -1,4 +1,5 @@
-/// What a holder gives back to the server is told to all whom it concerns, not to the holder alone.
+/// When a holder returns a mechanism to the server, every client that needs the change hears of it,
+/// not only the holder.
 
 #include <gtest/gtest.h>
 

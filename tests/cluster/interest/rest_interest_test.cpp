@@ -1,5 +1,5 @@
-/// That something has come to rest is told at once to those whom it concerns, to the others in
-/// turn; and what one has lost of it is said again, block by block.
+/// Rest is announced to relevant clients at once and to the others in turn; a lost announcement is
+/// repeated block by block.
 
 #include <gtest/gtest.h>
 
@@ -121,7 +121,7 @@ TEST(RestInterest, OnlyTheBlockWithALostRestIsRepeated) {
         if (id == lost && again_us == 0) again_us = room->now_us();
       }
     };
-    // Ann loses what she is told, or bob what he says himself.
+    // Ann loses a received announcement, or bob one of his own.
     Cluster cluster(loser == 0 ? Room({{0, lose}}) : Room({}, lose));
     room = &cluster;
     for (int second = 1; second <= 20; ++second) {
