@@ -27,7 +27,7 @@ template <class Message>
 class Codec : public ::testing::Test {};
 TYPED_TEST_SUITE(Codec, Messages);
 
-/// Decodes and checks what holds for all bytes: the result is empty or valid, encodes to the same
+/// Decodes and checks invariants for any bytes: the result is empty or valid, encodes to the same
 /// bytes again, and cost little memory.
 AnyMessage DecodeChecked(const Bytes& bytes) {
   const std::size_t before = AllocatedBytes();
@@ -310,7 +310,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
   }
   EXPECT_EQ(hashes, pinned);
   EXPECT_EQ(different.size(), MessageTypes().size());
-  // What peers of any two versions understand of each other.
+  // Types that peers of any two versions understand.
   EXPECT_EQ(hashes["hello_t"], 0x77af54d8cac6751eu);
   EXPECT_EQ(hashes["bye_t"], 0x51c7828d52d2d8f2u);
 }

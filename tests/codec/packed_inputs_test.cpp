@@ -1,4 +1,4 @@
-/// Inputs of several players in one message: nothing is lost, nothing false is taken.
+/// Inputs of several players in one message: nothing is lost, and invalid messages are refused.
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST(PackedInputs, PlayersAscendInAMessage) {
   EXPECT_EQ(Pack(all).size(), 3u);
 }
 
-/// A player of 64 who all drive like bots hears of the others; their newest acknowledged input is
+/// A player in a room of 64 bots receives the others' inputs; their newest acknowledged input is
 /// `behind` ticks old.
 TEST(PackedInputs, SixtyThreePlayersTakeATenthOfPlainInputs) {
   for (const int behind : {3, 8, 16}) {

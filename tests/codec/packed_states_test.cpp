@@ -1,5 +1,4 @@
-/// Packed states: what arrives is what was told, bit for bit, whatever is lost, late or out of
-/// order; and no bits can do harm.
+/// Packed states arrive bit for bit under loss, delay and reorder; and no bit pattern does harm.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +37,7 @@ std::vector<Told> TellsOf(const std::vector<States>& all) {
   return told;
 }
 
-/// Balls that fly, bounce and are touched now and then, and what a server tells of them.
+/// Balls that fly, bounce and are touched now and then, and a server's States of them.
 class Balls {
  public:
   Balls(std::uint64_t seed, double width) : random_(seed) {
@@ -121,7 +120,7 @@ struct Traffic {
   std::size_t bytes = 0, bodies = 0, messages = 0;
 };
 
-/// Sends for so many ticks; expects what arrives to be what was told.
+/// Sends for `ticks`; expects the received states to equal the sent ones.
 Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
   Balls balls(seed, path.width);
   StatesPacker packer(kMotion);
@@ -227,7 +226,7 @@ TEST(PackedStates, AFlyingBodyTakesAThirdOfAPlainEntry) {
       << "nothing is acknowledged";
 }
 
-/// Takes any bits; what comes of them is valid.
+/// Feeds any bits; the result is valid.
 void TakeAny(const Bytes& data, StatesUnpacker* unpacker) {
   PackedStates packed;
   packed.data = data;
