@@ -1,4 +1,4 @@
-/// "Your latency and loss: use this": of which scenes it speaks.
+/// "Your latency and loss: use this": the scenes that each answer covers.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// The first page of the report: bars that are held or missed, medians without what is not valid.
+/// The first page of the report: bars that are held or missed, and medians without invalid runs.
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST(Bars, StandBesideTheEarlierValues) {
   EXPECT_EQ(stutter.rows[0][4], "missed") << "the default's is 8";
 }
 
-/// A time is no bar: the machine, and what else runs on it, is in it. The ratio is printed.
+/// A time is no bar: it depends on the machine and its load. The ratio is printed.
 TEST(Bars, PrintTheDefaultsCpuAsARatioToRetrospects) {
   std::string rows = TwoMethods("0.05", "0.05", "0.05");
   rows += Row("buffer,retrospect", "demo,bot,on,1,0.1,0.1,8,0.1,0.02,0.001,6,0.12,", "crossing");

@@ -1,4 +1,4 @@
-/// seam-lab check: each mistake is found where it is, and nothing is found in what is right.
+/// seam-lab check: each mistake is found at its place, and a correct scene has no findings.
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST(LabCheck, FindsBodiesThatBeginInOneAnother) {
   const std::string second = "[[part]]\nname = \"other\"\nbox = [1, 1]\nposition = [0.6, 0.5]\n";
   ExpectOne(std::string(kGround) + kBox + second, 8,
             "part 'other' begins 0.40 m inside part 'box'");
-  // What never collides may.
+  // Parts that never collide may overlap.
   EXPECT_EQ(Found(std::string(kGround) + kBox + "group = -1\n" + second + "group = -1\n"),
             std::vector<std::string>{});
 }

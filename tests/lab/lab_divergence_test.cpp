@@ -1,4 +1,4 @@
-/// seam-lab first-divergence: finds the difference that was put there, and none where none is.
+/// seam-lab first-divergence: finds a planted difference, and none between equal logs.
 
 #include <gtest/gtest.h>
 

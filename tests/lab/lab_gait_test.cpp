@@ -1,4 +1,4 @@
-/// `seam-lab tune gait`: the search, what an objective may say, and that a run is reproducible.
+/// `seam-lab tune gait`: the search, the values of an objective, and reproducible runs.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// seam-lab physics: what is observed of runs whose course is known, and its table.
+/// seam-lab physics: observations of runs with a known course, and its table.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-/// The report's arithmetic: tables that were read, medians, fronts, ranges of axes; hand-made, with
-/// answers known beforehand.
+/// The report's arithmetic: CSV tables, medians, fronts and ranges of axes, made by hand with known
+/// answers.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace lab_report_statistics_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What Parse says is wrong with a text.
+/// Returns the error that Parse reports for a text.
 std::string Mistake(const std::string& text) {
   try {
     CsvTable::Parse(text, "t.csv");

@@ -1,4 +1,4 @@
-/// seam-lab report: what it makes of tables whose answers are known, and of tables that are wrong.
+/// seam-lab report: its pages from tables with known answers, and from damaged tables.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// Numbers of a scene set in its text: what was meant is what the scene then says, and all else
-/// stays as it was.
+/// Settings written into a scene's text: the scene gets the value, and everything else stays
+/// unchanged.
 
 #include <gtest/gtest.h>
 

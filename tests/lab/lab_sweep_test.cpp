@@ -1,5 +1,5 @@
-/// seam-lab sweep: its table is the same whatever the number of jobs and however often it was
-/// interrupted, and its rows are what the other programs measure.
+/// seam-lab sweep: its table is the same for any number of jobs and interruptions, and its rows
+/// equal the measures of the other programs.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -190,7 +190,7 @@ TEST(LabSweep, TheTableIsTheSameForAnyJobsAndAfterAnyInterruption) {
   EXPECT_EQ(whole.rfind(SweepHeader() + "\n" + kLabVersion, 0), 0u);
   EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 9);
   EXPECT_EQ(WithoutCpu(files.Read("two.csv")), WithoutCpu(whole));
-  // Cut in the middle of a row: what was there stays as it was, bytes and all.
+  // Cut in the middle of a row: the existing bytes stay as they were.
   std::size_t rows = 0;  // the header and four rows
   for (int line = 0; line < 5; ++line) rows = whole.find('\n', rows) + 1;
   const std::size_t cut = rows + 100;

@@ -1,5 +1,5 @@
 /// seam-lab tune and overhead: the cheapest setting of a known problem is found; the core and the
-/// engine alone end alike.
+/// engine alone end in the same state.
 
 #include <gtest/gtest.h>
 
@@ -194,7 +194,7 @@ TEST(LabTune, PrintsLinesToPasteOrThatNoneReachesIt) {
               "position = [0, 20]\n");
   const std::string found =
       OutputOf({"tune", files / "fall.toml", "--error", "0.03", "--keep-hz"}, 0);
-  // The iterations of what touches nothing cost nothing: which of them it names is up to the clock.
+  // Iterations cost nothing without contacts: the clock decides which of them it names.
   EXPECT_NE(found.find("\n[solver]\nsubsteps = 2\nvelocity_iterations = "), std::string::npos)
       << found;
   const std::string none =

@@ -1,5 +1,5 @@
-/// Scenes that carry their exact answer: what the judge makes of right and wrong ones, by poses and
-/// by a number, and every mistake in one line.
+/// Scenes that carry their exact answer: the judge on right and wrong answers, by poses and by a
+/// number, and every mistake in one line.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// seam-lab physics with scenes of the user's own: the table, the front, the plot, and what is said
-/// where nothing can be judged.
+/// seam-lab physics with scenes of the user's own: the table, the front, the plot, and the messages
+/// for scenes that cannot be judged.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-/// How far a part is from its exact pose: by the points of its shape, against geometry by hand.
+/// The displacement of a part from its exact pose, over the points of its shape, against geometry
+/// by hand.
 
 #include <gtest/gtest.h>
 

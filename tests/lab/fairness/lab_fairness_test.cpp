@@ -57,8 +57,8 @@ TEST(Fairness, TheNearSideOnlySwapsTheTwoCars) {
 }
 
 TEST(Fairness, InModeStrictBothReceiveTheImpulseOfAWall) {
-  // Mode strict takes the other car where it was told to be, a thing that nothing can push: each
-  // receives what a wall would give.
+  // Mode strict places the other car at its received pose, immovable: each receives the impulse of
+  // a wall.
   const FairnessResult r = RunFairness(Headon("strict"));
   ASSERT_EQ(r.invalid, "");
   EXPECT_GT(r.own_ns[0], 1.5 * r.oracle_ns);

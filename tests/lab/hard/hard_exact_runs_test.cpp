@@ -1,5 +1,5 @@
-/// The hard cases with an answer, run: the scene's own setting against the stock one, and the step
-/// made small.
+/// Runs the hard cases with an answer: the scene's own setting against the stock one, and small
+/// steps.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ Verdict RunFinely(const HardCase& hard, int substeps) {
   return Judged(hard, scene);
 }
 
-/// Twice what was measured; the case's unit.
+/// Twice the measured error, in the case's unit.
 struct Bound {
   const char* name;
   double own, fine;  ///< the scene's own setting; 960 Hz, two substeps of 8/3
@@ -95,7 +95,7 @@ TEST(HardExactRuns, TheScenesOwnSettingIsNoWorseThanStock) {
 }
 
 TEST(HardExactRuns, SmallStepsConvergeToTheFormulas) {
-  // So the formulas are of the scenes that are run, and what is left is the step.
+  // So the formulas describe the scenes, and the remaining error is the step's.
   for (const Bound& bound : kBounds) {
     EXPECT_LE(RunFinely(CaseNamed(bound.name), 2).error, bound.fine) << bound.name;
   }

@@ -1,5 +1,5 @@
-/// The judges of the hard cases with an exact answer, on worlds moved by hand to where the error is
-/// known by arithmetic.
+/// The judges of the hard cases with an exact answer, on worlds moved by hand to a pose of known
+/// error.
 
 #include <gtest/gtest.h>
 

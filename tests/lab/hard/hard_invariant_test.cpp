@@ -286,7 +286,7 @@ TEST(HardInvariant, TheScenesOwnSolverHoldsForAMinuteAndStockFails) {
 }
 
 TEST(HardInvariant, PilesStandEvenWhenNothingMaySleep) {
-  // A pile that sleeps stands whatever the solver does: what wakes it must not fell it.
+  // A sleeping pile stands under any solver: waking it must not fell it.
   for (const char* name : {"arch", "card-house", "mass-ratio", "tower-10", "tower-30"}) {
     SCOPED_TRACE(name);
     const HardCase& hard = CaseOf(name);

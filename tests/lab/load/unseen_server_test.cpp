@@ -1,5 +1,5 @@
-/// A server whose view nobody sees: what clients hold in a small room it does not simulate, and
-/// nobody sees the others any worse for it, though a holder falls silent for a moment.
+/// A server whose view nobody watches does not simulate the clients' bodies in a small room, and no
+/// client's view gets worse, even if a holder falls silent for a moment.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ density = 0.5
 repeat = {count = [8, 2], step = [20, 0.71]}
 )";
 
-/// What rests is the server's, which looks at it only when something of its own may touch it.
+/// Bodies at rest are the server's, which loads them only when one of its own may touch them.
 TEST(UnseenServer, HasNoRestingBodyInItsWorld) {
   ClusterConfig config;
   config.scene = "plain";
@@ -110,7 +110,7 @@ TEST(UnseenServer, HasNoRestingBodyInItsWorld) {
   EXPECT_TRUE(server.world().present().empty());
 }
 
-/// What clients see of the others, m.
+/// Error of other players' bodies on the clients' screens, m.
 double ErrorOfOthers(const std::string& text, int seed) {
   ClusterConfig config;
   config.scene = "obstacle";
@@ -123,8 +123,8 @@ double ErrorOfOthers(const std::string& text, int seed) {
 }
 
 /// Bursts of losses make holders silent for longer than 0.2 s. A server that only then begins to
-/// simulate a character, from its last state, does not know where it was in its step: what it said
-/// in the holder's name made those who simulated it all along err by two to five times as much.
+/// simulate a character, from its last state, does not know its gait phase: its states in the
+/// holder's name made peers that had simulated it all along err two to five times as much.
 TEST(UnseenServer, SendsNoStatesForASilentHolderToBetterInformedFollowers) {
   const std::string text = LoadScene("scenes/obstacle.toml").text;
   for (const int seed : {1, 2, 3}) {
@@ -165,8 +165,8 @@ TEST(UnseenServer, IsUnseenOnABusWithoutViews) {
   }
 }
 
-/// By how much the server's view of what has one body is ever off its world, m: what hides
-/// corrections moves it, and a little the closing of joints to what is anchored.
+/// Largest distance between the server's view and its world for mechanisms of one body, m: caused
+/// by smoothing, and slightly by closing joints to anchored bodies.
 float MostHidden(Publish publish, bool keep) {
   ClusterConfig config;
   config.scene = "heap";

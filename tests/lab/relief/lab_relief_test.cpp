@@ -1,4 +1,4 @@
-/// seam-lab relief: that its rooms are what they say, its verdicts what they mean.
+/// seam-lab relief: its rooms have the stated size, and its verdicts are right.
 
 #include <gtest/gtest.h>
 

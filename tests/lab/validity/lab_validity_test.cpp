@@ -1,4 +1,5 @@
-/// Rows that do not show what they are about: how a run is judged, and what the report makes of it.
+/// Rows of runs that miss their scene's expected event: how a run is judged, and how the report
+/// shows it.
 
 #include <gtest/gtest.h>
 

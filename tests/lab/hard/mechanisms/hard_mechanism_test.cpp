@@ -1,5 +1,5 @@
 /// The hard cases of mechanisms: their judges on worlds moved by hand, each case with its scene's
-/// own solver, and that what it is about really happens.
+/// own solver, and proof that the case's difficulty occurs.
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 namespace seam {
 namespace exact_joints_test {
 
-/// A row of `seam-lab physics`: what is not said is as in all.
+/// A row of `seam-lab physics`; the other columns are as in all rows.
 std::string Row(const std::string& name, const std::string& role, const std::string& joints,
                 int joint_substeps, const std::string& figures) {
   return name + ",formula,m," + role + ",60,1,8,3,on,,on,body," + joints + "," +
