@@ -1,4 +1,4 @@
-/// What is in a log, as --list says it.
+/// The contents of a log, as --list prints them.
 
 #include "common/measure/contents/contents.h"
 

@@ -66,7 +66,7 @@ Edit Insert(const std::string& name, double x, EditCause cause) {
 Edit Push(PartId part) { return Edit(PushEdit{part, {4, 0}}, EditCause::kOutside); }
 Edit Remove(PartId part) { return Edit(RemoveEdit{part}, EditCause::kOutside); }
 
-/// Edits and the tick after whose step they are made.
+/// Edits, each with the tick after which it is made.
 using Timed = std::vector<std::pair<std::int64_t, Edit>>;
 
 View ViewOf(const World& world, int peer) {
@@ -89,7 +89,7 @@ View ViewOf(const World& world, int peer) {
   return view;
 }
 
-/// Two peers who show the same world, in which the edits are made.
+/// Two peers that show the same world, in which the edits are made.
 Recording Simulate(const Timed& edits) {
   Recording recording;
   recording.room.scene_name = "bar";

@@ -1,5 +1,5 @@
-/// Penetration, joint drift, energy gain, jitter at rest and the two sides of a hand-over, of
-/// recordings made by hand whose answers are known.
+/// Penetration, joint drift, energy gain, jitter at rest and the two sides of a hand-over, in
+/// recordings made by hand with known answers.
 
 #include <gtest/gtest.h>
 

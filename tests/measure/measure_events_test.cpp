@@ -1,4 +1,4 @@
-/// Rebound, rest, hand-over and cost of recordings made by hand whose answers are known.
+/// Rebound, rest, hand-over and cost in recordings made by hand with known answers.
 
 #include <gtest/gtest.h>
 

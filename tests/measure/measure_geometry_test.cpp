@@ -1,4 +1,4 @@
-/// Penetration, joint drift and energy of states whose answers are known by hand.
+/// Penetration, joint drift and energy of states with answers known by hand.
 
 #include <gtest/gtest.h>
 

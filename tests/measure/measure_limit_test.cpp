@@ -1,4 +1,5 @@
-/// The two oracles, and the information limit: what nobody could know of the others' inputs.
+/// The two oracles, and the information limit: the error that no method can avoid without the
+/// others' inputs.
 
 #include <gtest/gtest.h>
 

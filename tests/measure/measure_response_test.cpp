@@ -60,7 +60,7 @@ Recording Pressed() {
   return run;
 }
 
-/// What a screen has of the puck at a tick.
+/// The puck's pose on a screen at a tick.
 using Screening = std::function<DoublePose(const Oracle&, std::int64_t)>;
 
 /// The puck as it was `ticks` ago.

@@ -1,4 +1,4 @@
-/// Point displacement, whose bodies are whose, and what is counted where, with analytic answers.
+/// Point displacement, ownership of bodies and the bodies counted, with analytic answers.
 
 #include <gtest/gtest.h>
 

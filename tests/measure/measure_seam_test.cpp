@@ -1,4 +1,4 @@
-/// What peers show against what the authority shows, on recordings made by hand.
+/// Compares peers' views with the authority's view, in recordings made by hand.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-/// The age of what is shown, its path, and what a person would notice, of recordings made by hand.
+/// The age of a view, its path, and the faults that a person would notice, in recordings made by
+/// hand.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Errors, stutter, backsteps, and tables, of recordings made by hand whose answers are known.
+/// Errors, stutter, backsteps and tables, of recordings made by hand with known answers.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// A log of --publish own is enough to measure by, to draw, and to export: each is compared with
-/// the log of --publish all of the same session in the lab.
+/// A log of --publish own suffices to measure, to draw and to export: each result is compared with
+/// the log of --publish all of the same session.
 
 #include <gtest/gtest.h>
 
@@ -133,7 +133,7 @@ TEST_F(PublishOwn, MeasuresEqualThoseOfTheSameBodiesInFullViews) {
   EXPECT_EQ(own.error_rms_m, cut.error_rms_m);
   EXPECT_EQ(own.error_max_m, cut.error_max_m);
   EXPECT_EQ(own.stutter_mps2, cut.stutter_mps2);
-  // What a player sees of its own vehicle, and what it costs: all of it is there.
+  // A player's own vehicle and its costs are complete.
   EXPECT_EQ(own.error_own_m, all.error_own_m);
   EXPECT_EQ(own.bytes_per_s, all.bytes_per_s);
 }
