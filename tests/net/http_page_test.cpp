@@ -1,4 +1,4 @@
-/// The page that Prometheus scrapes: answers whom it should, and waits for nobody.
+/// The page that Prometheus scrapes: answers valid requests and waits for nobody.
 
 #include "common/net/http_page.h"
 

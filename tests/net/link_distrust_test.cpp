@@ -1,4 +1,4 @@
-/// Link believes nothing that is not whole; and the pieces it is made of.
+/// Link accepts only whole datagrams; and tests of its parts.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ const Link::Sink kIgnore = [](ByteView) {};
 
 Bytes Text(const std::string& text) { return Bytes(text.begin(), text.end()); }
 
-/// What Flush would send now.
+/// Returns the datagrams that Flush would send now.
 std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
   std::vector<Bytes> datagrams;
   link.Flush(now_us, [&](ByteView d) { datagrams.emplace_back(d.begin(), d.end()); });

@@ -1,4 +1,4 @@
-/// What a Link knows of the arrival of its unreliable messages.
+/// Receipts of a Link: which unreliable messages have arrived.
 
 #include <gtest/gtest.h>
 

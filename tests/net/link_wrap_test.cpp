@@ -1,5 +1,5 @@
-/// Sixteen bits on the wire, many more in the session: numbers and ids wrap, nothing is lost or
-/// comes twice.
+/// Sixteen bits on the wire, many more in the session: numbers and ids wrap, and nothing is lost or
+/// delivered twice.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::uint32_t NumberOf(ByteView bytes) {
   return number;
 }
 
-/// A path that loses, doubles and reorders without knowing what it carries.
+/// A path that loses, doubles and reorders datagrams of any content.
 class Path {
  public:
   explicit Path(std::uint64_t seed) : random_(seed) {}

@@ -1,4 +1,4 @@
-/// The impaired network does each of its effects as told, and does it again for the same seed.
+/// The impaired network has each of its effects, and repeats them for the same seed.
 
 #include <gtest/gtest.h>
 

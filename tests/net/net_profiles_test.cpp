@@ -1,4 +1,4 @@
-/// The named profiles keep the averages that they promise, and specs are read or refused.
+/// The named profiles keep their documented averages, and specs are read or refused.
 
 #include <gtest/gtest.h>
 
