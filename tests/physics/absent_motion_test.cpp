@@ -1,5 +1,4 @@
-/// What an absent body promises: it goes where its path takes it, touches nothing, and comes back
-/// as it was, with its joints.
+/// Absent bodies follow their path, touch nothing, and return unchanged with their joints.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Many anchored parts have few bodies: what they do is what bodies of their own did.
+/// Many anchored parts share few bodies, and act as if each had its own.
 
 #include "common/physics/anchored_bodies.h"
 

@@ -1,4 +1,4 @@
-/// Explosions push what they see: by silhouette and distance, and cover counts.
+/// Explosions push visible bodies by silhouette and distance, and cover counts.
 
 #include "common/physics/blast_push.h"
 
@@ -49,7 +49,7 @@ class Blasted {
   World world;
 };
 
-/// What a face at x = `face` from y = -half to half takes along x: by the angle, in small steps.
+/// Impulse along x on a face at x = `face` from y = -half to half: by the angle, in small steps.
 double OnFace(double face, double half, double radius, double impulse) {
   double sum = 0;
   const int steps = 10000;

@@ -1,4 +1,4 @@
-/// One sweep finds the contacts that the engine's tree finds.
+/// One sweep finds the same contacts as the engine's tree.
 
 #include <gtest/gtest.h>
 

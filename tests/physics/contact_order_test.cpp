@@ -1,4 +1,4 @@
-/// What a world does with a pile hangs on the pile alone, not on what else is somewhere else.
+/// The motion of a pile depends on the pile alone, not on distant bodies.
 
 #include <gtest/gtest.h>
 

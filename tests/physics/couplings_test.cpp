@@ -130,7 +130,7 @@ TEST(Couplings, BondsDoNotMoveAGearsWheels) {
                                 "", kWeightless);
   Steps(world.get(), 60);
   const double turned = AngleOf(*world, 1);
-  // The small wheel is what the bond moves in the scene: its pose there is no longer the start's.
+  // The bond moves the small wheel in the scene: its pose there is no longer the start's.
   BondEdit bond;
   bond.a = 3;
   bond.b = 1;

@@ -1,4 +1,4 @@
-/// Bodies that nobody simulates here fall and bounce as the engine would let them.
+/// Bodies simulated elsewhere fall and bounce as in the engine.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace seam {
 namespace flight_test {
 
-/// A body over ground. {} is the part, with what it hits.
+/// A body over ground. {} is the part, followed by its obstacles.
 World WorldOf(const std::string& text) { return World(ParseScene(text, "flight.toml")); }
 
 std::string Ball(const std::string& more) {
@@ -22,7 +22,7 @@ std::string Ball(const std::string& more) {
 constexpr const char* kFloor =
     "[[part]]\nname = \"floor\"\nbox = [60, 2]\nposition = [0, -1]\nanchored = true\n";
 
-/// The largest distance, m, from what the engine makes of body 0, in `ticks`.
+/// Largest distance of body 0 from the engine's simulation, in `ticks`, m.
 float OffFromEngine(World* world, int ticks, int every) {
   BodyState at = world->Read(0);
   float off = 0;
@@ -52,7 +52,7 @@ TEST(Flight, BouncesOffFloorsWallsAndLinesFromTheirSolidSide) {
   World line = WorldOf(Ball(thrown) +
                        "[[part]]\nname = \"line\"\nchain = [[-30, 0], [30, 0]]\nfriction = 0.5\n");
   EXPECT_LT(OffFromEngine(&line, 60, 6), 0.1f);
-  // From below the same line is open. The engine pushes out what overlaps it once the centre is
+  // From below the same line is open. The engine pushes out overlapping bodies once the centre is
   // through, which is no flight.
   World below = WorldOf(Ball("position = [0, -3]\nvelocity = [0, 12]\n") +
                         "[[part]]\nname = \"line\"\nchain = [[-30, 0], [30, 0]]\n");

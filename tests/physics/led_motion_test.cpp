@@ -1,4 +1,4 @@
-/// What a led body promises: it goes where its path takes it, and what hits it feels its own mass.
+/// Prescribed bodies follow their path, and others collide with their own mass.
 
 #include <gtest/gtest.h>
 
@@ -124,7 +124,7 @@ TEST(PrescribedBody, AChangeOfMotionCarriesTheMotionOver) {
   EXPECT_EQ(again.position, free.position);
   EXPECT_NEAR((again.velocity - free.velocity).norm(), 0, 1e-5);
   EXPECT_EQ(again.spin, free.spin);
-  // The origin of what turns is not as fast as its centre of mass.
+  // The origin of a turning body is not as fast as its centre of mass.
   world->SetMotion(0, Motion::kPrescribed);
   EXPECT_NEAR((world->Read(0).velocity - free.velocity).norm(), 0.5 * 4, 1e-5);
 }

@@ -1,5 +1,5 @@
-/// The world against closed formulas. Each tolerance is a little above what was measured, and says
-/// where the rest comes from. g = 10 m/s^2, h = 1/60 s unless said otherwise.
+/// The world against closed formulas. Each tolerance is slightly above the measured error, and
+/// names its source. g = 10 m/s^2, h = 1/60 s unless stated otherwise.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// ReadyFixtures: a body that is given what another had has the same, bit for bit.
+/// ReadyFixtures: a body that is given the fixtures of another has the same, bit for bit.
 
 #include <gtest/gtest.h>
 

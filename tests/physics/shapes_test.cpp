@@ -1,4 +1,4 @@
-/// Capsules, wedges, segments and polygons of many corners: mass by integration, and how they lie,
+/// Capsules, wedges, segments and polygons of many corners: mass by integration, and how they rest,
 /// slide and roll.
 
 #include <gtest/gtest.h>
@@ -146,7 +146,7 @@ TEST(Shapes, APolygonOfManyCornersIsOneBodyOfTheRightMass) {
 }
 
 TEST(Shapes, AWheelOfManyCornersRollsDownAsADisc) {
-  // A disc that rolls gains two thirds of what one that slides would: m r^2/2 beside m r^2.
+  // A rolling disc gains two thirds of a sliding one: m r^2/2 beside m r^2.
   const auto world = SmallWorld(
       "[[part]]\nname = \"slope\"\nchain = [[-50, 8], [50, -8]]\nfriction = 1\n"
       "[[part]]\nname = \"wheel\"\n" +

@@ -1,4 +1,4 @@
-/// World: impacts against the formulas of mechanics, sleep, terrain, and who collides with whom.
+/// World: impacts against the formulas of mechanics, sleep, terrain, and collision filters.
 
 #include <gtest/gtest.h>
 

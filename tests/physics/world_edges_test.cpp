@@ -1,4 +1,4 @@
-/// World at its edges: what is not finite, single bits, limits of joints, moved bodies.
+/// World at its edges: non-finite values, single bits, limits of joints, moved bodies.
 
 #include <gtest/gtest.h>
 

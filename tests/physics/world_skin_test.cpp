@@ -1,4 +1,4 @@
-/// The skin of `[solver]`: things rest where they touch, and nothing passes through thin floors.
+/// The skin of `[solver]`: bodies rest in contact, and nothing passes through thin floors.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ const char* kPile =
     "[[part]]\nname = \"wedge\"\npolygon = [[-0.5, -0.3], [0.5, -0.3], [0, 0.6]]\n"
     "position = [6, 0.3]\n";
 
-/// Heights of the pile's bodies after four seconds; each begins `lift` m above what it lies on.
+/// Heights of the pile's bodies after four seconds; each begins `lift` m above its support.
 std::vector<float> Rest(const std::string& solver, bool chain, float lift) {
   Scene scene = ParseScene("[solver]\n" + solver + "\n" + Ground(chain) + kPile, "s.toml");
   for (Part& part : scene.parts) {
@@ -51,7 +51,7 @@ TEST(Skin, AtHalfTheSlopBodiesRestInContact) {
 }
 
 TEST(Skin, TheEnginesDefaultLetsBoxesRestFifteenMillimetresApart) {
-  // What falls stops anywhere within the slop of 5 mm.
+  // A falling body stops anywhere within the slop of 5 mm.
   const std::vector<float> got = Rest("", false, 0.03f);
   EXPECT_NEAR(got[0], 0.5f + 0.0175f, 3e-3f);
   EXPECT_NEAR(got[1], 1.5f + 0.035f, 6e-3f);
@@ -103,7 +103,7 @@ int Through(float skin) {
 TEST(Skin, TheThinnestSkinLetsNothingThroughAThinFloor) { EXPECT_EQ(Through(0.0025f), 0); }
 
 TEST(Skin, AThinnerSkinWouldLetShotsThrough) {
-  // What the limit of the scene file guards against: a sum of rims of 1.01 cm is not enough.
+  // The limit of the scene file prevents this: a sum of rims of 1.01 cm is not enough.
   EXPECT_GT(Through(0.0001f), 0);
 }
 

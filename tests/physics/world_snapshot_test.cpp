@@ -11,8 +11,8 @@
 namespace seam {
 namespace world_snapshot_test {
 
-/// Runs `ticks` of a scene with a barrier every `every`, goes back to each barrier in turn and does
-/// again what came after it. The number of ticks whose hash was another one then.
+/// Runs `ticks` of a scene with a barrier every `every`, goes back to each barrier in turn and
+/// replays. Returns the number of ticks with a different hash.
 int DifferentTicks(const Scene& scene, int ticks, int every, int again) {
   World world(scene);
   std::vector<std::uint64_t> hashes = {world.Hash()};

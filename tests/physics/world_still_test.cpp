@@ -1,4 +1,4 @@
-/// What lies still, and whether who keeps something about it hears of every change.
+/// Still bodies: every change of one is reported to callers that cache it.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ TEST(WorldStill, ReportsEveryChangeOfAStillBody) {
         for (int body = 0; body < world.body_count(); ++body) {
           const auto i = static_cast<std::size_t>(body);
           still += now[i] != 0 ? 1 : 0;
-          // What was not still has to be looked at anyway.
+          // Bodies that were not still are checked anyway.
           if (before[i] == 0 || now[i] == before[i]) continue;
           EXPECT_EQ(std::count(changed.begin(), changed.end(), body) > 0, true)
               << "seed " << seed << ", round " << round << ", body " << body;

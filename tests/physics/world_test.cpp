@@ -1,4 +1,4 @@
-/// What World promises: motion, inputs, contacts, sleep, one body for what is welded.
+/// The contract of World: motion, inputs, contacts, sleep, one body for welded parts.
 
 #include "common/physics/world.h"
 

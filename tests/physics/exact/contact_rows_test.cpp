@@ -1,4 +1,4 @@
-/// The rows of contacts: derivatives of the separation, and what of them turns with a disc.
+/// The rows of contacts: derivatives of the separation, and the terms that turn with a disc.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Blows of restitution 1 between bodies that no joint holds: energy, order, and who hears of them.
+/// Perfectly elastic impacts between bodies without joints: energy, order and reports.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(ElasticImpacts, ABallUnderGravityComesBackToItsHeight) {
   EXPECT_GT(highest("joints = \"iterative\"\n"), 4);  // the engine throws it higher and higher
 }
 
-/// What is left of the energy of thirty squares that fall into a pit, after 20 s.
+/// Remaining share of the energy of thirty squares that fall into a pit, after 20 s.
 double LeftInAPit(const std::string& solver) {
   std::string parts = Elastic("floor", "box = [9, 1]\nposition = [0, -0.5]\nanchored = true");
   for (const int side : {-1, 1}) {
@@ -158,7 +158,7 @@ TEST(ElasticImpacts, WithFrictionNoEnergyIsGained) {
   const double begin = world->Energy();
   for (int tick = 0; tick < 600; ++tick) {
     world->Step();
-    // What a step of 1/60 s is early or late with gravity: 8 m/s by 0.16 m/s.
+    // The error of a step of 1/60 s under gravity: 8 m/s by 0.16 m/s.
     EXPECT_LT(world->Energy(), begin + 0.7 * 8 * 0.17) << tick;
   }
 }

@@ -1,4 +1,4 @@
-/// Mechanisms that are edited and led while exact.
+/// Mechanisms that are edited, or have prescribed links, under the exact solver.
 
 #include <gtest/gtest.h>
 

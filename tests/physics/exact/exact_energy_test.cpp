@@ -1,4 +1,4 @@
-/// What exact joints keep: energy, momentum, and being shut.
+/// Exact joints conserve energy and momentum and stay closed.
 
 #include <gtest/gtest.h>
 
@@ -250,7 +250,7 @@ TEST(ExactEnergy, AMechanismAtItsDeadEndStops) {
       for (int t = 0; t < 240; ++t) {
         world->Step();
         for (const BodyState& state : StatesOf(*world)) {
-          // The motor's 5 m/s by the ratio are 25 of the load; what hangs on it may swing.
+          // The motor's 5 m/s by the ratio are 25 of the load, and its appendages may swing.
           ASSERT_LT(state.velocity.norm(), 60) << more << substeps << t;
         }
       }

@@ -1,5 +1,5 @@
-/// What the engine hands to the exact solver, and it to the engine: blows of continuous collision,
-/// impulses of what is taut, joints that come back open.
+/// Hand-over between the engine and the exact solver: impacts of continuous collision, impulses of
+/// taut joints, joints that return open.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What is clamped from more sides than it can give way to: no energy comes of it.
+/// Bodies jammed from several sides gain no energy.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ double MassOf(const World& world) {
   return mass;
 }
 
-/// Of a run of so many ticks, J/kg: what energy came in a tick at most, and all in all.
+/// Energy gains of a run, J/kg: the largest within a tick, and the total.
 struct Gains {
   double tick = 0, all = 0;
 };
@@ -110,7 +110,7 @@ TEST(ExactJam, APressOnRandomJamsThrowsNoBodyFar) {
 }
 
 TEST(ExactJam, AJamLeftToTheEngineDropsImpulsesItCannotCarry) {
-  // Cost decides from tick to tick who solves these.
+  // Cost decides from tick to tick which solver takes these.
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto world =
         SmallWorld(JamMaker(seed).Text(JamPlace::kWagon), "joints = \"auto\"\nsubsteps = 2\n");

@@ -1,6 +1,5 @@
-/// What `auto` leaves to the engine: mechanisms that are too large from the beginning are the
-/// engine's, bit for bit, alone and beside others that are solved exactly; and what takes too much
-/// when it gets into a heap is the engine's for a while.
+/// `auto` leaves mechanisms to the engine: those too large from the start bit for bit, alone and
+/// beside exactly solved ones; and expensive ones in a heap for a while.
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -35,7 +34,7 @@ std::string FarPendulum() {
          HingeText("pivot", "post", "bob", 40, 5);
 }
 
-/// What both worlds have of the first `bodies`, and what hits them, in half a second.
+/// Expects both worlds to have the same first `bodies` and impacts on them for half a second.
 void ExpectTheSame(World* ours, World* engines, int bodies) {
   std::size_t heard = 0;
   for (int tick = 0; tick < 30; ++tick) {

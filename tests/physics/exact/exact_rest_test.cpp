@@ -1,4 +1,4 @@
-/// Mechanisms that come to rest, and what wakes them.
+/// Mechanisms that come to rest, and the events that wake them.
 
 #include <gtest/gtest.h>
 
@@ -144,8 +144,8 @@ std::string CarAtCrates(double speed) {
   return text;
 }
 
-/// Continuous collision takes a body back to where it hit, and brings its mechanism together there,
-/// with all that touches it. Whoever was agreed to rest would be put back (RestCommit) if it still
+/// Continuous collision moves a body back to its impact and closes its mechanism there, with
+/// everything in contact. A body agreed to be at rest would be put back (RestCommit) if it still
 /// slept, and a replay would not do that.
 TEST(ExactRest, ClosingAMechanismDoesNotMoveSleepers) {
   int moved = 0, struck = 0;

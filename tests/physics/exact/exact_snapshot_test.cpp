@@ -1,4 +1,4 @@
-/// Exact joints in worlds that go back: what is between two steps is all in the snapshot.
+/// Exact joints in worlds that go back: a snapshot holds all state between two steps.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What joints hold, by arithmetic.
+/// The forces that joints hold, by arithmetic.
 
 #include <gtest/gtest.h>
 

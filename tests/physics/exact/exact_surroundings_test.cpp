@@ -1,4 +1,4 @@
-/// Mechanisms on things that move them: platforms, belts, water, walls; and what others see of it.
+/// Mechanisms moved by platforms, belts, water and walls; and the impacts that are reported.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace seam {
 namespace exact_surroundings_test {
 
-/// Two planks of 1 m, hinged, flat on what is at height `y`.
+/// Two planks of 1 m, hinged, flat on a surface at height `y`.
 std::string Planks(double y) {
   return PartText("plank", "box = [1, 0.3]\nposition = [0, " + FloatDigits(y + 0.165) +
                                "]\nfriction = 0.8\nrepeat = {count = 2, step = [1, 0]}") +

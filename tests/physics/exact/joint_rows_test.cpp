@@ -1,4 +1,4 @@
-/// The rows of every kind of joint: what multiplies the velocities is the derivative of the error.
+/// The rows of every kind of joint: the Jacobian is the derivative of the error.
 
 #include <gtest/gtest.h>
 

@@ -158,7 +158,7 @@ TEST(Skyline, SolvesIndependentBlocksSeparately) {
 }
 
 TEST(Skyline, ARedundantRowGetsZeroAndTheOthersAreSolved) {
-  // The third row is the sum of the first two; the side is what x = (1, 2, 0) gives.
+  // The third row is the sum of the first two; the right-hand side is that of x = (1, 2, 0).
   Sample sample;
   sample.first = {0, 0, 0};
   sample.a.resize(3, 3);
