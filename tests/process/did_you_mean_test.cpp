@@ -1,4 +1,4 @@
-/// A mistyped flag, subcommand, scene or name is one line that says what was probably meant.
+/// A mistyped flag, subcommand, scene or name is one line with a suggestion.
 
 #include <gtest/gtest.h>
 

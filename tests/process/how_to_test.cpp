@@ -1,4 +1,4 @@
-/// docs/how-to.md does what it says: its files and shell blocks, in order, in an empty folder.
+/// docs/how-to.md works: its files and shell blocks run in order in an empty folder.
 
 #include <gtest/gtest.h>
 

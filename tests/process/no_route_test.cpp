@@ -1,4 +1,4 @@
-/// What the operator reads on a machine that has no route for multicast, as LCM needs it.
+/// The messages on a machine that lacks a multicast route, which LCM needs.
 
 #include <gtest/gtest.h>
 

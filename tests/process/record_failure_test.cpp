@@ -1,5 +1,5 @@
-/// A recording that cannot be written: the room runs on, the operator is told at once and at the
-/// end, and the exit status is 1.
+/// A recording that cannot be written: the room runs on, the operator is informed at once and at
+/// the end, and the exit status is 1.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// The report's page in a browser: the first answer follows what is asked for, figures answer the
-/// mouse, methods and scenes can be left out, and there is no error in the console.
+/// The report's page in a browser: the first answer follows the choices, figures answer the mouse,
+/// methods and scenes can be hidden, and there is no error in the console.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What a review page shows besides bodies: jumps, losses, onion skin, strands, holes in bricks.
+/// The layers of a review page besides bodies: jumps, losses, onion skin, strands, holes in bricks.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// A review page in a browser: what is clicked, dragged and pressed does what it says, its numbers
-/// are seam-measure's, and nothing leaves the file.
+/// A review page in a browser: clicks, drags and keys work, its numbers equal seam-measure's, and
+/// nothing leaves the file.
 
 #include <gtest/gtest.h>
 
