@@ -116,7 +116,7 @@ TEST_F(BusInNamespace, ABurstOfLargeMessagesArrivesWhole) {
   std::vector<HeardMessage> heard;
   listener.Subscribe(".*", Into(&heard));
   if (!listener.warnings().empty()) GTEST_SKIP() << listener.warnings()[0];
-  // Sixty views of 28 kB at once: 1.7 MB, eight times what a default socket holds.
+  // Sixty views of 28 kB at once: 1.7 MB, eight times the default socket buffer.
   for (std::int32_t i = 0; i < 60; ++i) {
     speaker.Publish("SEAM.r.view.1", 0, Encode(MakeView(i, 1000)));
   }
@@ -163,7 +163,7 @@ TEST_F(BusInNamespace, AHandlerThatThrowsIsCountedAndTheNextMessageArrives) {
   EXPECT_EQ(bus.failures(), 3);
 }
 
-/// What the constructor or Subscribe complains of; "" when it works.
+/// Returns the error of the constructor or of Subscribe; "" on success.
 std::string Complaint(const std::string& url) {
   try {
     Bus bus(url);
@@ -249,8 +249,8 @@ TEST_F(BusInNamespace, TheStockLoggerRecordsItsMessages) {
   }
   ASSERT_TRUE(logging()) << logger.output();
 
-  // Nothing holds a publisher back: what its reader has no time for is lost where a socket ends. So
-  // no more is under way than two views, whatever else the machine does.
+  // Nothing throttles a publisher: messages overflow a slow reader's socket. So at most two views
+  // are in flight, on any machine.
   const std::size_t before = file.Read().size();
   std::size_t sent = 0;
   const auto written_but = [&](std::size_t under_way) {

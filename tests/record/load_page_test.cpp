@@ -1,4 +1,4 @@
-/// The page for Prometheus: what is written is read back, and it keeps to the exposition format.
+/// The page for Prometheus: a written page is read back, and it follows the exposition format.
 
 #include "common/record/load_page.h"
 

@@ -1,4 +1,4 @@
-/// When and where a recording lost something: each kind of loss is found at its channel and moment.
+/// Time and place of losses in a recording: each kind of loss is found at its channel and moment.
 
 #include "common/record/loss_timeline.h"
 

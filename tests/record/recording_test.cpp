@@ -21,7 +21,7 @@ Room MakeRoom(std::int64_t seed = 7) {
   return room;
 }
 
-/// A view of peer 0..31 with `count` bodies, whose every number tells the tick.
+/// A view of peer 0..31 with `count` bodies; every number encodes the tick.
 View MakeView(int peer, std::int64_t tick, std::size_t count = 2, std::int32_t first_id = 0) {
   View view;
   view.peer = peer;
