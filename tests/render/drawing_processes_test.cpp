@@ -1,4 +1,4 @@
-/// Items shared out among processes: each once, and no failure goes unheard.
+/// Items shared among processes: each is drawn once, and every failure is reported.
 #include "render/drawing_processes.h"
 
 #include <gmock/gmock.h>

@@ -52,7 +52,7 @@ class ExportProgram : public ::testing::Test {
   static std::string Log() { return *files_ / "run.lcm"; }
   static std::string At(const std::string& name) { return *files_ / name; }
 
-  /// Runs a program with these words; returns what it wrote to stdout.
+  /// Runs a program with these words; returns its stdout.
   static std::string Run(Words words, int status = 0) {
     words[0] = BuiltProgram(words[0]);
     Program program(words);
@@ -67,7 +67,7 @@ class ExportProgram : public ::testing::Test {
     return Run(words, status);
   }
 
-  /// What seam-measure says in a column of its table.
+  /// Returns seam-measure's value in a column of its table.
   static double Measured(const std::string& column, const Words& range) {
     Words words = {"seam-measure", Log(), "--csv", At("measure.csv")};
     words.insert(words.end(), range.begin(), range.end());

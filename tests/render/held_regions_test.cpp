@@ -1,4 +1,4 @@
-/// Regions that follow the players, drawn from what each holds.
+/// Regions that follow the players, drawn around each player's bodies.
 
 #include "render/playback/held_regions.h"
 

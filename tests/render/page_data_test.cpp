@@ -1,5 +1,5 @@
-/// What a review page carries is the recording: decoded again it is within half a millimetre, half
-/// a milliradian and half a unit of error.
+/// A review page carries the recording: decoded, it is within half a millimetre, half a milliradian
+/// and half a unit of error.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What a panel's corner says: the view's age, the network's jitter, the corrections so far.
+/// The note in a panel's corner: the view's age, the network's jitter, the corrections so far.
 #include "render/panel_note.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// Bricks in pictures: what is drawn is what is solid.
+/// Bricks in pictures: exactly the solid area is drawn.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// The camera shows what happens: measured on sessions of the scenes.
+/// The camera shows the action: measured on sessions of the scenes.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Seen OnPanel(const Viewport& viewport, const WorldBox& box) {
   return {a, b};
 }
 
-/// Of the panel, what moving bodies fill, each by its own outlines.
+/// Share of the panel filled by moving bodies, each by its own outlines.
 double FilledShare(const Playback& playback, int peer, const Viewport& viewport,
                    const std::set<PartId>& moving, double s) {
   const Moment moment = playback.MomentAt(peer, playback.TickAt(s));

@@ -1,4 +1,4 @@
-/// What the server decides, in pictures: triggers until taken, health as it is left, scores.
+/// The server's decisions in pictures: triggers until taken, health, scores.
 
 #include "common/scene/part_rules.h"
 #include "tests/support/render_fixture.h"
