@@ -1,4 +1,4 @@
-/// Who is welded and joined to whom, and the masses that come of it.
+/// Welded assemblies and jointed mechanisms, and their masses.
 
 #include "common/scene/assembly.h"
 

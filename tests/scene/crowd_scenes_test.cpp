@@ -1,4 +1,4 @@
-/// Scenes with many bodies on a seam: what their titles promise happens in a world alone.
+/// Scenes with many bodies on a seam: each matches its title in a single world.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-/// Scenes in which too much begins in one place are refused, by name and number; others are not.
+/// Scenes with too many overlapping parts in one place are refused by place and number; others are
+/// not.
 
 #include "common/scene/crowding.h"
 

@@ -1,5 +1,5 @@
-/// Scenes in which players push each other, or one thing together: what their titles promise
-/// happens, by script in a world alone, and where it must with bots as well.
+/// Scenes in which players push each other, or one body together: each matches its title with
+/// scripts in a single world, and with bots where required.
 
 #include <gtest/gtest.h>
 

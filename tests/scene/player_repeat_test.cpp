@@ -1,4 +1,4 @@
-/// [[player]] with `repeat`: who the copies are, and what each of them has.
+/// [[player]] with `repeat`: the copies and the contents of each.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace seam {
 namespace player_repeat_test {
 
-/// What is said of a scene; "" if nothing is wrong.
+/// Returns the error of a scene; "" if it is valid.
 std::string WhatIsWrong(const std::string& text) {
   try {
     ParseScene(text, "x.toml");

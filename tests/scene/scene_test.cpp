@@ -1,4 +1,4 @@
-/// Scenes as text: what is read.
+/// Reads scenes from text.
 
 #include "common/scene/scene.h"
 
