@@ -295,7 +295,7 @@ name = "bob"
   EXPECT_TRUE(manager.Has(0, 0));
 }
 
-/// What bounces touches something for a tick or two, and flies on as it did.
+/// A bouncing body touches something for a tick or two, and flies on.
 TEST(AuthorityManager, AFallingMechanismKeepsItsFlightPlanThroughABounce) {
   const Scene scene = ParseScene(
       "follow = 0\nbuffer = 1\n"

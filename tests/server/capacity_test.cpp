@@ -1,4 +1,4 @@
-/// What a client's machine can step, from how busy it says it is.
+/// The number of bodies that a client's machine can step, from its reported load.
 
 #include <gtest/gtest.h>
 
@@ -91,8 +91,8 @@ TEST(LoadMeter, MeasuresTheExcessOfAMachineThatCannotKeepUp) {
   EXPECT_NEAR(meter.permille(), 3000, 150);
 }
 
-/// What the meter says after two seconds of calls that are late as `late_us` (of the time) says and
-/// cost next to nothing.
+/// The meter's load after two seconds of calls with lateness `late_us` (of the time) and almost no
+/// cost.
 std::int16_t LoadOfLate(const std::function<std::int64_t(std::int64_t)>& late_us) {
   LoadMeter meter;
   std::int64_t cpu = 1;

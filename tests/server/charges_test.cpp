@@ -1,4 +1,4 @@
-/// Charges: when and where they go off, and which a scene may have.
+/// Charges: the time and place of each explosion, and which charges a scene may have.
 
 #include <gtest/gtest.h>
 

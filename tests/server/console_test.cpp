@@ -1,5 +1,5 @@
-/// What the server's operator reads: who is here, the percentile of its ticks, what each client's
-/// sessions came to.
+/// The output for the server's operator: present players, the percentile of its ticks, the totals
+/// of each client's sessions.
 
 #include "server/console.h"
 

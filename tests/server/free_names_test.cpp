@@ -1,4 +1,4 @@
-/// What a refused client is told: the names that are free, as many as fit a message.
+/// The refusal of a client lists the free names, as many as fit a message.
 
 #include <gtest/gtest.h>
 

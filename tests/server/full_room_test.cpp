@@ -1,4 +1,4 @@
-/// A room with as many as there may be: spectators never take what players need.
+/// A room at its limit: spectators never take the players' places.
 
 #include <gtest/gtest.h>
 

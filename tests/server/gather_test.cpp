@@ -1,4 +1,4 @@
-/// Gather: how often a server is woken by what comes, played with made-up arrivals.
+/// Gather: how often arrivals wake a server, with made-up arrivals.
 
 #include "server/hub/gather.h"
 

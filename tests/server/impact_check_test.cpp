@@ -1,4 +1,4 @@
-/// Which impacts can have happened, by what is known of the two bodies.
+/// Which impacts are plausible, given the known states of the two bodies.
 
 #include "server/rules/impact_check.h"
 
@@ -7,7 +7,7 @@
 namespace seam {
 namespace impact_check_test {
 
-/// Body 0 at x = 0 and body 1, four times as heavy, at x = 1, both of 1 m; what is known of them is
+/// Body 0 at x = 0 and body 1, four times as heavy, at x = 1, both of 1 m; their known states are
 /// of tick 10.
 class ImpactCheckTest : public ::testing::Test {
  protected:

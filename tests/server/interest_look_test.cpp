@@ -1,4 +1,4 @@
-/// Who is near what, in a room too large for all to be close to everyone.
+/// Which bodies are near which peer, in a room too large for all to be close to everyone.
 
 #include <gtest/gtest.h>
 

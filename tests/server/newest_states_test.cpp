@@ -1,4 +1,4 @@
-/// Of what a receiver is told: only what it would not have guessed from what it was told last.
+/// Sends a receiver only those states that its dead reckoning would miss.
 
 #include "server/interest/newest_states.h"
 
@@ -71,8 +71,8 @@ TEST_F(NewestStatesTest, StatesForASilentHolderGoToAllTwiceAsOften) {
   EXPECT_EQ(Tell(2 * quarter, 1, 2), News::kNobody) << "its holder is heard again";
 }
 
-/// What a ball does that is thrown is guessed from the state in which it left, so that it is told
-/// of again twice a second and where it bounces.
+/// A thrown ball is reckoned from the state of its release, so that its states are repeated twice a
+/// second and sent where it bounces.
 TEST(NewestStates, BouncesOfAFallingBodyAreRelevant) {
   World world(
       ParseScene("[[part]]\nname = \"ground\"\nbox = [40, 2]\nposition = [0, -1]\nanchored = "

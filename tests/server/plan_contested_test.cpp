@@ -1,4 +1,4 @@
-/// Crowds whose owners do not agree become the server's, as a pure function of what planning sees:
+/// Crowds whose owners disagree become the server's, as a pure function of the planner's view:
 /// ann's region is left of x = 0, bob's right of it.
 
 #include "server/authority/plan_contested.h"

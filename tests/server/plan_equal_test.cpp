@@ -69,7 +69,7 @@ AuthorityView VehiclesAmongSleepers(std::uint64_t seed) {
   return view;
 }
 
-/// Whose vehicle touches it first of those that the planner looks ahead for; -1: nobody's.
+/// The player with the vehicle that touches it first within the planner's horizon; -1: none.
 int FirstToTouch(const AuthorityView& view, const MovingBox& box) {
   int first = -1;
   float soonest = FLT_MAX;

@@ -114,7 +114,7 @@ TEST(PlanAuthority, TheBufferReachesToTheNearestBoxAndNotToTheRoot) {
   EXPECT_FALSE(Follows(view, 0, kAnn));
 }
 
-/// What ann has at -30 and bob at 30, coming together at `speed` m/s.
+/// Ann's body at -30 and bob's at 30, approaching at `speed` m/s.
 AuthorityView Approach(float speed, float one_way_s) {
   AuthorityView view = TwoSides({-30, 30});
   view.boxes[0].velocity = {speed / 2, 0};

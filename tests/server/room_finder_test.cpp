@@ -1,4 +1,4 @@
-/// Which room a datagram is for, and that strangers cannot make it remember anything.
+/// Finds a datagram's room; strangers cannot make it allocate memory.
 
 #include "server/hub/room_finder.h"
 

@@ -15,7 +15,7 @@ namespace rules_test {
 
 using Lines = std::vector<std::string>;
 
-/// Writes down what it is asked for.
+/// Records the requests.
 class FakeRoomCommands : public RoomCommands {
  public:
   Lines asked, said;

@@ -1,4 +1,4 @@
-/// Scripts that want to hang the room, fill its memory, or get out of their sandbox.
+/// Scripts that try to hang the room, fill its memory, or leave their sandbox.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Scripts: callbacks, what they can do, and that an error names its line of the scene file.
+/// Scripts: callbacks, functions, and errors that name their line of the scene file.
 
 #include "server/script/script.h"
 
@@ -119,7 +119,7 @@ TEST(Script, KeepsScoresAndHealth) {
   EXPECT_EQ(room.host.said, (Lines{"7.0 0.0", "50.0", "2.0"}));
 }
 
-/// What a script's error says; `code` begins on line 10.
+/// Returns a script's error; `code` begins on line 10.
 std::string ErrorOf(const std::string& code) {
   FakeRoom room(code);
   room.Step();

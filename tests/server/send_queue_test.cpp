@@ -1,4 +1,5 @@
-/// What waits for one receiver: the most urgent first, never more than the budget, nothing lost.
+/// The send queue of one receiver: the most urgent body goes first, never beyond the budget, and
+/// nothing is lost.
 
 #include "server/interest/send_queue.h"
 
@@ -16,7 +17,7 @@ namespace send_queue_test {
 constexpr int kBodies = 200;
 constexpr std::int64_t kTickUs = 16667;
 
-/// As a States, which is what a budget counts with at first.
+/// Size as a States message, which a budget counts at first.
 std::size_t BytesOf(const SendQueue::Message& message) {
   return kStatesBytes.empty + kStatesBytes.each * message.size();
 }

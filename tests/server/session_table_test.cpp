@@ -1,4 +1,4 @@
-/// Who is in the room, with raw links instead of clients: names, peer numbers, silence, places.
+/// Sessions of a room, with raw links instead of clients: names, peer numbers, silence, places.
 
 #include "server/sessions/session_table.h"
 
@@ -24,7 +24,7 @@ class SessionTableTest : public ::testing::Test {
  protected:
   using Kind = SessionEvent::Kind;
 
-  /// What the guests send arrives, and the table answers.
+  /// Delivers the guests' datagrams and lets the table answer.
   void Exchange() {
     Address from;
     Bytes datagram;

@@ -1,4 +1,4 @@
-/// Lying: the plan without what lies far from all else is, entry by entry, the plan of everything.
+/// SleepingIndex: a plan without distant sleepers equals the full plan, entry by entry.
 
 #include "server/authority/sleeping_index.h"
 
@@ -17,7 +17,7 @@
 namespace seam {
 namespace sleeping_index_test {
 
-/// Lays most of what nobody drives to sleep, the server's alone. By mechanism: whether it lies.
+/// Puts most undriven mechanisms to sleep as the server's. Returns, by mechanism, 1 for sleepers.
 std::vector<char> LayDown(std::uint64_t seed, AuthorityView* view) {
   Random random(seed);
   std::vector<char> lies;
@@ -81,8 +81,8 @@ struct Counts {
   int differ = 0, left_out = 0, given = 0;
 };
 
-/// Over random rooms: entries of the plans that differ, what was left out, and what lay and was
-/// given to somebody or followed.
+/// Over random rooms: differing entries of the plans, omitted sleepers, and sleepers that were
+/// granted or followed.
 Counts Compare(PlanWorld world, int seeds) {
   world.regions = false;
   Counts counts;
@@ -153,7 +153,7 @@ TEST(SleepingIndex, MatchesTheFullPlanInACrowdAndFindsNothingWithoutMovers) {
   EXPECT_EQ(lying.Near({car}, {1, 0.2f}).size(), 500u) << "a blow goes through all of them";
 }
 
-/// Coming and going it finds what one does that looks at each.
+/// Under insertions and removals it finds the same as an exhaustive search.
 TEST(SleepingIndex, FindsTheSameAfterAnyHistory) {
   Random random(7);
   Lying lying;

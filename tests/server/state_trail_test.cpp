@@ -1,4 +1,4 @@
-/// What the rules look at of told states: each once, in the order of ticks, no body going back.
+/// The states that the rules check: each once, in the order of ticks, no body going back.
 
 #include "server/rules/state_trail.h"
 

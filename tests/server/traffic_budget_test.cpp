@@ -1,4 +1,4 @@
-/// Token buckets: how much, how fast again, and how long somebody has been beyond them.
+/// Token buckets: burst, refill rate, and the time spent over budget.
 
 #include "server/sessions/traffic_budget.h"
 

@@ -1,4 +1,4 @@
-/// Triggers and the table of values, as functions of what they are told.
+/// Triggers and the metadata table, as functions of their inputs.
 
 #include "server/rules/triggers.h"
 
