@@ -1,5 +1,5 @@
-/// What active characters must be able to do, on starts that no search has seen (those of searches
-/// are numbered from 1001): the bars of docs/lab.md.
+/// Required abilities of active characters, on starts that no search has seen (searches number
+/// theirs from 1001): the bars of docs/lab.md.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace seam {
 namespace character_ability_test {
 
-/// Of the trials whose group begins with one of these words.
+/// Counts the trials with a group that begins with one of these words.
 struct Tally {
   int good = 0, count = 0;
   std::vector<double> figures;  // of the good ones

@@ -1,4 +1,5 @@
-/// Featherweight bricks in a world: what moves on them and against them, beside ordinary ground.
+/// Featherweight bricks in a world: bodies that move on them and against them, beside ordinary
+/// ground.
 
 #include <gtest/gtest.h>
 

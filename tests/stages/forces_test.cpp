@@ -43,7 +43,7 @@ TEST(Conveyor, DragsWithMuGUntilItsLoadMovesWithIt) {
 }
 
 TEST(Conveyor, RunsClockwiseAround) {
-  // What hangs below from a rope, pressed against the underside, is dragged to the left.
+  // A load on a rope, pressed against the underside, is dragged to the left.
   const auto world = SmallWorld(
       "[[part]]\nname = \"belt\"\nbox = [40, 1]\nposition = [0, 0]\nconveyor = 2\n"
       "anchored = true\n"

@@ -1,4 +1,4 @@
-/// Grips: a hand that holds what it touches, as a bond that is an edit.
+/// Grips: a hand holds a touched body by a bond, which is an edit.
 
 #include "common/topology/grip.h"
 
@@ -50,7 +50,7 @@ Vec2 TipOf(const World& world, PartId hand) {
   return arm.position + Turned(FingertipOf(world.scene(), hand).value(), arm.angle);
 }
 
-/// m between the fingertip and what it holds, the most of all grips.
+/// Largest distance between a fingertip and its held body over all grips, m.
 float Apart(const World& world) {
   float apart = 0;
   for (const int index : GripsOf(world.scene())) {

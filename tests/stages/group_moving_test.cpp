@@ -1,4 +1,4 @@
-/// Grouping of what rests against each other while all of it moves.
+/// Grouping of bodies at rest against each other while all of them move.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Grouping of what rests.
+/// Grouping of bodies at rest.
 
 #include <gtest/gtest.h>
 

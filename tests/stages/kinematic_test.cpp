@@ -1,5 +1,4 @@
-/// Kinematic parts: exactly where their path says, whoever looks and whenever they joined, and what
-/// lies on them rides.
+/// Kinematic parts follow their path exactly, for every peer and latecomer, and carry their load.
 
 #include "common/stages/kinematic.h"
 
@@ -94,7 +93,7 @@ std::string Ride() {
 }
 
 TEST(Kinematic, FollowsItsPathExactlyAtEveryTick) {
-  // Seen through what is hung from it by a rigid rod: the rod's length is the proof.
+  // Observed through a body hung from it by a rigid rod: the rod's length is the proof.
   const Scene scene = ParseScene("[solver]\nsleep = false\n" + Ride(), "s.toml");
   World world(scene);
   const JointMeter meter(scene, Compose(scene));

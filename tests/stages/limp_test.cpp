@@ -1,4 +1,4 @@
-/// Limp and back, and limbs that are severed.
+/// Limp characters and their recovery, and severed limbs.
 
 #include <gtest/gtest.h>
 

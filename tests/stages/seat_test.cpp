@@ -1,4 +1,4 @@
-/// Taking a seat: who gets in goes there in one piece and in its time, and disturbs nobody.
+/// Taking a seat: the character arrives in one piece and in time, and disturbs nobody.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// How things move in water, against the equations of motion.
+/// How bodies move in water, against the equations of motion.
 
 #include <gtest/gtest.h>
 

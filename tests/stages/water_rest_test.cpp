@@ -1,5 +1,4 @@
-/// How things lie in water when they have come to rest, against Archimedes and the known stability
-/// of floating bodies.
+/// How bodies rest in water, against Archimedes and the known stability of floating bodies.
 
 #include <gtest/gtest.h>
 

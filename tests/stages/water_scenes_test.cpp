@@ -1,4 +1,4 @@
-/// scenes/regatta.toml and scenes/harbour.toml do what their titles say, in one world.
+/// scenes/regatta.toml and scenes/harbour.toml match their titles in one world.
 
 #include <gtest/gtest.h>
 
