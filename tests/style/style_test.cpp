@@ -1,4 +1,4 @@
-/// How files are written: columns, lengths, names, promises, units of messages.
+/// Checks how files are written: columns, lengths, names, promises, units of messages.
 
 #include <glob.h>
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Style, NamesOfFilesAreSnakeCase) {
   EXPECT_TRUE(offenders.empty()) << offenders;
 }
 
-/// Lines of a page that are too wide, without tables, code, and what a program writes there.
+/// Lines of a page that are too wide, without tables, code and generated text.
 std::string WideLines(const Source& page, std::size_t columns) {
   std::string wide;
   bool code = false, written = false;
