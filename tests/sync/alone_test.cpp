@@ -1,5 +1,5 @@
-/// A peer that steps nothing that another does steps it as a world that never goes back would; one
-/// that shares something builds its world anew as the others do.
+/// A peer whose bodies no other peer simulates steps them without barriers; one that shares a body
+/// rebuilds its world at the same ticks as the others.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What a copy is corrected by does not take it through what is anchored.
+/// Corrections do not take a copy through anchored bodies.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What a player drives: each way in which inputs move a mechanism, and no other.
+/// Which mechanisms a player drives: each way in which inputs move one, and no other.
 
 #include "common/sync/reach/driven.h"
 

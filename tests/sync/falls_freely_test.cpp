@@ -1,4 +1,4 @@
-/// What a holder says falls freely, and what becomes of a copy that is only shown from now on.
+/// The "falls freely" flag of a holder, and a copy that is only displayed from now on.
 
 #include <gtest/gtest.h>
 
@@ -81,9 +81,9 @@ TEST(FallsFreely, ExcludesBodiesThatRestSlideRollHangOrSwim) {
   }
 }
 
-/// A copy of a ball that flies is struck, `silent` ticks after its holder was heard last, by a blow
-/// that the holder's is not, and no longer followed: how far what is shown of it is from the
-/// holder's half a second later, m.
+/// A copy of a flying ball is struck, `silent` ticks after the last state of its holder, by an
+/// impact that the holder's lacks, and is no longer followed. Returns the distance of its displayed
+/// pose from the holder's half a second later, m.
 float ApartAfterABlow(int silent) {
   FollowedCopy pair(
       "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 60]\nvelocity = [4, 0]\n",

@@ -1,4 +1,4 @@
-/// rollback: what changes hands is told of as no input that is still to come can change it.
+/// rollback: a state sent at a hand-over cannot be changed by a later input.
 
 #include <gtest/gtest.h>
 
@@ -82,8 +82,8 @@ std::vector<std::vector<BodyState>> Truth(const Scene& scene) {
   }
 }
 
-/// The server gives the crate away at a tick, when all inputs up to `known` have come; everybody
-/// ends up with what the inputs make of it.
+/// The server grants the crate at a tick, when all inputs up to `known` have arrived; every peer
+/// ends with the pose that the inputs cause.
 void GiveCrate(std::int64_t given, std::int64_t known,
                const std::vector<std::vector<BodyState>>& truth, WiredReplicas* room) {
   room->StepTo(given);
@@ -110,8 +110,8 @@ void GiveCrate(std::int64_t given, std::int64_t known,
   }
 }
 
-/// A state that rests on what was assumed would be put in by all others as it is, and never become
-/// what the inputs make of it.
+/// Others would apply a state that depends on assumed inputs unchanged, and never reach the pose
+/// that the inputs cause.
 TEST(HandedOver, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
   const Scene scene = Squeezed();
   const std::vector<std::vector<BodyState>> truth = Truth(scene);
@@ -122,8 +122,8 @@ TEST(HandedOver, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
   }
 }
 
-/// Of a player who is not heard nothing is assumed for up to kDriverSilentUs: what changes hands
-/// then is told of as it was when it was last heard.
+/// Nothing is assumed about a silent player for up to kDriverSilentUs: a mechanism handed over then
+/// is sent as of the player's last input.
 TEST(HandedOver, SendsTheStateFromTheLastInputOfASilentPlayer) {
   const Scene scene = Squeezed();
   constexpr std::int64_t kCut = 60, kGiven = 107, kHeard = 115;

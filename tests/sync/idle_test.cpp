@@ -1,4 +1,5 @@
-/// What rests where nothing can touch it is not there, and is there as soon as something can.
+/// Bodies at rest out of reach are absent from the world, and present as soon as something may
+/// reach them.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ density = 4
 }
 constexpr int kFirst = 0, kLast = 2, kDisc = 3;
 
-/// The server, that has all of it and plans as if whoever may touch a crate were given it.
+/// The server holds everything and plans as if a player that may touch a crate were granted it.
 class Room {
  public:
   explicit Room(const std::string& disc)
@@ -153,8 +154,8 @@ position = [0, 0.36]
 repeat = {count = 10, step = [0, 0.71]}
 )";
 
-/// Pushed by an edit, it does as it does where it has been there all the time, to the bit: its
-/// contacts begin with what they pressed with.
+/// Pushed by an edit, it moves to the bit as a tower that was present all the time: its contacts
+/// begin with their old impulses.
 TEST(Idle, ATowerThatReturnsStandsAsBefore) {
   const auto push = [](Replica* replica) {
     PushEdit edit;
@@ -169,7 +170,7 @@ TEST(Idle, ATowerThatReturnsStandsAsBefore) {
   const Scene scene = ParseScene(kTower, "tower.toml");
   Replica idle(scene, config, 0, -1), there(scene, config, 0, -1);
   for (Replica* replica : {&idle, &there}) {
-    // Somebody follows all of it: what is to come to the same bits is built anew at the same ticks.
+    // A client follows all of it: bodies that must agree to the bit are rebuilt at the same ticks.
     AuthorityRecord followed;
     followed.secondaries.Add(1);
     for (int m = 0; m < replica->authority().count(); ++m) replica->authority().Set(m, followed);

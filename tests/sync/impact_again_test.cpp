@@ -1,4 +1,4 @@
-/// What a replay finds out about impacts is told like what the first step found, and once.
+/// Impacts found by a replay are reported like those of the first step, and once.
 
 #include <gtest/gtest.h>
 

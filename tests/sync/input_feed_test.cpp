@@ -7,9 +7,9 @@
 namespace seam {
 namespace input_feed_test {
 
-/// A player's inputs, and what is sent of them to a peer in each tick.
+/// A player's inputs, and the messages with them to a peer in each tick.
 struct InputFeedTest : ::testing::Test {
-  /// The next tick's input; what is sent then.
+  /// Records the next tick's input; returns the message sent then.
   std::optional<Inputs> Step(const Input& input, bool rides = false) {
     track.Note(++tick, input);
     const int count = feed.Take(track, acked, tick, rides);

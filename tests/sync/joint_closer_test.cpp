@@ -1,4 +1,4 @@
-/// Poses whose joints are closed, and what is left of them.
+/// Poses with closed joints, and their remaining error.
 
 #include "common/sync/show/joint_closer.h"
 

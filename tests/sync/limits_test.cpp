@@ -1,4 +1,4 @@
-/// The sizes that limits.h reckons with are those of the encoder.
+/// The message sizes in limits.h equal those of the encoder.
 
 #include "common/sync/limits.h"
 

@@ -1,4 +1,4 @@
-/// Whom a peer's world has to have, and whose inputs concern it.
+/// Which bodies a peer's world must hold, and which players' inputs it needs.
 
 #include "common/sync/reach/presence.h"
 
@@ -117,8 +117,8 @@ TEST(Presence, AnApproachingBodyIsPresentBeforeItArrives) {
   EXPECT_LT(gap, 45) << "and not all the time";
 }
 
-/// It was taken for heard of where it was reckoned when it came near, and what was heard of an
-/// earlier tick was no news any more.
+/// Its reckoned pose on arrival counted as received, and a state of an earlier tick was ignored as
+/// old.
 TEST(Presence, AnArrivingBodyFollowsAStateFromBeforeItsArrival) {
   Line line;
   line.Steps(10);
@@ -209,7 +209,7 @@ TEST(Drivers, ConcernPeersThatSimulateTheirBodies) {
   EXPECT_TRUE(line.replica.drivers().Concerns(1)) << "it follows his box";
 }
 
-/// What InputTrack promises, written down with a map.
+/// InputTrack's contract, implemented with a map.
 struct PlainTrack {
   std::map<std::int64_t, Input> known;
   void Note(std::int64_t tick, const Input& input) {

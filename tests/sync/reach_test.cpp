@@ -1,4 +1,4 @@
-/// Which ticks are input-complete: how far can what is not known yet have got?
+/// Which ticks are input-complete: how far may the effect of unknown inputs reach?
 
 #include "common/sync/reach/reach.h"
 

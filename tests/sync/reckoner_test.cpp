@@ -1,4 +1,4 @@
-/// Mechanisms that are reckoned on and whose visual offsets return, as one.
+/// Mechanisms are dead-reckoned, and their visual offsets return, as rigid wholes.
 
 #include "common/sync/show/reckoner.h"
 
@@ -105,8 +105,8 @@ TEST(Reckoner, AMechanismMovesRigidlyAndItsWheelKeepsTurning) {
   EXPECT_GT(meter.Worst(apart), 0.3);
 }
 
-/// Of two parts whose joint is a spring of 5 Hz: where "b" is in a's frame, and how it is turned,
-/// when both are reckoned on by `ticks` after b was told of with this motion and a with none.
+/// Two parts with a spring of 5 Hz between them: pose of "b" in a's frame, when both are
+/// dead-reckoned by `ticks` after states of b with this motion and of a with none.
 BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodyState& moves) {
   World world(ParseScene(
       "gravity = [0, 0]\n[[part]]\nname = \"a\"\nbox = [3, 1]\nposition = [0, 2]\n"
@@ -209,8 +209,9 @@ anchor_b = [1, 0]
 sleep = false
 )";
 
-/// What is heard of a mechanism may be torn by a metre, where its holder is. Closing it finds
-/// another way at each tick, and none of that is a motion: it would hit what is near at 100 m/s.
+/// Received states of a mechanism may have joints open by a metre, as at its holder. Closing them
+/// finds another pose at each tick, and none of that is a motion: it would hit its neighbours at
+/// 100 m/s.
 TEST(Reckoner, ClosingOpenJointsAddsNoMotion) {
   World world(ParseScene(kFourBar, "test.toml"));
   std::mt19937 random(1);
@@ -296,7 +297,8 @@ TEST(Reckoner, AFreelyFallingBodyBouncesOffAnchoredOnes) {
   EXPECT_LT(rightmost, 5.15f);
 }
 
-/// What is absent is looked at every few ticks and goes straight on between: to where it is then.
+/// An absent body is updated every few ticks and moves straight between: to its pose at the next
+/// update.
 TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
   World world(ParseScene(kThrown, "test.toml"));
   World truth(ParseScene(kThrown, "test.toml"));

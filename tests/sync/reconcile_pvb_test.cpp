@@ -1,4 +1,4 @@
-/// pvb: where the blended path leads, and that it never jumps.
+/// pvb: the goal of the blended path, and that it never jumps.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// spring: the damped oscillator it is, its cap, and that it gives way.
+/// spring: the damped oscillator, its cap, and that it yields to obstacles.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace reconcile_spring_test {
 
 const char* kWeightless = "gravity = [0, 0]\n[solver]\nsleep = false\n";
 
-/// What the rule asks of a copy that is `apart` from a resting authority and nothing is in its way.
+/// Input of the rule for a copy that is `apart` from a resting authority, with a free path.
 PullInput Apart(const Vec2& apart, const Vec2& velocity = {0, 0}) {
   PullInput in;
   in.local.position = apart;
@@ -83,8 +83,8 @@ TEST(Spring, PlacesOnlyDistantCopies) {
   EXPECT_FLOAT_EQ(ReconcileSpring(in).now.position.x(), 11);
 }
 
-/// Of what stands for ever a correction takes the authority's side (Corrector::WayTo): this wall
-/// could move, a little.
+/// Against permanent obstacles a correction takes the authority's side (Corrector::WayTo): this
+/// wall could move, a little.
 const char* kWall =
     "[[part]]\nname = \"wall\"\nbox = [0.1, 10]\nposition = [2, 0]\nanchored = true\n"
     "[[part]]\nname = \"a\"\nbox = [1, 1]\n"

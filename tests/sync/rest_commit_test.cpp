@@ -1,4 +1,4 @@
-/// RestCommit in one peer: what is committed, what is held, what wakes it.
+/// RestCommit in one peer: commits, holds and wake-ups.
 
 #include "common/sync/rest/rest_commit.h"
 
@@ -14,7 +14,7 @@
 namespace seam {
 namespace rest_commit_test {
 
-/// Two boxes side by side on the ground; this is peer 0, who has them all at first.
+/// Two boxes side by side on the ground; this is peer 0, which holds them all at first.
 class OnTheGround {
  public:
   explicit OnTheGround(const char* rule = "retrospect") : config(MakeSyncConfig("buffer", rule)) {
@@ -29,7 +29,7 @@ class OnTheGround {
     rest.AfterStep();
     memory.Record();
   }
-  /// Steps so often; returns what was committed meanwhile.
+  /// Steps `ticks` times; returns the commits.
   std::vector<Rest> Steps(int ticks) {
     std::vector<Rest> all;
     for (int i = 0; i < ticks; ++i) {
@@ -252,8 +252,8 @@ TEST(RestCommit, AMovedOwnBodyWakesAndIsCommittedAnew) {
   EXPECT_GT(told[0].x[0], 0.01f);
 }
 
-/// A client that joins late, or was stopped, steps many times before it tells anything: what had
-/// come to rest twice was told twice in one message, which no message may, and the client ended.
+/// A client that joins late, or was stopped, steps many times before it sends: a body that had come
+/// to rest twice was sent twice in one message, which is invalid, and the client ended.
 TEST(RestCommit, ABodyThatRestsTwiceBeforeASendIsSentOnce) {
   OnTheGround room;
   for (int i = 0; i < 40; ++i) room.Step();

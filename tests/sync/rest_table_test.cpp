@@ -1,4 +1,4 @@
-/// RestTable: the sums that change with a body are those over everything.
+/// RestTable: incremental sums equal the sums over everything.
 
 #include "common/sync/rest/rest_table.h"
 
@@ -104,12 +104,12 @@ TEST(RestBlocks, APersistentDifferenceIsALossAndAChangingOneIsInFlight) {
   EXPECT_FALSE(blocks.Lost(1100000, first, 1, 2)) << "it is under way";
   EXPECT_TRUE(blocks.Lost(2000000, first, 1, 2));
   EXPECT_FALSE(blocks.Lost(2100000, second, 5, 6)) << "each block for itself";
-  // What agrees, or cannot be said, begins anew.
+  // Agreement, or a skipped block, restarts the count.
   EXPECT_FALSE(blocks.Lost(2900000, first, 2, 2));
   EXPECT_FALSE(blocks.Lost(3000000, first, 1, 2));
   blocks.Skip(first);
   EXPECT_FALSE(blocks.Lost(4000000, first, 1, 2));
-  // Of what changes at each look something may be lost, too.
+  // A block that changes at each check may have a loss, too.
   bool lost = false;
   for (std::uint64_t i = 1; i < 80 && !lost; ++i) {
     lost = blocks.Lost(4000000 + static_cast<std::int64_t>(i) * 100000, first, 10 + i, 2);

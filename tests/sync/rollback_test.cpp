@@ -1,4 +1,4 @@
-/// rollback: with the same inputs all peers come to the same, however late they hear of them.
+/// rollback: with the same inputs all peers agree, even if the inputs arrive late.
 
 #include <gtest/gtest.h>
 
@@ -149,7 +149,7 @@ TEST(Rollback, EqualsTheTruthAtEveryTickOnAPerfectNetwork) {
   }
 }
 
-/// Only ann does something: what `input` says from `from` to before `until`.
+/// Only ann acts: with `input` from `from` to before `until`.
 WiredReplicas OnlyAnn(const Scene& scene, std::int64_t late, std::int64_t from, std::int64_t until,
                       Input input) {
   return WiredReplicas(scene, MakeSyncConfig("buffer", "rollback"), late,

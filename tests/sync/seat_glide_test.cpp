@@ -1,4 +1,4 @@
-/// Who is on the way to a seat is seen to go there by centimetres a tick.
+/// A character on its way to a seat moves by centimetres a tick in every view.
 
 #include "common/sync/show/seat_glide.h"
 

@@ -1,4 +1,4 @@
-/// Strands: looked at, and nothing else.
+/// Strands are only displayed: they do not collide and are not sent.
 
 #include "common/sync/show/strand_view.h"
 

@@ -1,4 +1,4 @@
-/// The small parts of common/sync, each against what it promises.
+/// The small parts of common/sync, each against its contract.
 
 #include <gtest/gtest.h>
 
@@ -231,7 +231,7 @@ TEST(Snapshots, ReckonAnImpactWithoutItsAcceleration) {
   EXPECT_NEAR(snapshots.Extrapolate(0, 14, 1 / 60.0f, 1).position.x(), -5 * 0.2f, 1e-5f);
 }
 
-/// A blade whose motor brings it to 0.99 m/s within a tick was reckoned to gain 9 m/s.
+/// A blade that its motor brings to 0.99 m/s within a tick was reckoned to gain 9 m/s.
 TEST(Snapshots, ReckonASingleStartOrImpactWithoutItsAcceleration) {
   const float dt = 1 / 60.0f;
   for (const float speed : {0.99f, 0.3f, -0.6f}) {

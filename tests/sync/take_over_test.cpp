@@ -1,4 +1,4 @@
-/// A copy that is told where its body's holder let go of it.
+/// A copy that receives the exact state of its body's last holder.
 
 #include <gtest/gtest.h>
 

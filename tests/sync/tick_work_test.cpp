@@ -1,4 +1,4 @@
-/// What a client's tick looks at is what concerns it, however large the room is.
+/// A client's tick does work only for relevant bodies, in a room of any size.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::unique_ptr<Replica> RoomOf(int far, const std::string& more = "") {
   return replica;
 }
 
-/// How often a tick looks at a body, in two seconds, once what is far lies parked.
+/// Number of bodies that ticks process in two seconds, once distant ones are parked.
 std::int64_t Looks(int far) {
   const std::unique_ptr<Replica> replica = RoomOf(far);
   for (int tick = 0; tick < 60; ++tick) replica->Step();
@@ -65,7 +65,7 @@ double BytesWithJoint(int far) {
   return static_cast<double>(AllocatedBytes() - before) / kTicks;
 }
 
-/// The exact solver is made anew at every barrier: of what takes part.
+/// The exact solver is rebuilt at every barrier, for the present bodies.
 TEST(TickWork, DistantBodiesTakeNoMemoryBesideJoints) {
   const double few = BytesWithJoint(10), many = BytesWithJoint(2010);
   EXPECT_GT(few, 0);

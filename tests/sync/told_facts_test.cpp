@@ -1,4 +1,5 @@
-/// What a peer has told of its own stays true when it learns that it was wrong of the others'.
+/// States that a peer has sent for its own body stay valid when it learns that it was wrong about
+/// others' bodies.
 
 #include <gtest/gtest.h>
 

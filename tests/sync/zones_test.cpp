@@ -1,4 +1,4 @@
-/// Who may meet whom soon, against what can be reckoned by hand and against all pairs.
+/// Which boxes may meet soon, against results by hand and a comparison of all pairs.
 
 #include "common/sync/reach/zones.h"
 
