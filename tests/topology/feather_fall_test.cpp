@@ -1,4 +1,4 @@
-/// What a blast leaves without a foundation comes down, and nothing else.
+/// Bricks that a blast leaves without a foundation fall, and nothing else.
 
 #include "common/topology/feather_fall.h"
 

@@ -1,4 +1,4 @@
-/// Featherweight bricks as data: memory, cells, and outlines that say what is solid.
+/// Featherweight bricks as data: memory, cells, and outlines of the solid area.
 
 #include "common/topology/feather_store.h"
 

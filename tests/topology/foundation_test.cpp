@@ -1,5 +1,5 @@
-/// What holds bricks up: the anchored parts that they lie on, wherever; and of a building that lies
-/// on none, its own lowest rows.
+/// Foundations of bricks: the anchored parts under them; for a building without any, its own lowest
+/// rows.
 
 #include "common/topology/foundation.h"
 

@@ -1,4 +1,4 @@
-/// Connectors: who joins, where, once, and when again.
+/// Connectors: which pieces join, where, once, and when again.
 
 #include "common/topology/join.h"
 

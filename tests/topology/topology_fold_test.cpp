@@ -1,5 +1,5 @@
-/// What edits leave behind: a topology built of it is the one that had all the edits, bit for bit,
-/// and damaged entries are refused in one line.
+/// The compacted edit history: a topology rebuilt from it equals the one with all edits, bit for
+/// bit, and damaged entries are refused in one line.
 
 #include "common/topology/topology_fold.h"
 
@@ -113,7 +113,7 @@ class RandomEdits {
   float Real(float low, float high) { return static_cast<float>(random_.Uniform(low, high)); }
 
  private:
-  /// Names come again when what had them is gone.
+  /// Names are reused after their part is gone.
   std::string Text(const Topology& now) {
     const auto& parts = now.scene().parts;
     const std::string a =
