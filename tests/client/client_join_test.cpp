@@ -98,7 +98,7 @@ TEST_F(ClientJoin, TakesAnotherSessionNumberWhenItsWelcomeDoesNotCome) {
 
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
   Next(0);
-  // As protocol 2 refuses: in a numbered datagram, without our version.
+  // A refusal of protocol 2: in a numbered datagram, without our version.
   Link old(session_);
   old.SendUnreliable(Refusal("protocol 2 is spoken here"));
   old.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
