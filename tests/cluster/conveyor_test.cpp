@@ -11,7 +11,7 @@
 namespace seam {
 namespace conveyor_test {
 
-/// How often each box has passed x = 0 on the upper belt, to the left.
+/// Counts how often each box has passed x = 0 on the upper belt, to the left.
 class Laps {
  public:
   void Look(const World& world) {

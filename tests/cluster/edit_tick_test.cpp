@@ -25,7 +25,7 @@ Recording Break(const std::string& impair, std::int64_t seed) {
   return RunCluster(config);
 }
 
-/// How far any body is from the oracle in anybody's last view, m.
+/// Largest error of any body in any peer's last view, m.
 double Last(const Recording& recording, const Oracle& oracle) {
   double worst = 0;
   for (const auto& [peer, views] : recording.views) {

@@ -19,8 +19,8 @@ namespace grant_interest_test {
 
 constexpr int kAnn = 0, kCarl = 2;  // clients
 
-/// Pendulums that swing between ann's region and bob's, and carl a kilometre away; all hear `hear`
-/// m.
+/// Pendulums that swing between ann's region and bob's, and carl a kilometre away; the interest
+/// radius is `hear` m.
 std::string FarAndNear(int count, int hear) {
   std::string text = "follow = 1\nserver_follow = 1\nbounds = [[-200, -200], [2000, 200]]\n";
   text += Pendulums(count);
@@ -138,7 +138,7 @@ bool AnyClientFollows(const AuthorityRecord& record) {
   return !others.empty();
 }
 
-/// By that it knows whether its world has to come to the same bits as another's.
+/// The holder must agree bit for bit only with followers.
 TEST(GrantInterest, AHolderKnowsIfAnyClientFollowsItsMechanism) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(30);

@@ -61,9 +61,9 @@ class CountingNet : public Net {
   StatesUnpacker unpacker_{PackedMotion(0, 0, 60)};
 };
 
-/// Ann at the left; bob has discs that spin beside her, 25 m away and 300 m away, and drives one
-/// that is 25 m away and the last. `follow`: of how many bodies a room is one in which all is
-/// followed; `hear`: how far one hears, m.
+/// Ann is at the left; bob has discs that spin beside her, 25 m away and 300 m away, and drives one
+/// at 25 m and the last. `follow`: largest number of bodies of a room that is followed whole;
+/// `hear`: interest radius, m.
 std::string Plain(int follow, int hear = 400) {
   return "gravity = [0, 0]\nduration = 8\nbuffer = 3\nserver_follow = 0\nfollow = " +
          std::to_string(follow) + "\n[planner]\nhear = " + std::to_string(hear) + R"(
@@ -178,7 +178,7 @@ TEST(Interest, ADistantBodyIsSentSeldom) {
   EXPECT_NEAR(few.states.at(kDriven), all.states.at(kDriven), 2) << "25 m away";
 }
 
-/// Where a client's view has a body at a tick, x in m.
+/// A body's x in a client's view at a tick, m.
 float Shown(const Recording& recording, int peer, std::int64_t tick, int id) {
   const auto& views = recording.views.at(peer);
   const auto view = views.find(tick);
@@ -257,7 +257,7 @@ TEST(Interest, DistantClientsKnowRestingBodiesExactly) {
       return all;
     };
     const std::vector<std::int32_t> before = epochs();
-    // All lies still since four seconds: nobody has to say anything any more, nor anything to wake.
+    // Everything has been still for four seconds: nobody has anything to send or to wake.
     int apart = 0;
     for (; cluster.server().tick() < 30 * 60; cluster.RunToTick(cluster.server().tick() + 6)) {
       apart += agree() ? 0 : 1;

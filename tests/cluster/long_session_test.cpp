@@ -16,7 +16,7 @@
 #include "tests/support/soak/paired_boxes.h"
 
 #ifdef __SANITIZE_ADDRESS__
-// Of <sanitizer/allocator_interface.h>, which g++ 12 comes without.
+// Declared in <sanitizer/allocator_interface.h>, which g++ 12 lacks.
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
 #endif
 
@@ -38,7 +38,7 @@ class ComingAndGoing {
  public:
   ComingAndGoing(Cluster& cluster, std::uint64_t seed) : cluster_(cluster), random_(seed) {}
 
-  /// Of half a minute: for 22 s people come and go, then all are there and calm down.
+  /// Runs half a minute: for 22 s clients join and leave, then all are present and calm down.
   void RunHalfMinute() {
     const std::int64_t begin = cluster_.server().tick();
     for (std::int64_t tick = begin + kEveryTicks; tick < begin + 22 * 60; tick += kEveryTicks) {

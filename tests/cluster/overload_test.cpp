@@ -28,7 +28,8 @@ struct Seen {
   int slowed = 0, restored = 0;  ///< events
 };
 
-/// How far a body is from where its shown velocity takes it in a tick, m, at most.
+/// Largest distance of a displayed body from the position predicted by its velocity a tick before,
+/// m.
 float WorstJump(const Recording& recording) {
   float worst = 0;
   for (const auto& [peer, views] : recording.views) {
@@ -106,7 +107,7 @@ TEST_P(Overload, TicksOfTwiceTheirPeriodSlowTheRoomForAllAndNobodyTeleports) {
   EXPECT_EQ(calm.least_ppm, kFullSpeedPpm);
   EXPECT_EQ(calm.slowed, 0);
   const Seen seen = Play(GetParam(), true);
-  // It says so, to the clients and to people, and takes it back when it is over.
+  // The server announces it, to the clients and to the operator, and withdraws it afterwards.
   EXPECT_LT(seen.least_ppm, 550000);
   EXPECT_LT(seen.least_told_ppm, 550000);
   EXPECT_GE(seen.slowed, 1);

@@ -34,8 +34,8 @@ ClusterConfig With(const std::string& scene, const std::string& reconcile) {
 /// or .19 m over all 10 s). The effect of a rule shows before that, s.
 constexpr double kCradleSeconds = 8;
 
-/// Of five seeds the worst in the cradle, else the median: after a collision one network's dice say
-/// little of a rule.
+/// The worst of five seeds in the cradle, else the median: after a collision a single network seed
+/// says little about a rule.
 double ErrorOf(const std::string& scene, const std::string& reconcile) {
   std::vector<double> errors;
   const bool cradle = scene == "cradle";
@@ -69,8 +69,9 @@ TEST(RuleSessions, EachRuleIsBelowItsBoundAndBetterThanSnap) {
   }
 }
 
-/// The word that bob's balls rest comes to ann while they are struck. Put to rest again by a replay
-/// that began later, they took the blow of the cradle: it stood, 1.3 m from where it should be.
+/// The message that bob's balls rest reaches ann while they are struck. Put to rest again by a
+/// replay that began later, they absorbed the cradle's impact: it stood still, 1.3 m from its
+/// correct place.
 TEST(RuleSessions, AReplayDoesNotPutAStruckBodyToRest) {
   ClusterConfig config;
   config.scene = "cradle";

@@ -47,7 +47,7 @@ void Tamper(ClusterConfig* config, RewritingNet::Rewrite rewrite,
 
 bool IsRelease(const Bytes& message) { return std::holds_alternative<Release>(Decode(message)); }
 
-/// How often the server says that a peer has left for that reason.
+/// Counts the events in which a peer left for that reason.
 int Said(const Recording& recording, const std::string& why) {
   int count = 0;
   for (const Event& event : recording.events) {
@@ -129,7 +129,7 @@ TEST(Release, AHolderThatStopsAcknowledgingKeepsNothing) {
 /// A client's network, of which datagrams that arrive may be lost.
 class LosingNet : public Net {
  public:
-  /// Whether a datagram that arrives at that time is lost.
+  /// True if a datagram that arrives at that time is lost.
   using Loses = std::function<bool(std::int64_t now_us, ByteView datagram)>;
   LosingNet(std::unique_ptr<Net> net, Loses loses)
       : net_(std::move(net)), loses_(std::move(loses)) {}
@@ -163,8 +163,8 @@ bool HasGrants(ByteView datagram) {
   });
 }
 
-/// Her pings are answered until long after the server's last question, which she never hears; then
-/// she is cut off. Her lease ends when nobody has answered for 3 s, not before.
+/// Her pings are answered until long after the server's last revocation, which she never receives;
+/// then she is cut off. Her lease ends when nobody has answered for 3 s, not before.
 TEST(Release, AHolderThatNeverHearsTheRequestKeepsItUntilItsLeaseEnds) {
   ClusterConfig config = Shuttle("perfect");
   config.duration_s = 16;

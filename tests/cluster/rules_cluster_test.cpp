@@ -68,7 +68,7 @@ ClusterConfig With(const std::string& text, const std::string& mode, const std::
   return config;
 }
 
-/// How often an event's text was said.
+/// Counts the events by text.
 std::map<std::string, int> Said(const Recording& recording) {
   std::map<std::string, int> said;
   for (const Event& event : recording.events) ++said[event.text];

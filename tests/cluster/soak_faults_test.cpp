@@ -25,7 +25,7 @@ constexpr int kRuns = 20, kRunsMax = 2000;
 constexpr int kNarrowRuns = 8;
 constexpr double kSeconds = 20, kSecondsSoak = 60;
 
-/// Sessions have at most so many players; rooms of more than so many bodies are among the narrow.
+/// Most players of a session; and bodies above which a room is narrow.
 constexpr std::size_t kPlayersMost = 8, kPartsMost = 450;
 
 std::vector<std::string> Scenes(bool large) {

@@ -23,7 +23,7 @@ namespace soak_scenes_test {
 
 /// Sessions in a test; SEAM_SOAK multiplies them, up to so many.
 constexpr int kRuns = 20, kRunsMax = 2000;
-/// Of each, s after tick 0.
+/// Duration of each session after tick 0, s.
 constexpr double kSeconds = 4;
 /// A body that stops in a crash while the rest of its mechanism moves on is off by a tick's path,
 /// m: at 15 m/s.

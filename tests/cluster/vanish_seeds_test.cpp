@@ -13,7 +13,7 @@ namespace seam {
 namespace vanish_seeds_test {
 
 constexpr int kSeeds = 4, kSeedsSoak = 20;
-/// Of the holder's last state, s, and m.
+/// Limits after the holder's last state: stand still, s; jump, m.
 constexpr double kStandsMax = 0.3, kJumpMax = 0.5;
 
 TEST(VanishCluster, NoBodyStopsOrJumpsWhenAClientVanishes) {

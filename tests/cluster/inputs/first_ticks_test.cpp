@@ -48,7 +48,8 @@ std::string TugText(const char* begins) {
          HingeText("left", "ann", "link.0", -4) + HingeText("right", "bob", "link.7", 4);
 }
 
-/// Of the last second of 4 s: ticks in which all three peers had the same bits, and all ticks.
+/// Counts ticks in the last second of 4 s: those in which all three peers had the same bits, and
+/// all.
 std::pair<int, int> EqualTicks(const char* begins, std::int64_t seed) {
   ClusterConfig config;
   config.scene = "tug";

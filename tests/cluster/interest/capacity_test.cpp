@@ -44,7 +44,7 @@ std::string RoomText(int capacity) {
   return text;
 }
 
-/// How many times the energy of the one world all that is seen has at most, over any 2 s.
+/// Largest energy of all displayed bodies over any 2 s, relative to the single world.
 double MostEnergy(int capacity, std::int64_t seed) {
   ClusterConfig config;
   config.scene = "discs";

@@ -13,8 +13,8 @@
 namespace seam {
 namespace handed_back_cluster_test {
 
-/// Where the plan's followers were those that the question to let go had left, nobody else was
-/// told: seed 400001 of the soak of narrow rooms.
+/// If the plan's followers equalled those left by the revocation, nobody else was informed: seed
+/// 400001 of the soak of narrow rooms.
 TEST(HandedBackCluster, NearbyClientsHearOfItWithinTwoSeconds) {
   const Scene scene = LoadScene("scenes/swarm.toml");
   ClusterConfig config;
