@@ -249,7 +249,7 @@ TEST(CodecBounds, EpochsHaveThirtyTwoBitsAndAreNeverNegative) {
   release.mechanism = {3};
   release.epoch = {7};
   const Bytes said = Encode(release);
-  // Where the epoch of a message with one body or mechanism is, by the .lcm files.
+  // Offset of the epoch in a message with one body or mechanism, by the .lcm files.
   const std::pair<Bytes, std::size_t> cases[] = {
       {Encode(states), 62}, {Encode(grants), 40}, {said, said.size() - 4}};
   for (const auto& [bytes, at] : cases) {

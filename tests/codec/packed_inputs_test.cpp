@@ -14,7 +14,8 @@
 namespace seam {
 namespace packed_inputs_test {
 
-/// As a player drives: mostly held, or other in every tick; `ticks` of them up to `last`.
+/// Inputs of a driving player: mostly held, or different in every tick; `ticks` of them up to
+/// `last`.
 Inputs Driven(int player, std::int64_t last, int ticks, bool held, Random* random) {
   Inputs inputs;
   inputs.player = player;

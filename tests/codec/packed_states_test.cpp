@@ -57,7 +57,7 @@ class Balls {
     }
     if (random_.Chance(0.01)) ++revision_, composition_ = static_cast<std::int64_t>(random_.Next());
   }
-  /// Of `share` of them; each peer has twenty.
+  /// States of a `share` of the balls; each peer has twenty.
   std::vector<States> Tell(double share) {
     std::vector<States> all;
     for (std::size_t first = 0; first < balls_.size(); first += 20) {
