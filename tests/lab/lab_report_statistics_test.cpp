@@ -73,7 +73,7 @@ TEST(Quartiles, AreTheNearestRanks) {
   EXPECT_EQ(one->low, 7);
   EXPECT_EQ(one->median, 7);
   EXPECT_EQ(one->high, 7);
-  // Of 1..20: numbers 5, 10 and 15. Of 1..5: ceil(1.25) = 2, ceil(2.5) = 3, ceil(3.75) = 4.
+  // For 1..20: numbers 5, 10 and 15. For 1..5: ceil(1.25) = 2, ceil(2.5) = 3, ceil(3.75) = 4.
   const auto twenty =
       FindQuartiles({20, 1, 19, 2, 18, 3, 17, 4, 16, 5, 15, 6, 14, 7, 13, 8, 12, 9, 11, 10});
   EXPECT_EQ(twenty->low, 5);

@@ -77,7 +77,7 @@ TEST(Tune, FindsTheCheapestOfAMadeUpProblem) {
         const TuneResult result = Tune(problem);
         ASSERT_TRUE(result.best.has_value());
         EXPECT_TRUE(result.complete);
-        // By trying everything.
+        // Finds the least cost by trying everything.
         double least = std::numeric_limits<double>::infinity();
         std::vector<int> rates = {20, 30, 60, 120, 240};
         if (keep_hz) rates = {60};

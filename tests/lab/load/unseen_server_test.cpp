@@ -134,7 +134,7 @@ TEST(UnseenServer, SendsNoStatesForASilentHolderToBetterInformedFollowers) {
   }
 }
 
-/// Where every client has every body at the end.
+/// Final positions of every body at every client.
 std::vector<Vec2> ClientsEnd(const std::string& scene, int seed, bool listening) {
   ClusterConfig config;
   config.scene = scene;
@@ -155,7 +155,7 @@ std::vector<Vec2> ClientsEnd(const std::string& scene, int seed, bool listening)
   return places;
 }
 
-/// Clients come to the same bits whether or not somebody listens to a bus without views.
+/// Clients reach the same bits with and without a listener on a bus without views.
 TEST(UnseenServer, IsUnseenOnABusWithoutViews) {
   for (const char* scene : {"crossing", "obstacle", "heap"}) {
     for (const int seed : {1, 2}) {
