@@ -74,7 +74,7 @@ Recording Drive(std::int64_t bob_until, std::int64_t late_us) {
   return recording;
 }
 
-/// How many ticks are not known, at each of the ticks from 40 on.
+/// Numbers of unknown ticks, at each of the ticks from 40 on.
 std::set<std::int64_t> Ages(const Recording& recording, int of, int at) {
   const KnownInputs known = FindKnownInputs(recording);
   std::set<std::int64_t> ages;
@@ -103,8 +103,8 @@ TEST(KnownInputs, AreNoneBeforeTheFirstCame) {
 }
 
 TEST(KnownInputs, IncludeTheClientsLeadDerivedFromTheRoundTrip) {
-  // The input of tick t is there two ticks before the server makes t, after four ticks on the way:
-  // the clients are six ticks ahead. What comes back after four is for a screen of ten ticks later.
+  // The input of tick t arrives two ticks before the server makes t, after four ticks of delay: the
+  // clients are six ticks ahead. A state received after four more is displayed ten ticks later.
   Recording recording = Drive(200, -2 * kTickUs);
   for (const int peer : {1, 2}) {
     Stats stats;
@@ -143,8 +143,8 @@ TEST(InformationLimit, IsExactlyZeroIfTheHeldInputsWereRight) {
 }
 
 TEST(InformationLimit, IsTheEffectOfTheInputsWhileTheyAreUnknown) {
-  // A sled of 1 kg under 10 N that for n ticks of 1/60 s is wrongly held to be driven, or not to
-  // be, is h^2 10 n(n+1)/2 beside. Both begin unseen; ann holds bob's for driven after he let go.
+  // A sled of 1 kg under 10 N that is wrongly assumed to be driven, or not, for n ticks of 1/60 s
+  // errs by h^2 10 n(n+1)/2. Both begin unseen; ann assumes bob's to be driven after he let go.
   const auto expected = [](std::int64_t until, std::int64_t age) {
     double sum = 0;
     int count = 0;
