@@ -104,7 +104,7 @@ TEST(HttpPage, CutsOffEndlessRequestsAndAnswersTheOthers) {
   Peer endless(served.port());
   endless.Say("GET /" + std::string(2 * HttpPage::kRequestBytesMax, 'a'));
   EXPECT_EQ(endless.Hear(), "");
-  // As many as there are seats say nothing; the next one is answered when their time is over.
+  // As many silent connections as allowed; the next one is answered when their time is over.
   std::vector<std::unique_ptr<Peer>> silent;
   for (std::size_t i = 0; i < HttpPage::kConnectionsMax; ++i) {
     silent.push_back(std::make_unique<Peer>(served.port()));
