@@ -184,7 +184,7 @@ void SetRope(World* world, Motion motion) {
   for (int body = 0; body < kLinks; ++body) world->SetMotion(body, motion);
 }
 
-/// How far the pins' two points are apart, at worst, m.
+/// Largest distance between the two points of a pin, m.
 double Open(const World& world) {
   double worst = 0;
   for (const Pin& pin : world.Pins()) {

@@ -193,7 +193,7 @@ TEST(Couplings, ReplayBitForBitFromABarrier) {
             0);
 }
 
-/// Whether a box of 1 kg that is glued under the end of a rope, b's with ratio 2, falls off.
+/// True if a box of 1 kg, glued under the end of a rope (b's, with ratio 2), falls off.
 bool TearsOff(double strength) {
   const std::string hook = "box = [0.4, 0.4]\ndensity = 6.25\nposition = [2, 0]";
   const auto world = SmallWorld(

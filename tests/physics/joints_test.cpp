@@ -269,8 +269,8 @@ TEST(Joints, AMotorJointFollowsItsPlayersAxis) {
   EXPECT_NEAR(world->Read(0).position.y(), 0, 0.01);
 }
 
-/// Goes on for `ticks` with a barrier every three, goes back to the eighth and does it again: how
-/// many ticks came out differently.
+/// Runs for `ticks` with a barrier every three, goes back to the eighth and replays. Returns the
+/// number of ticks that differ.
 int TicksThatDiffer(const std::string& joint) {
   const std::string text =
       std::string(kDriver) + "[[part]]\nname = \"ground\"\nchain = [[-20, -6], [20, -6]]\n" +

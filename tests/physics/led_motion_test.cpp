@@ -72,7 +72,7 @@ TEST(PrescribedBody, FollowsItsPathDespiteCollisions) {
     const auto t = static_cast<float>(tick) * world->dt();
     EXPECT_EQ(now.velocity, start.velocity) << tick;
     EXPECT_EQ(now.spin, start.spin) << tick;
-    // As many additions in single precision.
+    // Allows for as many additions in single precision.
     EXPECT_NEAR((now.position - start.position - t * start.velocity).norm(), 0, 1e-5) << tick;
     EXPECT_NEAR(now.angle, start.angle + t * start.spin, 1e-5) << tick;
   }

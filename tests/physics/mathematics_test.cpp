@@ -118,7 +118,7 @@ std::unique_ptr<World> OnSlope(double angle, double friction, const std::string&
                     "angle=" + FloatDigits(-angle) + "\nposition=" + at(0, 0.515) + "\n");
 }
 
-/// How far it came along the slope, m.
+/// Distance moved along the slope, m.
 double Along(const World& world, double angle) {
   const Vec2 p = world.Read(0).position;
   return p.x() * std::cos(angle) - p.y() * std::sin(angle);

@@ -8,7 +8,7 @@
 namespace seam {
 namespace ready_fixtures_test {
 
-/// Of every kind that may move; a polygon of ten corners is two pieces, a capsule three.
+/// Parts of every kind that may move; a polygon of ten corners is two pieces, a capsule three.
 const char* const kParts = R"(
 [[part]]
 name = "box"

@@ -30,7 +30,7 @@ Part OnlyPart(const std::string& shape) {
   return ParseScene("[[part]]\nname = \"p\"\n" + shape, "shape.toml").parts[0];
 }
 
-/// By summing over small squares.
+/// Mass properties by summing over small squares.
 MassProperties Summed(const Part& part, bool (*inside)(const Part&, double, double)) {
   const double side = 0.002, reach = 2;
   MassProperties sum;

@@ -146,7 +146,7 @@ TEST(WorldEdges, ImpactsOfATickAreTheSameInAnySubsteps) {
       }
       ASSERT_EQ(impacts.size(), 1u) << e << " " << substeps;
       EXPECT_NEAR(impacts[0].dv, (1 + e) * 3 / 4.0 * 6, 1e-4) << e << " " << substeps;
-      // Where they were after the step: 0.1 m of overlap and as much of parting.
+      // Positions after the step: 0.1 m of overlap and as much of parting.
       EXPECT_NEAR((impacts[0].point - Vec2(-0.5f, 0)).norm(), 0, 0.2);
     }
   }

@@ -91,7 +91,7 @@ TEST(ExactEdits, AKinematicLinkFollowsItsPathAndTheOthersFollowIt) {
   EXPECT_LT(Drift(*world), 1e-5);
 }
 
-/// How far a chain's joints are open, at worst, while its first link is led.
+/// Largest opening of a chain's joints while its first link is prescribed.
 double DriftOfLed(const char* joints) {
   const auto world = SmallWorld(ChainText(5, 0, 0), joints, "gravity = [0, 0]\n");
   world->SetMotion(0, Motion::kPrescribed);

@@ -17,7 +17,7 @@ double EnergyOf(const World& world) {
   return MechanicalEnergy(world.scene(), world.composition(), StatesOf(world));
 }
 
-/// Of a bob on a hinged rod of 2 m, let go at the height of the hinge.
+/// A bob on a hinged rod of 2 m, released at the height of the hinge.
 std::string Pendulum() {
   return PostText(0, 0) + PartText("bob", "box = [2, 0.1]\nposition = [1, 0]") +
          HingeText("pivot", "post", "bob", 0, 0);

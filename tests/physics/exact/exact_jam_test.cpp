@@ -61,7 +61,7 @@ double FastestOf(World* world, int ticks) {
   return most;
 }
 
-/// A press whose lower side goes from `high` to `low` and back in 4 s.
+/// A press that moves its lower side from `high` to `low` and back in 4 s.
 std::string PressText(double high, double low) {
   return PartText("press", "box = [3, 0.5]\nanchored = true\nposition = [0, " +
                                FloatDigits(high + 0.25) + "]") +

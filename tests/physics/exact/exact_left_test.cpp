@@ -102,8 +102,8 @@ TEST(ExactLeftToEngine, AHeapThatABladeShovesCostsLittleMoreThanTheEngines) {
   EXPECT_LT(CostOfTicks(ours.get()), 1.7 * CostOfTicks(engines.get()));
 }
 
-/// A cart that drives into a heap of crates before a wall: exact joints look through so many
-/// contacts of which those of a crate say more than it has freedom.
+/// A cart that drives into a heap of crates before a wall: the exact solver meets crates with more
+/// contacts than degrees of freedom.
 std::string CartIntoCrates(int columns) {
   const auto wheel = [](const std::string& name, const std::string& x) {
     return PartText(name, "circle = 0.4\nposition = [" + x + ", 0.4]\nfriction = 0.9") +
@@ -167,9 +167,9 @@ TEST(ExactLeftToEngine, AnAbandonedStepChangesNothing) {
   EXPECT_TRUE(found);
 }
 
-/// By tick, with a barrier after each: the joints of each step are new, in memory that is full of
-/// `byte`, as far as glibc gives it (a sanitizer has its own). The engine does not say of a new
-/// rod where it points.
+/// Hashes by tick, with a barrier after each: the joints of each step are new, in memory full of
+/// `byte`, as far as glibc allows (a sanitizer has its own). The engine does not initialise a new
+/// rod's direction.
 std::vector<std::uint64_t> HashesInMemoryFullOf(int byte) {
   const std::string trailer =
       PartText("trailer", "circle = 0.5\nposition = [-4, 0.5]\ndensity = 3") +
@@ -190,7 +190,7 @@ std::vector<std::uint64_t> HashesInMemoryFullOf(int byte) {
 }
 
 TEST(ExactLeftToEngine, UninitialisedMemoryDoesNotAffectANewJoint) {
-  // As floats: 0, 3.4e38, -1.2e-38 and not a number.
+  // The bytes as floats: 0, 3.4e38, -1.2e-38 and NaN.
   const std::vector<std::uint64_t> zero = HashesInMemoryFullOf(0);
   for (const int byte : {0x7f, 0x80, 0xff}) {
     EXPECT_EQ(HashesInMemoryFullOf(byte), zero) << byte;
