@@ -144,7 +144,7 @@ TEST_F(EndToEnd, TheStockLoggerCapturesEveryTickOfEveryPeer) {
 
 using Messages = std::map<std::pair<std::string, Bytes>, int>;
 
-/// How often a log holds each (channel, bytes) of the room.
+/// Counts each (channel, bytes) of the room in a log.
 Messages Count(const std::string& path) {
   Messages messages;
   LogReader log(path);
@@ -252,8 +252,9 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   EXPECT_GT(number["retrospect"]["rebound"], 0.9) << "the brick gets what is due to it";
   EXPECT_LT(number["retrospect"]["rebound"], 1.1);
   EXPECT_GT(number["central"]["rebound"], 0.9);
-  // That strict shows the rubber wall hangs, in one capture, on when which datagram comes: its
-  // median over seeds is Cluster.StrictShowsTheRubberWall...'s. Here the brick may get nothing.
+  // In one capture, the rubber wall of strict depends on the arrival of datagrams:
+  // Cluster.StrictShowsTheRubberWall... tests its median over seeds. Here the brick may receive no
+  // impulse.
   EXPECT_GE(number["strict"]["rebound"], 0);
   EXPECT_LT(number["retrospect"]["error_rms_m"], number["strict"]["error_rms_m"]);
   for (const char* run : {"retrospect", "central"}) {

@@ -75,7 +75,7 @@ std::int64_t TickOf(const Recording& recording, const std::string& text) {
   return event < 0 ? -1 : recording.events[static_cast<std::size_t>(event)].tick;
 }
 
-/// Whether `peer` has shown anything after `tick`.
+/// True if `peer` has published a view after `tick`.
 bool ShowsAfter(const Recording& recording, int peer, std::int64_t tick) {
   const auto views = recording.views.find(peer);
   return views != recording.views.end() && views->second.upper_bound(tick) != views->second.end();

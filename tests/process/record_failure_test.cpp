@@ -40,7 +40,7 @@ Words Server(const std::string& record, const std::string& duration_s) {
           record};
 }
 
-/// How many lines of `text` contain `part`.
+/// Counts the lines of `text` that contain `part`.
 int LinesWith(const std::string& text, const std::string& part) {
   int lines = 0;
   for (std::size_t at = 0; at < text.size();) {

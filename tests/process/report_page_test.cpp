@@ -13,7 +13,7 @@
 namespace seam {
 namespace report_page_test {
 
-/// Of two scenes at two latencies: in wall fade errs less, at 100 ms in stack strict does.
+/// A table of two scenes at two latencies: in wall fade errs less, at 100 ms in stack strict does.
 std::string LatencyCsv() {
   std::string text =
       "version,scene,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed,"

@@ -57,7 +57,7 @@ TEST_F(ReviewLayers, RegionsEncloseEachClientsBodiesIfTheSceneFixesNone) {
   ASSERT_EQ(Number(view + ".peer"), 0);
   EXPECT_GE(Number("heldRegions(" + view + ", 150).length"), 2);
   EXPECT_EQ(Number("review.page.runs[0].regions.length"), 0) << "the scene fixes none";
-  // How far a held body's middle is inside its holder's region, m: its reach and the margin.
+  // Distance of a held body's centre inside its holder's region, m: its reach and the margin.
   const std::string inside =
       "(() => { const v = " + view +
       "; let least = Infinity, held = 0;"

@@ -99,7 +99,7 @@ TEST_F(SwarmProgram, FourClientsPlayForThreeSecondsAndLeaveCleanly) {
   EXPECT_GT(figures.client_us, 0) << said;
   EXPECT_EQ(figures.rejoins, 0) << said;
   EXPECT_GT(figures.slowest_clock, 0) << said;
-  // Nobody is there any more, at once: they said goodbye.
+  // The clients are gone at once: they said goodbye.
   std::vector<RoomLoad> loads = Loads(17500);
   for (int i = 0; i < 30 && !loads.empty() && loads[0].load.clients > 0; ++i) {
     usleep(100000);
