@@ -105,7 +105,7 @@ void ReadChunk(const McapRecord& record, McapFile* file) {
   }
 }
 
-/// Where a chunk's index says that it and its messages are, there they are.
+/// Checks that a chunk and its messages are at the places in the chunk's index.
 void CheckChunkIndex(const std::string& bytes, const McapRecord& record) {
   McapFields index(record.content);
   index.Take<std::uint64_t>();

@@ -121,7 +121,7 @@ TEST_F(ExportProgram, TheTableHasEveryPoseOfTheRecordingAndItsError) {
   EXPECT_GT(with_error, 1000u);
 }
 
-/// Of the last column.
+/// Root mean square of the last column.
 double RootMeanSquare(const std::string& csv) {
   MeanSquare all;
   const Words lines = LinesOf(csv);
