@@ -12,7 +12,7 @@
 namespace seam {
 namespace duel_scenes_test {
 
-/// Whether two bodies have touched at any end of a tick so far; Note after each step.
+/// Records which two bodies have touched at the end of a tick; call Note after each step.
 class Meetings {
  public:
   void Note(const World& world) {
