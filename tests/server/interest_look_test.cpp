@@ -52,7 +52,7 @@ TEST_F(InterestLook, EverythingIsCloseToEveryoneInASmallRoom) {
 }
 
 TEST_F(InterestLook, ABodyWithinReachOfAnyHeldBodyIsNear) {
-  // Ann holds a row of discs, one in each cell; beside its ends lies something just within reach.
+  // Ann holds a row of discs, one in each cell; another disc is just within reach of each end.
   const float reach = Interest::kNearReach;
   std::vector<float> places;
   for (int i = 0; i < 6; ++i) places.push_back(reach * (static_cast<float>(i) + 0.5f));

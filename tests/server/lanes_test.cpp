@@ -15,7 +15,7 @@ namespace lanes_test {
 
 constexpr std::int64_t kPeriodUs = 16667;
 
-/// A room whose tick takes `busy_us`, asleep or at work, and that notes how late it is run.
+/// A room with ticks of `busy_us`, asleep or at work; records the lateness of its runs.
 class Metronome : public Runnable {
  public:
   explicit Metronome(std::int64_t busy_us = 0, bool spins = false)

@@ -19,8 +19,8 @@ class PlanContested : public ::testing::Test {
     view_.players.push_back({kBob, 0.05f, true, {0, -100}, {100, 100}});
   }
 
-  /// Half a metre wide, awake, its region's player's for long; its holder's word was far off
-  /// so often.
+  /// Adds a box half a metre wide, awake, held by its region's player for long; `contested` is the
+  /// sum of its holder's errors.
   std::size_t Add(float x, float contested) {
     MechanismView mechanism;
     mechanism.position = {x, 0};

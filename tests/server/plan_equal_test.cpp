@@ -31,7 +31,8 @@ int Differences(const AuthorityView& view) {
   return differ;
 }
 
-/// With gravity downwards, to the right and nowhere, in turn; two of three things fall freely.
+/// Differences of the plans with gravity downwards, to the right and zero, in turn; two of three
+/// mechanisms fall freely.
 int DifferencesOver(PlanWorld world, int seeds) {
   int differ = 0;
   for (int seed = 1; seed <= seeds; ++seed) {

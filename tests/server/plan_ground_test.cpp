@@ -11,7 +11,7 @@ MovingBox Box(const Vec2& min, const Vec2& max, int group) {
   return {min, max, Vec2(5, 0), 0, group};
 }
 
-/// By group, the lowest of those on which it presses, found by comparing all with all.
+/// By group, the lowest group on which it presses, found by comparing all pairs.
 std::vector<int> PressingSlowly(const std::vector<MovingBox>& boxes, std::size_t groups) {
   std::vector<std::pair<int, int>> pairs;
   for (const MovingBox& a : boxes) {

@@ -184,8 +184,7 @@ TEST(PlanAuthority, InACrowdOnlyNearbyBodiesAreMetThroughOthers) {
   EXPECT_TRUE(Follows(Row(10, 0.5f), 299, 1)) << "a push goes through all of a heap";
 }
 
-/// Balls that bounce in a row lay at .2 m from each other, were taken for a heap, and everyone
-/// followed all of them.
+/// Bouncing balls in a row, .2 m apart, were taken for a heap, and every peer followed all of them.
 TEST(PlanAuthority, BodiesSideBySideAreNoHeap) {
   EXPECT_FALSE(Follows(Row(10, 0.5f + 0.2f), 299, 1));
   EXPECT_TRUE(Follows(Row(10, 0.5f + 0.2f), 29 + 20, 1)) << "14 m away";

@@ -12,7 +12,7 @@ namespace room_clock_test {
 constexpr int kHz = 60;
 constexpr std::int64_t kPeriodUs = 1000000 / kHz;
 
-/// A server in virtual time whose ticks take `cost_us`.
+/// A server in virtual time with ticks of `cost_us`.
 struct BusyServer {
   RoomClock clock{kHz};
   std::int64_t now_us = 5000000;
@@ -25,7 +25,7 @@ struct BusyServer {
     for (const std::int64_t end_us = now_us + us; now_us < end_us;) {
       now_us = std::max(now_us, clock.DueUs(tick + 1));
       worst_late_us = std::max(worst_late_us, now_us - clock.DueUs(tick + 1));
-      // As Server::Tick: several that are due in one call.
+      // Like Server::Tick: several due ticks in one call.
       std::int64_t steps = 0;
       while (steps < 2 && clock.DueUs(tick + 1) <= now_us) ++tick, ++steps;
       if (clock.Note(now_us, tick)) ++said;
