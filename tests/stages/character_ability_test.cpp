@@ -68,9 +68,9 @@ TEST(CharacterAbility, ClimbsAndDescendsStairsOfFifteenAndTwentyCentimetres) {
   EXPECT_GE(high.good, 9) << high.failed;
 }
 
-/// Where the knee of the leg that bears yields, its ankle must not turn the foot over the edge: at
-/// 20 cm it fell in 16 of 60. And its heel must not come down on the edge of the stair that it
-/// leaves: it fell in 7 to 19 of 60.
+/// When the knee of the bearing leg yields, its ankle must not turn the foot over the edge: at 20
+/// cm it fell in 16 of 60. And the heel must not come down on the edge of the stair that it leaves:
+/// it fell in 7 to 19 of 60.
 TEST(CharacterAbility, DescendsOtherFlightsOfTwelveToTwentyCentimetres) {
   std::map<std::string, Tally> flights;
   for (int start = 20001; start <= 20240; ++start) {

@@ -87,7 +87,7 @@ TEST(Grip, ASwimmerHoldsTheWallThatItComesToByItsFingertip) {
 }
 
 TEST(Grip, HoldsTheTouchedTileAmongManyAnchoredOnes) {
-  // They are so many that they share a body, which lies elsewhere than each of them.
+  // Many anchored tiles share a body, placed elsewhere than each of them.
   ScriptedWorld run(CharacterScene(
       "position = [-1.3, -1.45]\nangle = -0.3\ndensity = 0.92\ngrip = true\n",
       "[[0, {drive = 1.0}]]",

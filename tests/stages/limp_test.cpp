@@ -41,7 +41,7 @@ TEST(Limp, AHardPushMakesItLimpForAMomentAndALightOneDoesNot) {
   }
 }
 
-/// By a command, as scripts give it.
+/// Makes it limp by a script's command.
 void GoLimp(ScriptedWorld* run, float seconds) {
   const PartId torso = run->world.scene().characters[0].parts[kTorso];
   run->world.Apply({Edit(PushEdit{torso, Vec2(0, 0), 0, seconds}, EditCause::kOutside)});
@@ -104,7 +104,7 @@ TEST(Limp, ABarrierReplaysItBitForBit) {
   }
 }
 
-/// Whether it stands 8 s after a joint of it was severed while it stood.
+/// True if it stands 8 s after one of its joints was severed.
 bool StandsWithout(CharacterJoint joint) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n"));
   run.StepTo(60);

@@ -74,7 +74,7 @@ void BondToSeat(World* world) {
   world->Apply({Edit(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside)});
 }
 
-/// How far the torso is from its place in the seat, m.
+/// Distance of the torso from its place in the seat, m.
 float ToSeat(const World& world) {
   const Seat& seat = world.scene().seats[0];
   const BodyState there = PartPose(world, seat.part);

@@ -22,7 +22,7 @@ std::string Square(double density, double angle) {
   return "box = [1, 1]\ndensity = " + FloatDigits(density) + "\nangle = " + FloatDigits(angle);
 }
 
-/// How far a settled square leans from upright, 0..45 degrees.
+/// Lean of a settled square from upright, 0..45 degrees.
 double Lean(double density, double start_angle, double seconds = 40) {
   const double angle = double{Settled(Square(density, start_angle), seconds).angle};
   return std::fabs(std::remainder(angle, M_PI / 2)) / kDegree;

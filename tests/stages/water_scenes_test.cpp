@@ -58,7 +58,7 @@ TEST(Harbour, TheBoatCrossesTheSeamAndPushesFloaters) {
   EXPECT_GT(harbour.Read("crate.0").position.x(), crate + 5);
   EXPECT_LT(harbour.Read("wreck").position.y(), -4.5);
   harbour.StepTo(780);
-  // By their densities: the more, the deeper.
+  // Denser bodies float deeper.
   for (const char* cork : {"cork.0", "cork.1"}) EXPECT_GT(harbour.Read(cork).position.y(), 0.1);
   for (const char* awash : {"awash.0", "awash.1"}) {
     EXPECT_LT(harbour.Read(awash).position.y(), 0);
