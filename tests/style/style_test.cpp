@@ -139,7 +139,7 @@ std::vector<std::string> PathsIn(const std::string& line) {
   return paths;
 }
 
-/// Whether a path from `folder` or from the root is there; "*", and NAME, stand for any letters.
+/// True if a path from `folder` or from the root exists; "*", and NAME, stand for any letters.
 bool Exists(const std::string& path, const fs::path& folder) {
   std::string pattern = path.substr(0, path.find('#'));
   for (std::size_t at; (at = pattern.find("NAME")) != std::string::npos;) {
