@@ -89,7 +89,7 @@ std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const R
   return {pairs.begin(), pairs.end()};
 }
 
-/// By mechanism: whether it is in a group with one of the peer's.
+/// By mechanism: true if it is in a group with one of the peer's.
 std::vector<bool> WithThoseOf(int peer, const ReferencePlan& plan, const std::vector<int>& group) {
   std::vector<bool> has(plan.size(), false), with(plan.size(), false);
   for (std::size_t m = 0; m < plan.size(); ++m) {
@@ -129,7 +129,7 @@ std::vector<float> Distances(const AuthorityView& view, const PlayerView& player
   return nearest;
 }
 
-/// By mechanism: whether it is in a pair with one of the server's.
+/// By mechanism: true if it is in a pair with one of the server's.
 std::vector<bool> WithServers(const ReferencePlan& plan,
                               const std::vector<std::pair<int, int>>& pairs) {
   std::vector<bool> shared(plan.size(), false);
@@ -173,7 +173,7 @@ std::vector<int> Pressing(const AuthorityView& view) {
   return Components(static_cast<int>(view.mechanisms.size()), pairs);
 }
 
-/// By mechanism: whether its group is a crowd; only its nearby bodies are followed.
+/// By mechanism: true if its group is a crowd; only its nearby bodies are followed.
 std::vector<bool> InCrowds(const AuthorityView& view, const ReferencePlan& plan,
                            const std::vector<int>& group) {
   std::vector<std::set<int>> holders(plan.size());

@@ -41,7 +41,7 @@ void Invariants::Say(const std::string& what, const std::string& detail) {
   broken.first = at + detail;
 }
 
-/// Whether nothing has been wrong with a client's machine and network for so long.
+/// True if a client's machine and network have been without faults for `for_us`.
 bool Invariants::Well(std::size_t peer, std::int64_t for_us) const {
   if (peer == 0) return true;
   const std::int64_t since_us = faults_.WellSince(static_cast<int>(peer) - 1);

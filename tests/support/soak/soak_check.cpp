@@ -24,7 +24,7 @@ constexpr double kHottest = 2;
 constexpr double kUnknown = 3;
 /// ...and, where it is shown, for the glide that hides a correction: 4 m/s and more, on top of it.
 constexpr double kUnknownShown = 7;
-/// Of a room without gravity or loss the sum may be so many times the oracle's.
+/// In a room without gravity or loss the sum may reach this multiple of the oracle's.
 constexpr double kSum = 1.15;
 /// A crash: the oracle's joints are open by more than this, m.
 constexpr double kCrashDrift = 0.005;
@@ -151,7 +151,7 @@ class Check {
     return sum;
   }
 
-  /// Where a view shows exactly the bodies of its revision.
+  /// True if a view shows exactly the bodies of its revision.
   static bool Whole(const View& view, const Meters& meters) {
     return view.id.size() == meters.revision->ids.size() &&
            std::equal(view.id.begin(), view.id.end(), meters.revision->ids.begin());
