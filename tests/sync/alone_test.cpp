@@ -38,7 +38,7 @@ repeat = {count = [8, 4], step = [1.3, 0.8]}
 )";
 constexpr int kTicks = 150;
 
-/// Of a client that has all.
+/// Hash of a client that holds everything.
 std::uint64_t HashOf(bool followed) {
   Replica client(ParseScene(kTumble, "tumble.toml"), MakeSyncConfig("buffer", "rollback"), 1, 0);
   AuthorityRecord record;

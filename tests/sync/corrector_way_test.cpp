@@ -73,8 +73,8 @@ TEST(CorrectorWay, ACopyIsNeverCarriedThroughTheGround) {
   }
 }
 
-/// Where the copy has bounced off a wall's edge to the other side, it stays there: its own way led
-/// there, although the straight one from the authority's word does not.
+/// A copy that has bounced off a wall's edge to the other side stays there: its own path led there,
+/// although the straight one from the authority's state does not.
 TEST(CorrectorWay, ACopyThatBouncedRoundACornerStaysThere) {
   FollowedCopy pair(
       "gravity = [0, 0]\n[[part]]\nname = \"wall\"\nbox = [0.2, 4]\nposition = [0, -2.4]\n"

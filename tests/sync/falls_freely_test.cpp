@@ -13,12 +13,12 @@ namespace falls_freely_test {
 
 const char* const kGround = "[[part]]\nname = \"ground\"\nchain = [[-90, 0], [90, 0]]\n";
 
-/// How often parts were told of, from the 20th tick to the 200th, and how often as falling.
+/// Numbers of a part's states from the 20th tick to the 200th: all, and those flagged as falling.
 struct Told {
   int states = 0, falling = 0;
 };
 
-/// By part's index. A peer alone with the scene.
+/// Counts by the part's index, for a single peer.
 std::map<int, Told> ToldOf(const std::string& scene) {
   Replica peer(ParseScene(scene, "s.toml"), MakeSyncConfig("buffer", "retrospect"), 1, -1);
   AuthorityRecord own;
@@ -49,7 +49,7 @@ TEST(FallsFreely, AppliesToThrownAndBouncingBodies) {
       "restitution = 0.9\n");
   ASSERT_GE(told[1].states, 80);
   EXPECT_EQ(told[1].falling, told[1].states);
-  // It bounces three times: in each of them for a tick at most nobody can say.
+  // It bounces three times: at each bounce the flag may be missing for one tick.
   ASSERT_GE(told[2].states, 80);
   EXPECT_GE(told[2].falling, told[2].states - 4);
 }

@@ -36,7 +36,7 @@ class Lot {
   void Heard(int player, std::int64_t ago, const Input& input = {64, 0, 0}) {
     inputs[static_cast<std::size_t>(player)].Note(lot.world.tick() - ago, input);
   }
-  /// How many ticks ago the newest input-complete tick of a part is.
+  /// Age of a part's newest input-complete tick, in ticks.
   std::int64_t Missing(const std::string& part) {
     reach.Look();
     return lot.world.tick() - reach.CompleteTick(lot.world.mechanism(lot.Body(part)));

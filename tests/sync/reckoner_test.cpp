@@ -321,7 +321,7 @@ TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   World world(ParseScene(kRods, "test.toml"));
   Smoother smoother(3, kSmoothRate);
   for (int body = 0; body < 3; ++body) {
-    // Where physics is now, less where the view is: turned by 1 rad about a point, and moved.
+    // Offset of physics from the view: turned by 1 rad about a point, and moved.
     const BodyState s = world.Read(body);
     BodyState by;
     by.angle = 1;

@@ -134,7 +134,8 @@ TEST(Spring, ReturnsToFullStrengthWhenThePathIsFree) {
 }
 
 TEST(Spring, StandingOnTheGroundIsNoBlock) {
-  // Beside a resting authority's body, on the ground: gravity is taken up, the pull is not.
+  // Beside the resting body of its authority, on the ground: the contact takes gravity, not the
+  // pull.
   FollowedCopy f(
       "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
       "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\nfriction = 0\n"

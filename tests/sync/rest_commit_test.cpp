@@ -45,7 +45,7 @@ class OnTheGround {
     record.secondaries.Add(0);
     roles.table().Set(world->mechanism(body), record);
   }
-  /// Another's word that a box lies at x, after this tick.
+  /// Another peer's message that a box rests at x, after this tick.
   Rest Lies(int body, float x) {
     Rest told;
     told.peer = 1;

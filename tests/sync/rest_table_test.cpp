@@ -18,7 +18,7 @@ std::uint64_t Add(const T& value, std::uint64_t hash) {
   return Fnv1a(&value, sizeof value, hash);
 }
 
-/// As docs/protocol.md has it: id, epoch and the bits of the pose.
+/// The hash of docs/protocol.md: id, epoch and the bits of the pose.
 std::uint64_t HashOf(PartId id, const RestRecord& record) {
   if (!record.committed) return 0;
   std::uint64_t hash = Add(record.epoch, Add(id, Fnv1a("", 0)));

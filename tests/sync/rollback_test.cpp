@@ -261,8 +261,8 @@ TEST(Rollback, ANewlyFollowedBodyReplaysFromItsLastState) {
 }
 
 /// The crate comes to rest at the server; bob's copy of it is off by `off` since tick 5, and the
-/// word of its rest takes `word_late` ticks to him. From then on it must lie there as the server's
-/// does, though he goes back in every tick.
+/// announcement of rest reaches him after `word_late` ticks. From then on it must rest at the
+/// server's pose, although he replays in every tick.
 void ExpectBobsCopyRests(const BodyState& off, std::int64_t word_late) {
   const Scene scene =
       ParseScene(Replaced(Replaced(Replaced(kSledges, "sleep = false", ""), "ANN", ""), "BOB", ""),

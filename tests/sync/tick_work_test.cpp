@@ -14,7 +14,7 @@
 namespace seam {
 namespace tick_work_test {
 
-/// The own box, one beside it that it leans on, and others far away, of the server's. Nobody looks.
+/// The own box, one beside it in contact, and the server's distant boxes. No view is published.
 std::unique_ptr<Replica> RoomOf(int far, const std::string& more = "") {
   const std::string text =
       "gravity = [0, 0]\nbounds = [[-1000, -1000], [9000, 1000]]\n"

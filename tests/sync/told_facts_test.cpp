@@ -25,8 +25,8 @@ restitution = 1
 constexpr int kOwn = 0, kOther = 1;
 constexpr std::int64_t kLate = 10;  // ticks
 
-/// The other's disc strikes the own one here alone: its authority has it 20 m away, and says so
-/// when the blow has been told already. The first step back is to before it.
+/// The other's disc strikes the own one only here: its authority has it 20 m away, and its state
+/// arrives after the impact was sent. The first replay begins before the impact.
 TEST(SentImpact, ABodySentAsStruckMovesOnAfterTheImpactIsUndone) {
   FollowedCopy peers(kTwoDiscs, "rollback", kLate, {kOwn});
   peers.Steps(90);
