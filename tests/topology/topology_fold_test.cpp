@@ -16,7 +16,7 @@
 namespace seam {
 namespace topology_fold_test {
 
-/// Of all kinds of joints a few, a seat and a wall to blast.
+/// A few joints of every kind, a seat and a wall to blast.
 const std::string kScene = R"(
 [[player]]
 name = "ann"

@@ -62,7 +62,7 @@ Momentum MomentumOf(const World& world) {
   return sum;
 }
 
-/// Where a part is, whichever body it belongs to.
+/// Pose of a part, in whichever body it is.
 BodyState WhereIs(const World& world, PartId part) {
   const Composition& c = world.composition();
   const Assembly& assembly =
