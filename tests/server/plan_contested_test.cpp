@@ -19,8 +19,8 @@ class PlanContested : public ::testing::Test {
     view_.players.push_back({kBob, 0.05f, true, {0, -100}, {100, 100}});
   }
 
-  /// Adds a box half a metre wide, awake, held by its region's player for long; `contested` is the
-  /// sum of its holder's errors.
+  /// Adds a box half a metre wide, awake, held by its region's player for long, with the value of
+  /// MechanismView::contested.
   std::size_t Add(float x, float contested) {
     MechanismView mechanism;
     mechanism.position = {x, 0};
