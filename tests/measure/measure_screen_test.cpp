@@ -1,4 +1,4 @@
-/// Point displacement, whose bodies are whose, and what is counted where, with analytic answers.
+/// Point displacement, ownership of bodies and the bodies counted, with analytic answers.
 
 #include <gtest/gtest.h>
 
@@ -124,7 +124,7 @@ Recording InRoom(Recording recording, const char* mode, const std::string& text 
   return recording;
 }
 
-TEST(PointError, TellsOwnFromOthersAndFromTheServersByTheVehicle) {
+TEST(PointError, SeparatesOwnOthersAndServerByTheVehicle) {
   Recording run = InRoom(MakeRecording(3, 100, Moving(2)), "central");
   for (auto& [tick, view] : run.views[0]) view.x[0] += 0.5f;   // the server's
   for (auto& [tick, view] : run.views[1]) view.x[0] += 0.25f;  // anna's own
@@ -135,7 +135,7 @@ TEST(PointError, TellsOwnFromOthersAndFromTheServersByTheVehicle) {
   EXPECT_DOUBLE_EQ(*m.error_others_m, 1 / std::sqrt(3));    // 7 by anna, 3 and 7 by bob
 }
 
-TEST(PointError, JudgesAllMethodsByTheSameBodiesWhoeverHasAuthorityOverThem) {
+TEST(PointError, JudgesAllMethodsByTheSameBodiesUnderAnyAuthority) {
   for (const char* mode : {"buffer", "strict", "central"}) {
     Recording run = InRoom(MakeRecording(3, 100, Moving(2)), mode);
     for (auto& [tick, view] : run.views[2]) {
@@ -157,7 +157,7 @@ TEST(PointError, ADiscThatIsTurnedWronglyIsInErrorThoughItIsInItsPlace) {
   EXPECT_NEAR(*m.error_own_m, std::sin(0.5), 1e-9);
 }
 
-TEST(PointError, OfOthersIsEmptyWithoutClientsAndOfPointsWithoutAScene) {
+TEST(PointError, IsEmptyWithoutClientsAndIgnoresAnglesWithoutAScene) {
   const Measures server = Measure(MakeRecording(1, 10, Moving(2)), MakeOracle(10, Moving(2)));
   EXPECT_FALSE(server.error_others_m || server.error_own_m);
   EXPECT_EQ(server.error_server_m, 0);
