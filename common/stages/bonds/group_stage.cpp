@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
+#include "common/base/disjoint_sets.h"
 #include "common/physics/world_shapes.h"
 #include "common/scene/grouping.h"
 #include "common/stages/bonds/relative_rest.h"
@@ -225,16 +225,10 @@ void GroupStage::ProposeEdits(std::vector<Edit>* edits) {
   }
   if (stale_) return;  // the bodies have already changed
   // Of all touching pairs, only enough bonds to hold each body once.
-  std::vector<int> group(w_.built.moving.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto name = [&group](int i) {
-    while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
-    return i;
-  };
+  DisjointSets groups(w_.built.moving.size());
   for (const auto& [body, other] : resting_) {
-    const int one = name(body), two = name(other);
-    if (one == two) continue;
-    group[static_cast<std::size_t>(std::max(one, two))] = std::min(one, two);
+    if (groups.Same(body, other)) continue;
+    groups.Unite(body, other);
     edits->emplace_back(BondOf(body, other));
   }
 }
