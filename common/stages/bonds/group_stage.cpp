@@ -3,6 +3,7 @@
 #include <set>
 
 #include "common/base/disjoint_sets.h"
+#include "common/base/geometry.h"
 #include "common/physics/world_shapes.h"
 #include "common/scene/grouping.h"
 #include "common/stages/bonds/relative_rest.h"
@@ -25,7 +26,7 @@ std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition)
 
 /// A group is undone only by a relative motion this many times that at which one forms: otherwise
 /// groups would come and go.
-constexpr float kApart = 2;
+constexpr float kUndoneFactor = 2;
 /// Two bodies will meet soon if their gap is below kMeetGap, m, plus kMeetTicks at their relative
 /// speed: no less than the engine's boxes are enlarged by and look ahead.
 constexpr float kMeetGap = 2 * b2_aabbExtension, kMeetTicks = 4;
@@ -125,7 +126,8 @@ RelativeMotion GroupStage::Disturb(b2Contact* contact) {
   const auto wakes = [](b2Body* b) { return b->GetType() != b2_staticBody && b->IsAwake(); };
   if (!wakes(bodies[0]) && !wakes(bodies[1])) return {};
   const RelativeMotion motion = MotionAt(w_, contact);
-  const bool moved = motion.speed > kApart * kRestSpeed || motion.spin > kApart * kRestSpin;
+  const bool moved =
+      motion.speed > kUndoneFactor * kRestSpeed || motion.spin > kUndoneFactor * kRestSpin;
   const float way = kMeetTicks * motion.speed / static_cast<float>(w_.scene.solver.tick_hz);
   if (moved && GapOf(contact) <= kMeetGap + way) Note(*contact, State::kDisturbed);
   return motion;
@@ -214,7 +216,7 @@ BondEdit GroupStage::BondOf(int body, int other) const {
   edit.a = a.id;
   edit.b = b.id;
   edit.position = FromB2(place);
-  edit.angle = std::remainder(b.body->GetAngle() - a.body->GetAngle(), 6.2831853f);
+  edit.angle = std::remainder(b.body->GetAngle() - a.body->GetAngle(), 2 * kPiFloat);
   return edit;
 }
 
