@@ -120,6 +120,19 @@ TEST(Cases, InvalidRunsAreLeftOutAndCounted) {
   EXPECT_EQ(GlanceTable(FindCases(none)).rows[0][2], "not valid: no contact");
 }
 
+TEST(Cases, TheShortTableHasTheCasesOfTheReadmeAlone) {
+  std::string rows = TwoMethods("0.05", "0.05", "0.07");
+  for (const char* method : {"buffer,rollback", "central,all"}) {
+    rows += Row(method, "demo,bot,on,1,0.1,0.1,8,0.1,0.02,0.001,6,0.3,", "relay");
+  }
+  const std::vector<CaseTable> tables = TablesOf(rows);
+  const std::vector<ReportCase> cases = FindCases(tables);
+  EXPECT_EQ(GlanceTable(cases).rows.size(), 2u);
+  const TextTable table = ShortTable(cases);
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(table.rows[0][0], "crossing, bots");
+}
+
 TEST(Cases, ASceneSettingMakesACaseOfItsOwn) {
   std::vector<CaseTable> tables = TablesOf(TwoMethods("0.05", "0.05", "0.07"));
   const std::string alone =

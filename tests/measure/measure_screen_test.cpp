@@ -46,7 +46,8 @@ TEST(Extent, AQuarterTurnOfABoxDisplacesItsCornersMost) {
 
 TEST(Extent, TheMaterialOfADiscTurnsThoughItsOutlineDoesNot) {
   const Extent disc = ExtentOf(kDisc);
-  EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 0.2), DoublePose({0, 0}, 0)), std::sin(0.1), 1e-12);
+  EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 0.2), DoublePose({0, 0}, 0)), std::sin(0.1),
+              1e-12);
   EXPECT_NEAR(disc.Displacement(DoublePose({1, 0}, kPi), DoublePose({0, 0}, 0)), 2, 1e-12);
   EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 4 * kPi), DoublePose({0, 0}, 0)), 0, 1e-12);
 }
@@ -84,8 +85,8 @@ a = "one"
 b = "ball"
 )");
   EXPECT_NEAR(body.radius(), 4.5, 1e-6);
-  EXPECT_NEAR(body.Displacement(DoublePose({0, 0}, 0.1), DoublePose({0, 0}, 0)), 2 * std::sin(0.05) * 4.5,
-              1e-6);
+  EXPECT_NEAR(body.Displacement(DoublePose({0, 0}, 0.1), DoublePose({0, 0}, 0)),
+              2 * std::sin(0.05) * 4.5, 1e-6);
 }
 
 /// Bodies 3 and 7 of a made recording; 3 is a disc and anna's vehicle.

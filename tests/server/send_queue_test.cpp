@@ -108,7 +108,8 @@ TEST_F(SendQueueTest, RaisingAPendingBodyRaisesThatBody) {
   send_queue.Spend(4000);  // the room
   for (int i = 0; i < kBodies; ++i) send_queue.Add(0, i * 77 % kBodies, Urgency::kFar);
   std::int64_t now_us = 0;
-  for (; now_us < 100'000; now_us += kTickUs) EXPECT_TRUE(send_queue.Compose(now_us, newest_).empty());
+  for (; now_us < 100'000; now_us += kTickUs)
+    EXPECT_TRUE(send_queue.Compose(now_us, newest_).empty());
   std::set<int> raised, told;
   for (int id = 7; id < kBodies; id += 20) raised.insert(id);
   for (const int id : raised) send_queue.Add(now_us, id, Urgency::kFollowed);

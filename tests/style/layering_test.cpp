@@ -267,10 +267,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("render/(page/gzip|canvas/png_writer)\\.cpp|tests/.*", kCode, "zlib\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
-  ExpectOnlyIn(
-      "render/(export/)?options\\.cpp|common/base/command_line\\.h|"
-      "common/base/command/(command_table|mistake)\\.cpp",
-      kProduct, "CLI/.*");
+  ExpectOnlyIn("common/base/command/(command_line|command_table|mistake)\\.cpp", kCode, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");

@@ -142,8 +142,8 @@ void Invariants::LookAtPoses() {
       };
       // A peer hears of distant bodies now and then.
       const int m = server.world().mechanism(body);
-      const bool nothing =
-          p > 0 && ServerTestAccess::RelevanceOf(cluster_.server(), peer.self, m) == Relevance::kNone;
+      const bool nothing = p > 0 && ServerTestAccess::RelevanceOf(cluster_.server(), peer.self,
+                                                                  m) == Relevance::kNone;
       if (lies && !nothing && !SameBits(there, truth) && IslandLies(*holder, body)) {
         const auto seen = peer.still_elsewhere.find(id);
         const bool stays = seen != peer.still_elsewhere.end() && SameBits(seen->second.pose, there);
