@@ -59,9 +59,9 @@ TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
   for (const SendQueue::Message& message : send_queue.Compose(0, newest_)) {
     EXPECT_LE(message.size(), kStatesBodiesMax);
     int before = -1;
-    for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+    for (const WireBody* body = message.begin; body != message.end; ++body) {
       EXPECT_GT(body->id, std::exchange(before, body->id));
-      EXPECT_EQ(static_cast<int>(body->state.x), body->id) << "it tells of that body";
+      EXPECT_EQ(static_cast<int>(body->x), body->id) << "it tells of that body";
       told.insert(body->id);
     }
   }
@@ -84,7 +84,7 @@ TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
       const std::size_t size = BytesOf(message);
       send_queue.Spend(size);
       bytes += size;
-      for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+      for (const WireBody* body = message.begin; body != message.end; ++body) {
         told.push_back(body->id);
       }
     }
@@ -107,14 +107,15 @@ TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
   send_queue.Spend(4000);  // the room
   for (int i = 0; i < kBodies; ++i) send_queue.Add(0, i * 77 % kBodies, Urgency::kFar);
   std::int64_t now_us = 0;
-  for (; now_us < 100'000; now_us += kTickUs) EXPECT_TRUE(send_queue.Compose(now_us, newest_).empty());
+  for (; now_us < 100'000; now_us += kTickUs)
+    EXPECT_TRUE(send_queue.Compose(now_us, newest_).empty());
   std::set<int> raised, told;
   for (int id = 7; id < kBodies; id += 20) raised.insert(id);
   for (const int id : raised) send_queue.Add(now_us, id, Urgency::kFollowed);
   for (; told.size() < raised.size() && now_us < 10'000'000; now_us += kTickUs) {
     for (const SendQueue::Message& message : send_queue.Compose(now_us, newest_)) {
       send_queue.Spend(BytesOf(message));
-      for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+      for (const WireBody* body = message.begin; body != message.end; ++body) {
         told.insert(body->id);
       }
     }
