@@ -21,7 +21,7 @@ TEST(AccountBook, ManyNamesShareTheLastAccountAndCostNoMoreMemory) {
   EXPECT_EQ(book.Of("others").sessions, 3000 - static_cast<int>(AccountBook::kAccountsMax) + 1);
 }
 
-TEST(AccountBook, ARoundTripThatIsNotKnownIsNoReading) {
+TEST(AccountBook, AnUnknownRoundTripIsNoReading) {
   ClientAccount account;
   EXPECT_EQ(account.rtt_us(), -1);
   account.Read(-1, 0);
@@ -52,7 +52,7 @@ class ServerConsole : public ::testing::Test {
   Lines news_;
 };
 
-TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
+TEST_F(ServerConsole, ReportsJoinsLeavesAndMissingPlayers) {
   EXPECT_EQ(MissingPlayers(cluster_.server()), "ann, bob");
   EXPECT_EQ(ServerProgress(cluster_.server(), 360, DurationHistogram()),
             "waiting: 0 of 2 players (ann, bob missing); Ctrl-C stops");
@@ -74,7 +74,7 @@ TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
   EXPECT_LT(line.size(), 110u) << line;
 }
 
-TEST_F(ServerConsole, TheSummaryIsOfEachClientAlsoOfThoseWhoAreGone) {
+TEST_F(ServerConsole, TheSummaryIncludesClientsThatLeft) {
   cluster_.RunToTick(60);
   cluster_.Kill(1);
   cluster_.RunToTick(400);
