@@ -268,11 +268,11 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     if (IsAside(*b)) MarkAside(static_cast<int>(i));
   });
   if (exact && snapshot.composition == composition.hash) exact->Leave(snapshot.left);
-  std::size_t taken = 0;
+  StageMemory memory_of_stages(snapshot.stages);
   if (!snapshot.stages.empty()) {
-    for (const auto& stage : stages) taken += stage->Load(snapshot.stages.data() + taken);
+    for (const auto& stage : stages) stage->Load(&memory_of_stages);
   }
-  SEAM_ASSERT(taken == snapshot.stages.size());
+  SEAM_ASSERT(memory_of_stages.done());
   meter.Clear();
   touches.reset();
   blocked_directions.reset();

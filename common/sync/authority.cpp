@@ -96,4 +96,13 @@ std::vector<Grants> AuthorityTable::Export(std::int64_t utime, std::int64_t tick
   return out;
 }
 
+void AuthorityTable::Persist(StateArchive& a) {
+  a.Section("authority");
+  a.Exactly(&records_, [&](AuthorityRecord* record) {
+    a.Int(&record->authority, 0, kPeersMax - 1);
+    a.Int(&record->epoch, 0, INT32_MAX - 1);
+    record->secondaries.Persist(a);
+  });
+}
+
 }  // namespace seam

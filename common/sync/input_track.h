@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/state_archive.h"
 #include "common/codec/messages.h"
 #include "common/scene/types.h"
 
@@ -36,7 +37,10 @@ class InputTrack {
   /// Like the above, into a message that keeps its memory, utime and sequence.
   void Export(int player, int count, Inputs* to) const;
 
-  static constexpr std::int64_t kKeepTicks = 600;
+  /// Saves the inputs of the newest kSavedTicks.
+  void Persist(StateArchive& a);
+
+  static constexpr std::int64_t kKeepTicks = 600, kSavedTicks = 120;
 
  private:
   struct Known {

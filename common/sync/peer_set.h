@@ -5,8 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "common/base/check.h"
+#include "common/base/state_archive.h"
 #include "common/codec/messages.h"
 
 namespace seam {
@@ -36,6 +38,13 @@ class PeerSet {
         visit(static_cast<int>(i) * kBits + __builtin_ctzll(left));
       }
     }
+  }
+  void Persist(StateArchive& a) {
+    std::vector<std::int16_t> peers;
+    Each([&](int peer) { peers.push_back(static_cast<std::int16_t>(peer)); });
+    a.List(&peers, words_.size() * kBits, [&](std::int16_t* p) { a.Int(p, 0, kPeersMax - 1); });
+    words_.fill(0);
+    for (const int peer : peers) Add(peer);
   }
   bool operator==(const PeerSet& o) const { return words_ == o.words_; }
   bool operator!=(const PeerSet& o) const { return words_ != o.words_; }

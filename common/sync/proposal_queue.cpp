@@ -1,4 +1,5 @@
 #include "common/sync/proposal_queue.h"
+#include "common/base/state_archive.h"
 
 #include <utility>
 
@@ -26,5 +27,11 @@ bool ProposalQueue::Add(Edit edit, std::int64_t tick) {
 }
 
 std::vector<FoundEdit> ProposalQueue::Take() { return std::exchange(waiting_, {}); }
+
+void ProposalQueue::Persist(StateArchive& a) {
+  a.Entries(
+      &proposed_, kProposedMax + 1, [&](EditKey* key) { for (std::int32_t& each : *key) a.Int(&each, INT32_MIN, INT32_MAX); },
+      [&](std::int64_t* tick) { a.Tick(tick); });
+}
 
 }  // namespace seam

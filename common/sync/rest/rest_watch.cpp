@@ -1,4 +1,5 @@
 #include "common/sync/rest/rest_watch.h"
+#include "common/scene/persist_state.h"
 
 #include <cmath>
 
@@ -47,6 +48,17 @@ void RestWatch::Look() {
     Follow(now, kStill, &track.still);
     Follow(now, kSlow, &track.slow);
   }
+}
+
+void RestWatch::Persist(StateArchive& a) {
+  a.Exactly(&tracks_, [&](Track* track) {
+    a.Tick(&track->asleep_since);
+    a.Tick(&track->looked);
+    for (Near* near : {&track->still, &track->slow}) {
+      seam::Persist(a, &near->pose);
+      a.Tick(&near->since);
+    }
+  });
 }
 
 }  // namespace seam
