@@ -20,7 +20,7 @@ std::int64_t LateUs(std::int64_t rtt_us) {
 
 bool Broadcast::Simulates(int peer, int mechanism) const {
   if (config_.mode == Mode::kOracle) return true;
-  if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Concern::kClose;
+  if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Relevance::kClose;
   const AuthorityRecord& record = replica_.authority().at(mechanism);
   return record.authority == peer || record.secondaries.Has(peer);
 }
@@ -105,7 +105,7 @@ void Broadcast::SendPendingGrants(std::int64_t now_us) {
 
 void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency) {
   EachIdOf(replica_.world().composition(), mechanism, [&](PartId id) {
-    if (newest_.has(id)) session.outbox.Add(now_us, id, urgency);
+    if (newest_.has(id)) session.send_queue.Add(now_us, id, urgency);
   });
 }
 
@@ -113,7 +113,7 @@ void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, 
 /// client simulates it, and always before the client is ready.
 bool Broadcast::NeedsRestNow(const Session& session, int mechanism) const {
   return session.stage != SessionStage::kReady || Simulates(session.peer, mechanism) ||
-         interest_.Of(session.peer, mechanism) != Concern::kNone;
+         interest_.Of(session.peer, mechanism) != Relevance::kNone;
 }
 
 void Broadcast::TellRest(const Rest& rest, int from_peer) {
@@ -152,20 +152,20 @@ void Broadcast::RefreshDistant(std::int64_t now_us, Session& session) {
   constexpr int kEach = kDistantPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
   const Composition& made = replica_.world().composition();
   const int mechanisms = static_cast<int>(made.mechanisms.size());
-  int& next = session.outbox.nothing;
+  int& next = session.send_queue.nothing;
   int told = 0;
   std::vector<int> resting;
   for (int i = 0; i < std::min(kLookedAtMost, mechanisms) && told < kEach; ++i) {
     if (next + 1 >= mechanisms) {
-      if (now_us - session.outbox.distant_round_us < kDistantEveryUs) break;
-      session.outbox.distant_round_us = now_us;
+      if (now_us - session.send_queue.distant_round_us < kDistantEveryUs) break;
+      session.send_queue.distant_round_us = now_us;
       next = -1;
     }
     ++next;
     const bool owed = rest_audience_.IsPendingFor(session.peer, next);
     if (owed) resting.push_back(next);
     told += owed ? 1 : 0;
-    if (interest_.Of(session.peer, next) != Concern::kNone) continue;
+    if (interest_.Of(session.peer, next) != Relevance::kNone) continue;
     if (Simulates(session.peer, next)) continue;
     const bool moves = AnyIdOf(made, next, [&](PartId id) {
       return newest_.has(id) && (newest_.at(id).flags & kStateAsleep) == 0;
@@ -188,11 +188,11 @@ void Broadcast::RequeueLost(std::int64_t now_us, Session& session) {
     if (body < 0) return false;
     const int mechanism = replica_.world().mechanism(body);
     return !Simulates(session.peer, mechanism) &&
-           interest_.Of(session.peer, mechanism) != Concern::kNone;
+           interest_.Of(session.peer, mechanism) != Relevance::kNone;
   };
   const std::int64_t late_us = LateUs(session.link.rtt_us());
   for (const std::int32_t id : session.packer.TakeLost(now_us, late_us, shown)) {
-    session.outbox.Add(now_us, id, Urgency::kNear);
+    session.send_queue.Add(now_us, id, Urgency::kNear);
   }
 }
 
@@ -219,18 +219,18 @@ void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
 
 void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool stepped) {
   if (stepped) RequeueLost(now_us, session);
-  const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
-  if (now && !session.outbox.empty()) {
-    for (const SendQueue::Message& message : session.outbox.Compose(now_us, newest_)) {
+  const bool now = stepped || session.send_queue.pressing() || !session.packer.empty();
+  if (now && !session.send_queue.empty()) {
+    for (const SendQueue::Message& message : session.send_queue.Compose(now_us, newest_)) {
       session.packer.Add(message.header, message.begin, message.end);
     }
   }
   for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
     const Bytes bytes = Encode(message.packed);
-    session.outbox.NoteCost(bytes.size(), message.bodies);
+    session.send_queue.NoteCost(bytes.size(), message.bodies);
     session.link.SendUnreliable(bytes, {{kListedSlot, message.number}});
   }
-  if (session.outbox.pressing()) MarkForSending(session);  // beyond its budget
+  if (session.send_queue.pressing()) MarkForSending(session);  // beyond its budget
 }
 
 void Broadcast::LookAround(std::int64_t now_us) {

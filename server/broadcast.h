@@ -127,7 +127,7 @@ class Broadcast {
   static constexpr std::int64_t kDistantEveryUs = 1000000;
 
   /// Returns the relevance of a mechanism to a peer.
-  Concern RelevanceOf(int peer, int mechanism) const { return interest_.Of(peer, mechanism); }
+  Relevance RelevanceOf(int peer, int mechanism) const { return interest_.Of(peer, mechanism); }
 
  private:
   /// An entry of a States message, and the receivers that need it.

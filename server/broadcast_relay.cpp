@@ -10,12 +10,12 @@ namespace seam {
 
 std::optional<Urgency> Broadcast::DueTo(int peer, const Entry& entry) const {
   const bool has = Simulates(peer, entry.mechanism);
-  const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
-  if (concern == Concern::kClose) {
+  const Relevance relevance = has ? Relevance::kClose : interest_.Of(peer, entry.mechanism);
+  if (relevance == Relevance::kClose) {
     if (entry.to_followers) return Urgency::kFollowed;
-  } else if (concern == Concern::kNear && entry.news >= News::kNear) {
+  } else if (relevance == Relevance::kNear && entry.news >= News::kNear) {
     return Urgency::kNear;
-  } else if (concern == Concern::kFar && entry.news == News::kAll) {
+  } else if (relevance == Relevance::kFar && entry.news == News::kAll) {
     return Urgency::kFar;
   }
   return std::nullopt;
@@ -56,7 +56,7 @@ void Broadcast::FindDue(int but_peer) {
         far ? interest_.ReceiversFar(entry.mechanism) : interest_.ReceiversNear(entry.mechanism);
     for (const int peer : hearing) {
       if (peer == but_peer || peer == record.authority || record.secondaries.Has(peer)) continue;
-      const bool near = !far || interest_.Of(peer, entry.mechanism) >= Concern::kNear;
+      const bool near = !far || interest_.Of(peer, entry.mechanism) >= Relevance::kNear;
       AddDue(peer, entry, near ? Urgency::kNear : Urgency::kFar);
     }
   }
@@ -122,14 +122,14 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
 
 void Broadcast::RelayDue(std::int64_t now_us, const States& states, const Due& due,
                          Session& session) {
-  if (due.size() == states.id.size() && session.outbox.empty() &&
-      session.outbox.Affords(now_us, due.size())) {
+  if (due.size() == states.id.size() && session.send_queue.empty() &&
+      session.send_queue.Affords(now_us, due.size())) {
     session.packer.Add(states);
     MarkForSending(session);
     return;
   }
-  for (const auto& [id, urgency] : due) session.outbox.Add(now_us, id, urgency);
-  if (session.outbox.pressing()) MarkForSending(session);
+  for (const auto& [id, urgency] : due) session.send_queue.Add(now_us, id, urgency);
+  if (session.send_queue.pressing()) MarkForSending(session);
 }
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// The floor under all errors: what chaos alone makes of a micrometre.
+/// The error floor: growth of a displacement of a micrometre by chaos alone.
 
 #include <algorithm>
 #include <optional>
@@ -25,7 +25,7 @@ double OracleDistance(const Recording& recording, const Oracle& a, const Oracle&
       const std::optional<BodyState> other = a.At(tick, ids[i]);
       if (!other) continue;
       const double moved =
-          extents.Of(edits, ids[i]).Displacement(Pose(*other), Pose(b.ticks[row][i]));
+          extents.Of(edits, ids[i]).Displacement(DoublePose(*other), DoublePose(b.ticks[row][i]));
       apart.Add(moved * moved);
     }
   }

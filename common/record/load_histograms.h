@@ -7,6 +7,9 @@
 
 namespace seam {
 
+/// Returns a number of the exposition format, to 15 digits.
+std::string MetricNumber(double value);
+
 /// Returns headers and samples of all rooms in the exposition format.
 std::string WriteHistograms(const std::vector<RoomLoad>& loads);
 

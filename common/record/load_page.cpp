@@ -77,16 +77,10 @@ std::string Head(const char* name, const char* type, const char* help) {
   return std::string("# HELP ") + name + ' ' + help + "\n# TYPE " + name + ' ' + type + '\n';
 }
 
-std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", value);
-  return text;
-}
-
 /// Returns `name{room="r",more} value`. A room's name needs no escapes (IsName).
 std::string Sample(const char* name, const std::string& room, const std::string& more,
                    double value) {
-  return std::string(name) + "{room=\"" + room + "\"" + more + "} " + Number(value) + '\n';
+  return std::string(name) + "{room=\"" + room + "\"" + more + "} " + MetricNumber(value) + '\n';
 }
 
 double Value(const Metric& metric, const Load& load) {

@@ -15,7 +15,7 @@ double Seconds(std::int64_t tick, int tick_hz) {
   return static_cast<double>(tick) / std::max(1, tick_hz);
 }
 
-std::string Number(double value) {
+std::string Digits4(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -54,7 +54,7 @@ void RequireRange(const TimeRange& range, const Recording& recording, const std:
   const double last_s = Seconds(recording.last_tick, recording.room.tick_hz);
   if (range.from_s > last_s + kSlack || range.to_s < first_s - kSlack) {
     throw OperatorError(path + ": --from and --to leave nothing: it has views of " +
-                        Number(first_s) + " to " + Number(last_s) + " s");
+                        Digits4(first_s) + " to " + Digits4(last_s) + " s");
   }
 }
 

@@ -61,7 +61,7 @@ bool GrantAudience::Concerns(int peer, const Change& change, const AuthorityReco
   if (holds && (OneFollower(before) < 0) != (OneFollower(now) < 0)) return true;
   if (!changed) return false;
   return holds || before.authority == peer || follows ||
-         interest_.Of(peer, change.mechanism) >= Concern::kNear;
+         interest_.Of(peer, change.mechanism) >= Relevance::kNear;
 }
 
 std::vector<Grants> GrantAudience::For(int peer) {
@@ -92,9 +92,9 @@ std::vector<Grants> GrantAudience::Owed(int peer, Which which) {
   for (std::size_t m = 0; m < owed_.size(); ++m) {
     if (!any_pending_[m] || !owed_[m].Has(peer)) continue;
     const auto mechanism = static_cast<int>(m);
-    const Concern least = which == Which::kAll   ? Concern::kNone
-                          : which == Which::kFar ? Concern::kFar
-                                                 : Concern::kNear;
+    const Relevance least = which == Which::kAll   ? Relevance::kNone
+                          : which == Which::kFar ? Relevance::kFar
+                                                 : Relevance::kNear;
     if (merged_[m] || interest_.Of(peer, mechanism) >= least) mechanisms.push_back(mechanism);
   }
   return Owed(peer, mechanisms);

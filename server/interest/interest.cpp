@@ -139,29 +139,29 @@ void Interest::FindReceiverBodies(const Receiver& receiver) {
   }
 }
 
-void Interest::Note(const Receiver& receiver, const int* begin, const int* end, Concern to) {
+void Interest::Note(const Receiver& receiver, const int* begin, const int* end, Relevance to) {
   const auto peer = static_cast<std::size_t>(receiver.peer);
-  Concern* const row = &relevance_[peer * stride_];
+  Relevance* const row = &relevance_[peer * stride_];
   std::vector<int>& noted = noted_[peer];
   for (; begin != end; ++begin) {
-    Concern& now = row[*begin];
+    Relevance& now = row[*begin];
     if (now >= to) continue;
-    if (now == Concern::kNone) {
+    if (now == Relevance::kNone) {
       noted.push_back(*begin);
       hearing_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
     }
-    if (now < Concern::kNear && to >= Concern::kNear) {
+    if (now < Relevance::kNear && to >= Relevance::kNear) {
       receivers_near_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
     }
     now = to;
   }
 }
 
-void Interest::NoteAll(const Receiver& receiver, Concern to) {
+void Interest::NoteAll(const Receiver& receiver, Relevance to) {
   for (int m = 0; m < static_cast<int>(stride_); ++m) Note(receiver, &m, &m + 1, to);
 }
 
-void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Concern to) {
+void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Relevance to) {
   centres_.clear();
   around_.clear();
   for (const int body : receiver_bodies_) {
@@ -190,11 +190,11 @@ void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
   noted_.resize(peers);
   if (stride_ == mechanisms && relevance_.size() == mechanisms * peers) {
     for (std::size_t p = 0; p < peers; ++p) {
-      Concern* row = &relevance_[p * mechanisms];
-      for (const int m : noted_[p]) row[m] = Concern::kNone;
+      Relevance* row = &relevance_[p * mechanisms];
+      for (const int m : noted_[p]) row[m] = Relevance::kNone;
     }
   } else {
-    relevance_.assign(mechanisms * peers, Concern::kNone);
+    relevance_.assign(mechanisms * peers, Relevance::kNone);
   }
   if (stride_ != mechanisms) before_.clear();
   stride_ = mechanisms;
@@ -240,14 +240,14 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
   for (const Receiver& receiver : receivers) {
     looked_[static_cast<std::size_t>(receiver.peer)] = 1;
     if (receiver.player < 0) {
-      NoteAll(receiver, Concern::kNear);
+      NoteAll(receiver, Relevance::kNear);
     } else {
       FindReceiverBodies(receiver);
       // A client without any body may look anywhere.
-      if (receiver_bodies_.empty()) NoteAll(receiver, Concern::kFar);
-      Raise(receiver, far_, hear, Concern::kFar);
-      Raise(receiver, near_, kNearReach, Concern::kNear);
-      if (central) Raise(receiver, close_, kCloseReach, Concern::kClose);
+      if (receiver_bodies_.empty()) NoteAll(receiver, Relevance::kFar);
+      Raise(receiver, far_, hear, Relevance::kFar);
+      Raise(receiver, near_, kNearReach, Relevance::kNear);
+      if (central) Raise(receiver, close_, kCloseReach, Relevance::kClose);
     }
     FindRisen(receiver, &risen);
   }

@@ -12,7 +12,7 @@
 namespace seam {
 
 /// Relevance, ascending.
-enum class Concern : std::uint8_t {
+enum class Relevance : std::uint8_t {
   kNone,  ///< out of interest: the receiver can neither meet nor see it for seconds
   kFar,
   kNear,
@@ -39,10 +39,10 @@ class Interest {
   /// follow_bodies everything is kClose to everyone.
   std::vector<Risen> Look(const std::vector<Receiver>& receivers);
   /// Returns the relevance as of the last Look; in a large room, kNear for an unknown peer.
-  Concern Of(int peer, int mechanism) const {
-    if (small_) return Concern::kClose;
+  Relevance Of(int peer, int mechanism) const {
+    if (small_) return Relevance::kClose;
     const auto m = static_cast<std::size_t>(mechanism), p = static_cast<std::size_t>(peer);
-    if (m >= stride_ || p * stride_ >= relevance_.size()) return Concern::kNear;
+    if (m >= stride_ || p * stride_ >= relevance_.size()) return Relevance::kNear;
     return relevance_[p * stride_ + m];
   }
   /// True if there was no Look since the start or the last Remap. In a large room Of then returns
@@ -83,11 +83,11 @@ class Interest {
   void Want(const Receiver& receiver, float side, Cells* cells);
   /// Raises the relevance of the mechanisms in the cells of the receiver's bodies, and in their
   /// eight neighbours, to at least `to`.
-  void Raise(const Receiver& receiver, const Cells& cells, float side, Concern to);
+  void Raise(const Receiver& receiver, const Cells& cells, float side, Relevance to);
   void FindReceiverBodies(const Receiver& receiver);
   /// Raises the relevance of these mechanisms to at least `to`.
-  void Note(const Receiver& receiver, const int* begin, const int* end, Concern to);
-  void NoteAll(const Receiver& receiver, Concern to);
+  void Note(const Receiver& receiver, const int* begin, const int* end, Relevance to);
+  void NoteAll(const Receiver& receiver, Relevance to);
   void Begin(std::size_t peers, std::size_t mechanisms);
   /// Adds the mechanisms that are more relevant to a receiver than in the Look before.
   void FindRisen(const Receiver& receiver, std::vector<Risen>* risen) const;
@@ -97,8 +97,8 @@ class Interest {
   const Replica& replica_;
   bool small_ = false;                                  // everything is kClose to everyone
   std::size_t stride_ = 0;                              // mechanisms in a row
-  std::vector<Concern> relevance_;                      // by peer and mechanism
-  std::vector<Concern> before_;                         // in the Look before
+  std::vector<Relevance> relevance_;                      // by peer and mechanism
+  std::vector<Relevance> before_;                         // in the Look before
   std::vector<std::vector<int>> noted_, noted_before_;  // by peer: mechanisms of at least kFar
   std::vector<char> looked_, looked_before_;            // by peer: was a receiver
   std::vector<std::vector<int>> hearing_;               // by mechanism: peers, at least kFar

@@ -86,7 +86,7 @@ void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
       stats->bytes_out += static_cast<std::int64_t>(datagram.size);
       stats->datagrams_out += 1;
       session->account->bytes_out += static_cast<std::int64_t>(datagram.size);
-      session->outbox.Spend(datagram.size);
+      session->send_queue.Spend(datagram.size);
       net_.Send(to, datagram);
     });
   }

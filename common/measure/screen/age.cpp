@@ -16,15 +16,15 @@ struct Trial {
   double way = 0;  // m, of one tick, summed over the samples
 };
 
-/// Linear least squares: between two ticks the oracle is A + f B with 0 <= f <= 1. Before its
-/// first tick it is where it was in that. nullopt where the oracle is not known.
+/// Fits by linear least squares: between two ticks the oracle is A + f B with 0 <= f <= 1. Before
+/// its first tick the oracle has the pose of that tick. nullopt where the oracle is not known.
 std::optional<Trial> Try(const BodyPath& shown, const BodyPath& truth, double radius,
                          const std::vector<std::int64_t>& ticks, std::int64_t age) {
   double dd = 0, db = 0, bb = 0, way = 0;
   for (const std::int64_t tick : ticks) {
     const std::int64_t at = std::max(tick - age, truth.first());
     if (!truth.Has(at)) return std::nullopt;
-    const Pose& now = truth.At(at);
+    const DoublePose& now = truth.At(at);
     const Place3 d = Between(now, shown.At(tick), radius);
     const bool further = truth.Has(at - 1) && at == tick - age;
     const Place3 b = Between(now, further ? truth.At(at - 1) : now, radius);

@@ -1,5 +1,5 @@
-/// Displayed pose against the oracle's by the largest displacement of a point of the body: of what
-/// clients see of others, of their own, and of the server's view.
+/// Point error: the largest displacement of a point of a body between displayed and oracle's pose,
+/// for other players' bodies and own bodies in clients' views, and for the server's view.
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ void MeasurePointError(const Recording& recording, const Oracle& oracle, Screen&
         const std::optional<BodyState> truth = oracle.At(tick, view.id[i]);
         if (!truth) continue;
         const Extent& extent = screen.extents.Of(view.revision, view.id[i]);
-        const double d = extent.Displacement(Pose(StateIn(view, i)), Pose(*truth));
+        const double d = extent.Displacement(DoublePose(StateIn(view, i)), DoublePose(*truth));
         MeanSquare& kind = peer == 0 ? server : screen.own.Has(view, i) ? own : others;
         kind.Add(d * d);
       }

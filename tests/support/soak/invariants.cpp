@@ -191,7 +191,7 @@ void Invariants::LookForStrays() {
       stray_us[id] = since == peer.stray_us.end() ? cluster_.now_us() : since->second;
       // What was nothing to the peer is told of when it comes to concern it, or much later.
       const bool nothing =
-          ServerTestAccess::RelevanceOf(cluster_.server(), peer.self, m) == Concern::kNone;
+          ServerTestAccess::RelevanceOf(cluster_.server(), peer.self, m) == Relevance::kNone;
       const auto rose = peer.stray_relevant_us.find(id);
       concern_us[id] =
           nothing || rose == peer.stray_relevant_us.end() ? cluster_.now_us() : rose->second;

@@ -17,7 +17,7 @@ struct ServerTestAccess {
   }
   static const AuthorityManager& Authority(const Server& server) { return server.authority_; }
   /// Returns the relevance of a mechanism to a peer, as the server has it.
-  static Concern RelevanceOf(const Server& server, int peer, int mechanism) {
+  static Relevance RelevanceOf(const Server& server, int peer, int mechanism) {
     return server.broadcast_.RelevanceOf(peer, mechanism);
   }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_.waiting(); }
