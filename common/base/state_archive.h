@@ -125,6 +125,8 @@ class StateArchive {
 
   /// Ticks are at most this far from 0, as in messages.
   static constexpr std::int64_t kTickMost = std::int64_t{1} << 40;
+  /// Items of a list that has no limit of its own.
+  static constexpr std::size_t kListMost = std::size_t{1} << 24;
   /// Larger numbers, in SI units, are no state of a room: whole numbers up to here fit an int.
   static constexpr float kRealMost = 2e9f;
 

@@ -14,6 +14,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 class AuthorityManager {
  public:
   /// Writes the authority table of `replica`; both `scene` and `replica` must outlive this object.
@@ -57,6 +59,9 @@ class AuthorityManager {
   /// Returns authority over everything a departed peer had to the server. States of that peer's
   /// epochs no longer count.
   std::vector<Grants> TakeBack(std::int64_t now_us, int peer);
+  /// Saves what the next plans depend on: since when each mechanism has had its authority. Reading:
+  /// a hand-over is not asked for again; the caller takes back what absent peers had.
+  void Persist(StateArchive& a);
   /// Renumbers after the mechanisms have changed; see BodyRemap.
   void Remap(const std::vector<std::vector<int>>& from);
 

@@ -5,6 +5,7 @@
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
+#include "common/scene/persist_state.h"
 #include "common/stages/make_stages.h"
 
 namespace seam {
@@ -142,6 +143,18 @@ int SeatBonds::Due(const World& world, std::size_t seat) const {
   const float speed = PartPose(world, world.scene().seats[seat].part).velocity.norm();
   const float behind = std::min(speed * late / kCatchUpSpeed, 1e6f);
   return std::min(last, way.heard_at + static_cast<int>(behind));
+}
+
+void SeatBonds::Persist(StateArchive& a, const World& world) {
+  a.Section("seats");
+  const std::size_t seats = world.scene().seats.size(), parts = world.scene().parts.size();
+  a.List(&ways_, seats, [&](Way* way) {
+    PersistPart(a, &way->own, parts);
+    a.Int(&way->revision, 0, INT32_MAX);
+    a.Int(&way->ticks, 0, INT32_MAX - 1);
+    a.Int(&way->heard_at, kComingIn, INT32_MAX);
+  });
+  a.List(&asked_, seats, [&](PartId* part) { PersistPart(a, part, parts); });
 }
 
 }  // namespace seam
