@@ -21,7 +21,7 @@ constexpr std::size_t kImpulsesMost = 5;
 /// s: longer than any body may be slow before it sleeps.
 constexpr float kQuietMost = 1e6f;
 
-bool IsBefore(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
+bool PointsAscend(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
   return std::tie(x.pair, x.feature) < std::tie(y.pair, y.feature);
 }
 
@@ -74,7 +74,7 @@ Status World::Load(const WorldSnapshot& snapshot) {
   const bool left = std::all_of(snapshot.left.begin(), snapshot.left.end(),
                                 [count](const auto& each) { return each.body < count; });
   if (!left) return Status::Error("it names bodies that it has not");
-  if (!std::is_sorted(snapshot.points.begin(), snapshot.points.end(), IsBefore)) {
+  if (!std::is_sorted(snapshot.points.begin(), snapshot.points.end(), PointsAscend)) {
     return Status::Error("its contact points are not in order");
   }
   StageMemory memory(snapshot.stages);

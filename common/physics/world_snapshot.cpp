@@ -160,7 +160,7 @@ std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& s
   return points;
 }
 
-/// IsBefore a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
+/// Before a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
 /// none is, and the next rebuild may move them.
 void World::Impl::Arrange(const std::vector<Motion>& wanted) {
   const bool any = std::find(wanted.begin(), wanted.end(), Motion::kAbsent) != wanted.end();
