@@ -20,11 +20,13 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us) {
   Status status = State().Load(saved, now_us, &gone);
   if (!status.ok()) return status;
   if (commands_ != nullptr) commands_->TakeSaid();  // scripts have run their code once more
-  bool held = false;
+  bool held = false, wanted = false;
   for (int m = 0; m < replica_.authority().count(); ++m) {
     held = held || replica_.authority().at(m).authority != 0;
+    wanted = wanted || authority_.Wanted(m) != 0;
   }
   for (int peer = 1; held && peer < kPeersMax; ++peer) authority_.TakeBack(now_us, peer);
+  if (held || wanted) authority_.PlanSoon();  // before anything is given to a peer that has gone
   for (const int player : gone) {
     if (rules_ != nullptr) rules_->OnLeave(player);
     LetGo(now_us, player, 0);

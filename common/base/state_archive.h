@@ -76,8 +76,15 @@ class StateArchive {
   template <class T, class Each>
   void List(std::vector<T>* list, std::size_t most, const Each& each) {
     const std::size_t count = Count(list->size(), most);
-    if (reading_) list->assign(count, T{});
-    for (T& item : *list) each(&item);
+    if (!reading_) {
+      for (T& item : *list) each(&item);
+      return;
+    }
+    list->clear();
+    for (std::size_t i = 0; ok() && i < count; ++i) {  // no memory for what may not be there
+      list->emplace_back();
+      each(&list->back());
+    }
   }
   /// The same for a list whose length is known to both sides.
   template <class List, class Each>

@@ -96,11 +96,14 @@ std::vector<Grants> AuthorityTable::Export(std::int64_t utime, std::int64_t tick
   return out;
 }
 
+/// Most changes of a mechanism's authority.
+constexpr std::int32_t kEpochMost = 1 << 30;
+
 void AuthorityTable::Persist(StateArchive& a) {
   a.Section("authority");
   a.Exactly(&records_, [&](AuthorityRecord* record) {
     a.Int(&record->authority, 0, kPeersMax - 1);
-    a.Int(&record->epoch, 0, INT32_MAX - 1);
+    a.Int(&record->epoch, 0, kEpochMost);
     record->secondaries.Persist(a);
   });
 }

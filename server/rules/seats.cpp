@@ -23,6 +23,8 @@ constexpr double kSettles = 0.6;
 constexpr int kComingIn = -2;
 /// Longest wait for such peers after the end of the way, s.
 constexpr double kPeerWaitMax = 1.5;
+/// Most ticks in a seat that are told apart: a month.
+constexpr int kTicksMost = 1 << 28;
 
 bool PlayerSits(const World& world, int player) {
   for (const Seat& seat : world.scene().seats) {
@@ -108,7 +110,7 @@ std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
       asked_[s] = -1;
       continue;
     }
-    ++way.ticks;
+    way.ticks = std::min(way.ticks + 1, kTicksMost);
     if (heard < 0) {
       way.heard_at = kComingIn;
     } else if (way.heard_at < 0 && heard >= way.revision) {
@@ -151,8 +153,8 @@ void SeatBonds::Persist(StateArchive& a, const World& world) {
   a.List(&ways_, seats, [&](Way* way) {
     PersistPart(a, &way->own, parts);
     a.Int(&way->revision, 0, INT32_MAX);
-    a.Int(&way->ticks, 0, INT32_MAX - 1);
-    a.Int(&way->heard_at, kComingIn, INT32_MAX);
+    a.Int(&way->ticks, 0, kTicksMost);
+    a.Int(&way->heard_at, kComingIn, kTicksMost);
   });
   a.List(&asked_, seats, [&](PartId* part) { PersistPart(a, part, parts); });
 }

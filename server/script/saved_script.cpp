@@ -1,5 +1,6 @@
 #include "server/script/saved_script.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "common/base/state_archive.h"
@@ -41,6 +42,10 @@ void PersistValue(StateArchive& a, ScriptValue* value, int depth) {
 void Persist(StateArchive& a, SavedScript* script) {
   a.Flag(&script->stopped);
   a.Text(&script->error, kErrorBytesMax);
+  const bool clean = std::none_of(script->error.begin(), script->error.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' || c == 0x7f;  // an operator reads it
+  });
+  a.Require(clean, "an error has a control character");
   PersistValue(a, &script->room, 0);
   a.Require(script->room.kind == ScriptValue::Kind::kTable, "room is no table");
   for (std::uint64_t& word : script->random) a.Word(&word);
