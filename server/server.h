@@ -32,6 +32,9 @@ class Rules;
 class SavedRoom;
 class ServerCommands;
 
+/// Most datagrams taken in one call: a flood must not keep rooms from stepping.
+constexpr int kDatagramsMax = 4096;
+
 struct ServerConfig {
   SyncConfig sync;
   std::string room = "main";

@@ -27,7 +27,7 @@ using Eigen::Vector2d;
 constexpr int kHeldSecondsMax = 4;
 
 /// In saved memory, the ticks of a late approach count downwards from here.
-constexpr int kLateTicks = -2;
+constexpr int kLateFrom = -2;
 
 Transform2 PoseOf(const b2Body& body) {
   return {FromB2(body.GetPosition()).cast<double>(), static_cast<double>(body.GetAngle())};
@@ -119,15 +119,15 @@ class SeatStage : public Stage {
     for (const Approach& a : approaches_) {
       const Vec2 at = a.from.shift.cast<float>();
       memory->insert(memory->end(),
-                     {static_cast<float>(a.late ? kLateTicks - a.ticks : a.ticks), at.x(), at.y(),
+                     {static_cast<float>(a.late ? kLateFrom - a.ticks : a.ticks), at.x(), at.y(),
                       static_cast<float>(a.from.angle), a.came.x, a.came.y, a.owed.x, a.owed.y});
     }
   }
   void Load(StageMemory* memory) override {
     for (Approach& a : approaches_) {
       const int ticks = memory->NextInt(-kStageNumberMax, kStageNumberMax);
-      a.late = ticks <= kLateTicks;
-      a.ticks = a.late ? kLateTicks - ticks : ticks;
+      a.late = ticks <= kLateFrom;
+      a.ticks = a.late ? kLateFrom - ticks : ticks;
       const float x = memory->Next(), y = memory->Next();
       a.from = {Vec2(x, y).cast<double>(), static_cast<double>(memory->Next())};
       for (b2Vec2* momentum : {&a.came, &a.owed}) {
