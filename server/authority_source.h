@@ -30,7 +30,7 @@ class AuthoritySource : public RuleSource {
   /// Renumbers bodies after an edit.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
-  /// Saves what was heard last of each body; what was reported since the last tick is not saved.
+  /// Saves the newest state of each body. Reports since the last tick are not saved.
   void Persist(StateArchive& a) { trail_.Persist(a); }
 
   BodyState Read(int body) const override;

@@ -22,7 +22,7 @@ namespace seam {
 namespace {
 
 /// The bytes begin with this, the version and a hash of all that follows.
-constexpr char kMagic[8] = {'S', 'E', 'A', 'M', 'R', 'O', 'O', 'M'};
+constexpr char kRoomMagic[8] = {'S', 'E', 'A', 'M', 'R', 'O', 'O', 'M'};
 struct Header {
   char magic[8];
   std::uint32_t version;
@@ -101,7 +101,7 @@ Bytes RoomState::Save(std::int64_t now_us) {
   all.insert(all.end(), begin.begin(), begin.end());
   all.insert(all.end(), parts.begin(), parts.end());
   Header header{};
-  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  std::memcpy(header.magic, kRoomMagic, sizeof kRoomMagic);
   header.version = kRoomStateVersion;
   header.hash = Fnv1a(all.data() + sizeof header, all.size() - sizeof header);
   std::memcpy(all.data(), &header, sizeof header);
@@ -116,7 +116,7 @@ std::unique_ptr<const SavedRoom> SavedRoom::Read(ByteView bytes, Status* status)
   Header header{};
   if (bytes.size < sizeof header) return fail("it is too short");
   std::memcpy(&header, bytes.data, sizeof header);
-  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) return fail("it begins otherwise");
+  if (std::memcmp(header.magic, kRoomMagic, sizeof kRoomMagic) != 0) return fail("it begins otherwise");
   if (header.version != kRoomStateVersion) {
     return fail("it is of version " + std::to_string(header.version) + ", this server reads " +
                 std::to_string(kRoomStateVersion));

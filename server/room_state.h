@@ -6,8 +6,8 @@
 ///   Save:  the parts --Persist--> bytes             at a barrier, between two ticks
 ///   Load:  bytes --SavedRoom--> scene, topology --> a new Server --Persist--> the parts
 ///
-/// Not in it: sessions and what they have been sent, the views, the past before the barrier. A room
-/// that is loaded continues as if every client had left at that tick.
+/// Not in it: sessions with their send queues, the views, the past before the barrier. A loaded room
+/// continues as if every client had left at that tick.
 
 #include <cstdint>
 #include <memory>
@@ -33,10 +33,10 @@ class SeatBonds;
 class SessionTable;
 class StateArchive;
 
-/// Raise it with every change of what is saved: there is no reading of older versions.
+/// Version of the saved bytes. Raise it with every change of them; older ones are not read.
 constexpr std::uint32_t kRoomStateVersion = 1;
 
-/// The beginning of a saved room: all that has to be known to make the server that loads it.
+/// The beginning of a saved room, enough to make the server that loads it.
 class SavedRoom {
  public:
   /// Reads bytes of RoomState::Save; trusts none of them. Returns nullptr, and one line in
@@ -49,7 +49,7 @@ class SavedRoom {
   const Topology& topology() const { return topology_; }
   /// The edits that made the topology, for the EditLog.
   const TopologyFold& fold() const { return fold_; }
-  /// What RoomState::Load reads.
+  /// The bytes that RoomState::Load reads.
   ByteView parts() const { return parts_; }
 
  private:
@@ -93,9 +93,9 @@ class RoomState {
   /// Call between two ticks. Makes this tick a barrier of the world (World::Barrier), which the
   /// room that loads it has as well: both then continue with the same bits.
   Bytes Save(std::int64_t now_us);
-  /// Loads what Save gave into parts that are new, and whose world has the topology of `saved`.
-  /// Returns one line if it is damaged; the parts must then not be used any more. `gone` gets the
-  /// players who were in the room.
+  /// Loads the bytes of Save into new parts, with a world of the topology of `saved`. Returns one
+  /// line if they are damaged; the parts must then not be used any more. `gone` gets the players
+  /// that were in the room.
   Status Load(const SavedRoom& saved, std::int64_t now_us, std::vector<int>* gone);
 
  private:

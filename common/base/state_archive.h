@@ -1,7 +1,7 @@
 #pragma once
 /// Writes the state of objects as plain bytes and reads it back. A class lists its state once, in
-/// `void Persist(StateArchive& a)`, which serves both directions, so that what is written is what
-/// is read. Values are little-endian and of fixed width.
+/// `void Persist(StateArchive& a)`, which serves both directions, so that they cannot differ. Values
+/// are little-endian and of fixed width.
 ///
 /// Reading trusts nothing: a value outside its range, a list that cannot fit, or an early end is an
 /// error. After the first error every read returns zero or an empty list; the caller looks at
@@ -81,12 +81,12 @@ class StateArchive {
       return;
     }
     list->clear();
-    for (std::size_t i = 0; ok() && i < count; ++i) {  // no memory for what may not be there
+    for (std::size_t i = 0; ok() && i < count; ++i) {  // allocates no more than is there
       list->emplace_back();
       each(&list->back());
     }
   }
-  /// The same for a list whose length is known to both sides.
+  /// The same for a list of a length that both sides know.
   template <class List, class Each>
   void Exactly(List* list, const Each& each) {
     const std::size_t count = Count(list->size(), list->size());

@@ -86,7 +86,7 @@ struct WorldSnapshot {
   std::vector<float> stages;  ///< memory of each stage
 };
 
-/// Writes or reads a snapshot. World::Load checks what was read.
+/// Writes or reads a snapshot. World::Load checks it.
 void Persist(StateArchive& a, WorldSnapshot* snapshot);
 
 /// `body` is below an index 0..body_count()-1 into the moving assemblies, ascending by id. Apply

@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/base/state_archive.h"
 #include "common/codec/messages.h"
 #include "common/scene/types.h"
 
 namespace seam {
+
+class StateArchive;
 
 class InputTrack {
  public:

@@ -5,13 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "common/base/check.h"
-#include "common/base/state_archive.h"
 #include "common/codec/messages.h"
 
 namespace seam {
+
+class StateArchive;
 
 /// Peers 0..kPeersMax - 1 (asserted).
 class PeerSet {
@@ -39,13 +39,7 @@ class PeerSet {
       }
     }
   }
-  void Persist(StateArchive& a) {
-    std::vector<std::int16_t> peers;
-    Each([&](int peer) { peers.push_back(static_cast<std::int16_t>(peer)); });
-    a.List(&peers, words_.size() * kBits, [&](std::int16_t* p) { a.Int(p, 0, kPeersMax - 1); });
-    words_.fill(0);
-    for (const int peer : peers) Add(peer);
-  }
+  void Persist(StateArchive& a);  // authority.cpp
   bool operator==(const PeerSet& o) const { return words_ == o.words_; }
   bool operator!=(const PeerSet& o) const { return words_ != o.words_; }
 

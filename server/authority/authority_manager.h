@@ -59,8 +59,8 @@ class AuthorityManager {
   /// Returns authority over everything a departed peer had to the server. States of that peer's
   /// epochs no longer count.
   std::vector<Grants> TakeBack(std::int64_t now_us, int peer);
-  /// Saves what the next plans depend on: since when each mechanism has had its authority. Reading:
-  /// a hand-over is not asked for again; the caller takes back what absent peers had.
+  /// Saves the memory of earlier plans: since when each mechanism has had its authority, and its
+  /// hand-over. Reading: the caller then takes back the mechanisms of absent peers.
   void Persist(StateArchive& a);
   /// Renumbers after the mechanisms have changed; see BodyRemap.
   void Remap(const std::vector<std::vector<int>>& from);

@@ -24,7 +24,7 @@ constexpr int kComingIn = -2;
 /// Longest wait for such peers after the end of the way, s.
 constexpr double kPeerWaitMax = 1.5;
 /// Most ticks in a seat that are told apart: a month.
-constexpr int kTicksMost = 1 << 28;
+constexpr int kSeatTicksMost = 1 << 28;
 
 bool PlayerSits(const World& world, int player) {
   for (const Seat& seat : world.scene().seats) {
@@ -110,7 +110,7 @@ std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
       asked_[s] = -1;
       continue;
     }
-    way.ticks = std::min(way.ticks + 1, kTicksMost);
+    way.ticks = std::min(way.ticks + 1, kSeatTicksMost);
     if (heard < 0) {
       way.heard_at = kComingIn;
     } else if (way.heard_at < 0 && heard >= way.revision) {
@@ -153,8 +153,8 @@ void SeatBonds::Persist(StateArchive& a, const World& world) {
   a.List(&ways_, seats, [&](Way* way) {
     PersistPart(a, &way->own, parts);
     a.Int(&way->revision, 0, INT32_MAX);
-    a.Int(&way->ticks, 0, kTicksMost);
-    a.Int(&way->heard_at, kComingIn, kTicksMost);
+    a.Int(&way->ticks, 0, kSeatTicksMost);
+    a.Int(&way->heard_at, kComingIn, kSeatTicksMost);
   });
   a.List(&asked_, seats, [&](PartId* part) { PersistPart(a, part, parts); });
 }

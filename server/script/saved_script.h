@@ -1,5 +1,5 @@
 #pragma once
-/// What a saved room keeps of a script: its table `room`, and its random numbers.
+/// State of a script in a saved room: its table `room`, and its random numbers.
 
 #include <array>
 #include <cstdint>

@@ -45,7 +45,7 @@ class Script {
   /// the script is stopped, before or by this call.
   std::vector<TomlNode> Ask(const char* function, double argument, int results);
 
-  /// Returns what a saved room keeps of the script. Stops it if its table `room` cannot be saved.
+  /// Returns the state for a saved room. Stops the script if its table `room` cannot be saved.
   SavedScript Save();
 
   bool stopped() const;

@@ -82,7 +82,7 @@ TEST(ScriptRoomTable, RequestsOfTheCodeThatRunsAgainHaveNoEffect) {
   EXPECT_TRUE(host.values.empty());
 }
 
-TEST(ScriptRoomTable, WhatCannotBeKeptStopsTheScriptAndIsNamed) {
+TEST(ScriptRoomTable, AValueThatCannotBeKeptStopsTheScriptAndIsNamed) {
   const std::pair<std::string, std::string> cases[] = {
       {"room.call = print", "room.call is a function; room keeps booleans, numbers, strings and "
                             "tables of these"},

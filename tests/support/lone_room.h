@@ -1,6 +1,6 @@
 #pragma once
-/// A server without clients whose players are driven by the scene's scripts or by bots, and the
-/// server that continues it from its saved state.
+/// A server without clients, with players driven by the scene's scripts or by bots, and the server
+/// that continues it from its saved state.
 
 #include <gtest/gtest.h>
 

@@ -248,7 +248,7 @@ TEST(RoomState, APlayerKeepsWhatItHasForTheDwellTime) {
   }
 }
 
-TEST(RoomState, WhatPeersHeldIsTheServersInALaterEpoch) {
+TEST(RoomState, TheServerTakesBackPeersMechanismsInALaterEpoch) {
   LoneRoom room(ParseScene(kTwoSides, "sides.toml"));
   room.StepTo(20);
   AuthorityRecord record = room.server->replica().authority().at(0);
