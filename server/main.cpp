@@ -8,6 +8,7 @@
 
 #include "common/base/command_line.h"
 #include "common/base/find_scene.h"
+#include "common/base/limits.h"
 #include "common/base/names.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
@@ -106,7 +107,7 @@ void Define(Command& app, Flags& f) {
              "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
       .Range(1, 65535);
   app.Option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
-      .Range(0, 31);
+      .Range(0, kPlayersMax);
   app.Option("--duration", f.duration_s,
              "seconds to run after tick 0 (0: until stopped; default: the scene's)")
       .Range(0.0, 1e6);
