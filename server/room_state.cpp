@@ -116,7 +116,8 @@ std::unique_ptr<const SavedRoom> SavedRoom::Read(ByteView bytes, Status* status)
   Header header{};
   if (bytes.size < sizeof header) return fail("it is too short");
   std::memcpy(&header, bytes.data, sizeof header);
-  if (std::memcmp(header.magic, kRoomMagic, sizeof kRoomMagic) != 0) return fail("it begins otherwise");
+  if (std::memcmp(header.magic, kRoomMagic, sizeof kRoomMagic) != 0)
+    return fail("it begins otherwise");
   if (header.version != kRoomStateVersion) {
     return fail("it is of version " + std::to_string(header.version) + ", this server reads " +
                 std::to_string(kRoomStateVersion));

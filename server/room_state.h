@@ -6,8 +6,8 @@
 ///   Save:  the parts --Persist--> bytes             at a barrier, between two ticks
 ///   Load:  bytes --SavedRoom--> scene, topology --> a new Server --Persist--> the parts
 ///
-/// Not in it: sessions with their send queues, the views, the past before the barrier. A loaded room
-/// continues as if every client had left at that tick.
+/// Not in it: sessions with their send queues, the views, the past before the barrier. A loaded
+/// room continues as if every client had left at that tick.
 
 #include <cstdint>
 #include <memory>

@@ -59,8 +59,8 @@ class Server {
   ~Server();
 
   /// Continues the saved room at `now_us`, as if all its clients had left. Players' places are
-  /// reserved as before. Returns one line if the bytes are damaged; the server must then not be used
-  /// any more.
+  /// reserved as before. Returns one line if the bytes are damaged; the server must then not be
+  /// used any more.
   Status Resume(const SavedRoom& saved, std::int64_t now_us);
   /// Returns the room's state as bytes; see RoomState::Save. Not in mode oracle, where no peer can
   /// join a room that runs.

@@ -1,7 +1,7 @@
 #pragma once
 /// Writes the state of objects as plain bytes and reads it back. A class lists its state once, in
-/// `void Persist(StateArchive& a)`, which serves both directions, so that they cannot differ. Values
-/// are little-endian and of fixed width.
+/// `void Persist(StateArchive& a)`, which serves both directions, so that they cannot differ.
+/// Values are little-endian and of fixed width.
 ///
 /// Reading trusts nothing: a value outside its range, a list that cannot fit, or an early end is an
 /// error. After the first error every read returns zero or an empty list; the caller looks at

@@ -35,8 +35,8 @@ struct StageWorld {
 /// Whole numbers up to here are exact in the floats that stages save: parts, ticks, counts.
 constexpr int kStageNumberMax = 1 << 24;
 
-/// The numbers that the stages of a world have saved, to be read back in their order. Trusts none of
-/// them: after a number that is missing, not finite or out of its range, good() is false.
+/// The numbers that the stages of a world have saved, to be read back in their order. Trusts none
+/// of them: after a number that is missing, not finite or out of its range, good() is false.
 class StageMemory {
  public:
   /// `numbers` must outlive this.

@@ -1,8 +1,9 @@
 #include "common/sync/body_memory.h"
-#include "common/base/state_archive.h"
 
 #include <algorithm>
 #include <numeric>
+
+#include "common/base/state_archive.h"
 
 namespace seam {
 namespace {

@@ -1,7 +1,8 @@
 #include "common/sync/input_track.h"
-#include "common/scene/persist_state.h"
 
 #include <algorithm>
+
+#include "common/scene/persist_state.h"
 
 namespace seam {
 
@@ -114,7 +115,8 @@ void InputTrack::Export(int player, int count, Inputs* to) const {
 
 void InputTrack::Persist(StateArchive& a) {
   std::vector<Known> known;
-  for (std::int64_t t = std::max(oldest_, newest_ - kSavedTicks); newest_ >= 0 && t <= newest_; ++t) {
+  for (std::int64_t t = std::max(oldest_, newest_ - kSavedTicks); newest_ >= 0 && t <= newest_;
+       ++t) {
     if (knows(t)) known.push_back(*Find(t));
   }
   a.List(&known, static_cast<std::size_t>(kSavedTicks + 1), [&](Known* each) {

@@ -1,7 +1,8 @@
 #include "common/sync/proposal_queue.h"
-#include "common/base/state_archive.h"
 
 #include <utility>
+
+#include "common/base/state_archive.h"
 
 namespace seam {
 namespace {
@@ -30,7 +31,10 @@ std::vector<FoundEdit> ProposalQueue::Take() { return std::exchange(waiting_, {}
 
 void ProposalQueue::Persist(StateArchive& a) {
   a.Entries(
-      &proposed_, kProposedMax + 1, [&](EditKey* key) { for (std::int32_t& each : *key) a.Int(&each, INT32_MIN, INT32_MAX); },
+      &proposed_, kProposedMax + 1,
+      [&](EditKey* key) {
+        for (std::int32_t& each : *key) a.Int(&each, INT32_MIN, INT32_MAX);
+      },
       [&](std::int64_t* tick) { a.Tick(tick); });
 }
 

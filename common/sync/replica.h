@@ -60,8 +60,8 @@ class Replica {
   void Step();
   /// Saves or loads all that decides how this copy continues without other peers: bodies, roles,
   /// inputs, rest, edits found. Not saved: the past, states of others, the view. Call between ticks
-  /// with no edit queued. Writing makes this tick a barrier (World::Barrier). Reading requires a new
-  /// replica of the same topology and config; after an error it must not be used any more.
+  /// with no edit queued. Writing makes this tick a barrier (World::Barrier). Reading requires a
+  /// new replica of the same topology and config; after an error it must not be used any more.
   void Persist(StateArchive& a);
 
   const World& world() const { return world_; }

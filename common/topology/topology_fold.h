@@ -29,8 +29,8 @@ class TopologyFold {
   /// Cost: a pass over all parts, joints and steps.
   std::vector<TopologyEntry> Entries(const Topology& now) const;
 
-  /// Makes the fold and the topology that gave these entries, from the scene of both. Trusts none of
-  /// them. Requires a scene that ParseScene accepted, and revision >= 0.
+  /// Makes the fold and the topology that gave these entries, from the scene of both. Trusts none
+  /// of them. Requires a scene that ParseScene accepted, and revision >= 0.
   static Status FromEntries(const Scene& scene, const std::vector<TopologyEntry>& entries,
                             int revision, TopologyFold* fold, Topology* topology);
 

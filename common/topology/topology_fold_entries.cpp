@@ -32,15 +32,13 @@ void TopologyFold::NoteEntry(const TopologyEntry& entry, const Topology& now) {
       return RecordGrowth(now);
     case TopologyEntry::Kind::kInsert: return Note(Edit(InsertEdit{entry.text}), now);
     case TopologyEntry::Kind::kBlast:
-      return Note(Edit(BlastEdit{
-                      {entry.value[0], entry.value[1]}, entry.value[2], entry.value[3], 0}),
-                  now);
+      return Note(
+          Edit(BlastEdit{{entry.value[0], entry.value[1]}, entry.value[2], entry.value[3], 0}),
+          now);
     case TopologyEntry::Kind::kRemove: return Note(Edit(RemoveEdit{entry.a}), now);
     case TopologyEntry::Kind::kFree: return Note(Edit(FreeEdit{entry.a}), now);
     case TopologyEntry::Kind::kBreak: return Note(Edit(BreakEdit{entry.joint}), now);
-    case TopologyEntry::Kind::kMeasured:
-      measured_ = static_cast<std::size_t>(entry.joint);
-      return;
+    case TopologyEntry::Kind::kMeasured: measured_ = static_cast<std::size_t>(entry.joint); return;
     // The rest is in the topology, and compared with what RecordGrowth has seen first.
     case TopologyEntry::Kind::kBonds: return RecordGrowth(now);
     case TopologyEntry::Kind::kPlace:

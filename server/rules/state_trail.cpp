@@ -1,9 +1,10 @@
 #include "server/rules/state_trail.h"
-#include "common/scene/persist_state.h"
 
 #include <algorithm>
 #include <set>
 #include <utility>
+
+#include "common/scene/persist_state.h"
 
 namespace seam {
 

@@ -13,8 +13,17 @@ namespace wait_flag_test {
 constexpr double kPatience = 60;
 
 std::vector<std::string> Server(const std::string& wait) {
-  return {BuiltProgram("seam-server"), "swarm", "--wait", wait, "--bind", "127.0.0.1:0",
-          "--lcm-url", "none", "--duration", "0", "--quiet"};
+  return {BuiltProgram("seam-server"),
+          "swarm",
+          "--wait",
+          wait,
+          "--bind",
+          "127.0.0.1:0",
+          "--lcm-url",
+          "none",
+          "--duration",
+          "0",
+          "--quiet"};
 }
 
 TEST(ServerProgramWaits, ForAnyNumberOfPlayersThatASceneMayHave) {

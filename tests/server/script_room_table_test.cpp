@@ -84,17 +84,20 @@ TEST(ScriptRoomTable, RequestsOfTheCodeThatRunsAgainHaveNoEffect) {
 
 TEST(ScriptRoomTable, AValueThatCannotBeKeptStopsTheScriptAndIsNamed) {
   const std::pair<std::string, std::string> cases[] = {
-      {"room.call = print", "room.call is a function; room keeps booleans, numbers, strings and "
-                            "tables of these"},
+      {"room.call = print",
+       "room.call is a function; room keeps booleans, numbers, strings and "
+       "tables of these"},
       {"room.a = {b = {coroutine.create(print)}}",
        "room.a.b[1] is a thread; room keeps booleans, numbers, strings and tables of these"},
       {"room.me = room", "room.me leads back to a table that it is in"},
       {"room.a = {} room.a.b = {up = room.a}", "room.a.b.up leads back to a table that it is in"},
       {"room.t = setmetatable({}, {})", "room.t has a metatable; room keeps plain tables"},
-      {"room[{}] = 1", "room has a key that is a table; room keeps strings and whole numbers as "
-                       "keys"},
-      {"room[1.5] = 1", "room has a key that is a number; room keeps strings and whole numbers as "
-                        "keys"},
+      {"room[{}] = 1",
+       "room has a key that is a table; room keeps strings and whole numbers as "
+       "keys"},
+      {"room[1.5] = 1",
+       "room has a key that is a number; room keeps strings and whole numbers as "
+       "keys"},
       {"room = 5", "room is no table any more"},
       {"for i = 1, 8 do room[i] = ('x'):rep(10000) end",
        "room is too large at room[7]: more than 64 kB"},

@@ -68,8 +68,8 @@ class Replay {
   void Forget();
   /// Makes this tick a barrier, also for replays, and returns it.
   WorldSnapshot BarrierNow();
-  /// Saves the record on which the next barriers depend. Reading: begins with `barrier`, the world's
-  /// state.
+  /// Saves the record on which the next barriers depend. Reading: begins with `barrier`, the
+  /// world's state.
   void Persist(StateArchive& a, const WorldSnapshot& barrier);
 
   // Edits at their tick (replay_edits.cpp). For each, in their order: GoBackTo, World::Apply, Remap

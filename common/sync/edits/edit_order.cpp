@@ -1,4 +1,5 @@
 #include "common/sync/edits/edit_order.h"
+
 #include "common/base/state_archive.h"
 #include "common/codec/codec.h"
 

@@ -1,7 +1,8 @@
 #include "common/sync/rest/rest_watch.h"
-#include "common/scene/persist_state.h"
 
 #include <cmath>
+
+#include "common/scene/persist_state.h"
 
 namespace seam {
 namespace {
