@@ -93,7 +93,7 @@ void Define(Command& app, Flags& f) {
       .Range(0, kInputDelayTicksMax);
   app.Option("--impair", f.impair, "impair the network in both directions by a profile");
   app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);
-  app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, 240);
+  app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, kSendHzMax);
   app.Option("--budget", f.budget,
              "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
   app.Option("--room", f.room, "name of the room in the channels; of several: NAME-1, NAME-2, ...");
