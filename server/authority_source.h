@@ -30,6 +30,9 @@ class AuthoritySource : public RuleSource {
   /// Renumbers bodies after an edit.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
+  /// Saves the newest state of each body. Reports since the last tick are not saved.
+  void Persist(StateArchive& a) { trail_.Persist(a); }
+
   BodyState Read(int body) const override;
   std::vector<std::int64_t> Ticks() const override;
   BodyState ReadAt(int body, std::int64_t tick) const override;

@@ -23,6 +23,12 @@ void RoomClock::Start(std::int64_t tick0_us) {
   window_tick_ = 0;
 }
 
+void RoomClock::GoOn(std::int64_t now_us, std::int64_t tick) {
+  Start(now_us);
+  anchor_room_us_ = PeriodUs(tick);
+  window_tick_ = tick;
+}
+
 std::int64_t RoomClock::RoomUs(std::int64_t now_us) const {
   const std::int64_t real_us = now_us - anchor_us_;
   if (speed_ppm_ == kFullSpeedPpm) return anchor_room_us_ + real_us;

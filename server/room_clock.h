@@ -16,6 +16,8 @@ class RoomClock {
   bool started() const { return started_; }
   /// Starts the clock: tick 0 is due at `tick0_us`.
   void Start(std::int64_t tick0_us);
+  /// Continues a room that has done `tick`: the next one is due a period after `now_us`.
+  void GoOn(std::int64_t now_us, std::int64_t tick);
   /// Returns the time at which the tick is due on the server's clock, us, if the speed stays as it
   /// is. Requires started().
   std::int64_t DueUs(std::int64_t tick) const;

@@ -7,6 +7,7 @@
 #include "common/sync/lease.h"
 #include "common/sync/method.h"
 #include "server/authority_source.h"
+#include "server/room_state.h"
 #include "server/rules/rules.h"
 #include "server/server_commands.h"
 
@@ -67,11 +68,19 @@ Inputs Scripted(const Scene& scene, int player, std::int64_t tick, int delay) {
 
 Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder,
                Entropy& entropy)
+    : Server(scene, Topology(scene), config, net, recorder, entropy) {}
+
+Server::Server(const SavedRoom& saved, const ServerConfig& config, Net& net, Recorder& recorder,
+               Entropy& entropy)
+    : Server(saved.scene(), saved.topology(), config, net, recorder, entropy) {}
+
+Server::Server(const Scene& scene, const Topology& topology, const ServerConfig& config, Net& net,
+               Recorder& recorder, Entropy& entropy)
     : scene_(scene),
       config_(config),
       room_(MakeRoom(scene_, config_)),
       net_(net),
-      replica_(scene_, OwnSync(config, recorder), 0, -1),
+      replica_(topology, OwnSync(config, recorder), 0, -1),
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
                 net, entropy, config.client_bytes_per_s),
       authority_(scene_, config.sync, replica_),
@@ -135,37 +144,6 @@ void Server::WatchClock(std::int64_t now_us) {
       now_us, clock_.speed_ppm() == kFullSpeedPpm
                   ? "the room runs at full speed again"
                   : "the server cannot keep up: the room runs at " + percent + " % of its speed");
-}
-
-void Server::SendWorld(std::int64_t now_us, Session& session) {
-  // Half a world would be another world: a client that cannot be sent all of it has to leave.
-  bool sent = true;
-  const auto send = [&](const auto& message) {
-    sent = sent && session.link.SendReliable(Encode(message));
-  };
-  const std::vector<Snapshot> history = edits_.History(now_us);
-  if (history.size() > static_cast<std::size_t>(kSnapshotPartsMax)) sent = false;
-  for (std::size_t i = 0; sent && i < history.size(); ++i) send(history[i]);
-  for (const Grants& grants : authority_.Export(now_us)) send(grants);
-  broadcast_.NoteTold(session.peer);
-  if (started()) {
-    for (const States& states : replica_.Everything()) send(At(now_us, states));
-    for (const Rest& rest : replica_.rest().Everything()) send(At(now_us, rest));
-  }
-  if (rules_ != nullptr) {
-    for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
-  }
-  if (!sent) sessions_.Leave(session, "the world is more than can be sent to it");
-}
-
-void Server::SendBodies(std::int64_t now_us, Session& session) {
-  if (!started()) return;
-  for (const States& states : replica_.Everything()) {
-    session.link.SendReliable(Encode(At(now_us, states)));
-  }
-  for (const Rest& rest : replica_.rest().Everything()) {
-    session.link.SendReliable(Encode(At(now_us, rest)));
-  }
 }
 
 void Server::TellRest(std::int64_t now_us) {

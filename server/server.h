@@ -27,7 +27,9 @@
 namespace seam {
 
 class AuthoritySource;
+class RoomState;
 class Rules;
+class SavedRoom;
 class ServerCommands;
 
 /// Most datagrams taken in one call: a flood must not keep rooms from stepping.
@@ -50,7 +52,19 @@ class Server {
   /// otherwise an attacker can take any player's place.
   Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder,
          Entropy& entropy);
+  /// Makes a server for a saved room: Resume must follow. `config` must name the settings of
+  /// saved.room().
+  Server(const SavedRoom& saved, const ServerConfig& config, Net& net, Recorder& recorder,
+         Entropy& entropy);
   ~Server();
+
+  /// Continues the saved room at `now_us`, as if all its clients had left. Players' places are
+  /// reserved as before. Returns one line if the bytes are damaged; the server must then not be
+  /// used any more.
+  Status Resume(const SavedRoom& saved, std::int64_t now_us);
+  /// Returns the room's state as bytes; see RoomState::Save. Not in mode oracle, where no peer can
+  /// join a room that runs.
+  Bytes Save(std::int64_t now_us);
 
   /// Receives, steps the ticks that are due, sends. `now_us`: any clock that never runs backwards;
   /// `cpu_us`: CPU time used so far, for the record (0: unknown); used only if stats_due.
@@ -97,6 +111,11 @@ class Server {
 
  private:
   friend struct ServerTestAccess;
+
+  Server(const Scene& scene, const Topology& topology, const ServerConfig& config, Net& net,
+         Recorder& recorder, Entropy& entropy);
+  // server_state.cpp
+  RoomState State();
 
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);

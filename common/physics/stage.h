@@ -5,6 +5,7 @@
 
 #include <box2d/box2d.h>
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -29,6 +30,46 @@ struct StageWorld {
   const std::int64_t& tick;            ///< ticks stepped so far
   const std::vector<Motion>& motions;  ///< by moving body
   const Topology& topology;
+};
+
+/// Whole numbers up to here are exact in the floats that stages save: parts, ticks, counts.
+constexpr int kStageNumberMax = 1 << 24;
+
+/// The numbers that the stages of a world have saved, to be read back in their order. Trusts none
+/// of them: after a number that is missing, not finite or out of its range, good() is false.
+class StageMemory {
+ public:
+  /// `numbers` must outlive this.
+  explicit StageMemory(const std::vector<float>& numbers) : numbers_(numbers) {}
+
+  /// Returns the next number; 0 if it is none.
+  float Next() {
+    const float number = at_ < numbers_.size() ? numbers_[at_++] : NAN;
+    good_ = good_ && std::isfinite(number);
+    return std::isfinite(number) ? number : 0;
+  }
+  /// Returns the next number as a whole one; `least` if it is not in least..most.
+  int NextInt(int least, int most) {
+    const auto number = static_cast<double>(Next());
+    const bool in = number >= least && number <= most;
+    good_ = good_ && in;
+    return in ? static_cast<int>(number) : least;
+  }
+  /// Returns the next number as a count of groups of `each` numbers that follow.
+  std::size_t NextCount(std::size_t each) {
+    const int count = NextInt(0, kStageNumberMax);
+    const bool in = static_cast<std::size_t>(count) <= (numbers_.size() - at_) / each;
+    good_ = good_ && in;
+    return in ? static_cast<std::size_t>(count) : 0;
+  }
+  bool good() const { return good_; }
+  /// True if every number has been read.
+  bool done() const { return at_ == numbers_.size(); }
+
+ private:
+  const std::vector<float>& numbers_;
+  std::size_t at_ = 0;
+  bool good_ = true;
 };
 
 /// Deterministic: a function of the scene, the calls and the saved memory. In each tick:
@@ -67,10 +108,9 @@ class Stage {
   virtual void Edited(const Edit& /*edit*/) {}
 
   /// Saves the stage's memory between ticks, so that Restore can go back bit for bit. Load takes
-  /// the values that Save gave.
+  /// the values that Save gave, and no more.
   virtual void Save(std::vector<float>* /*memory*/) const {}
-  /// Returns the number of values that it took.
-  virtual std::size_t Load(const float* /*memory*/) { return 0; }
+  virtual void Load(StageMemory* /*memory*/) {}
 
   /// True if the stage needs contact events; the contact pipeline is unchanged for the rest.
   virtual bool listens() const { return false; }

@@ -18,6 +18,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// A contact's change of velocity in the last tick, large enough for a visible spark.
 struct Impact {
   int body_a = -1, body_b = -1;  ///< body indices; -1: anchored
@@ -83,6 +85,9 @@ struct WorldSnapshot {
   std::vector<float> speeds;  ///< of motors, rad/s or m/s, by the scene's joints
   std::vector<float> stages;  ///< memory of each stage
 };
+
+/// Writes or reads a snapshot. World::Load checks it.
+void Persist(StateArchive& a, WorldSnapshot* snapshot);
 
 /// `body` is below an index 0..body_count()-1 into the moving assemblies, ascending by id. Apply
 /// may renumber all of them.
@@ -207,6 +212,10 @@ class World {
   /// and joints of the snapshot, that is, that Apply has returned nullopt since; else returns an
   /// error of one line and changes nothing.
   Status Restore(const WorldSnapshot& snapshot);
+  /// Like Restore, for a snapshot that another process took and that may be damaged, in a world of
+  /// the same topology. Sets the tick, too. Returns an error of one line if the snapshot cannot be
+  /// one of such a world; the world must then not be used any more.
+  Status Load(const WorldSnapshot& snapshot);
   /// Returns the bodies that may differ from the snapshot, ascending: all present ones, and absent
   /// ones by whole pages of which any body has changed. Requires as many bodies as it has.
   std::vector<int> MayDifferFrom(const WorldSnapshot& snapshot) const;

@@ -160,7 +160,7 @@ std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& s
   return points;
 }
 
-/// IsBefore a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
+/// Before a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
 /// none is, and the next rebuild may move them.
 void World::Impl::Arrange(const std::vector<Motion>& wanted) {
   const bool any = std::find(wanted.begin(), wanted.end(), Motion::kAbsent) != wanted.end();
@@ -268,11 +268,11 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     if (IsAside(*b)) MarkAside(static_cast<int>(i));
   });
   if (exact && snapshot.composition == composition.hash) exact->Leave(snapshot.left);
-  std::size_t taken = 0;
+  StageMemory memory_of_stages(snapshot.stages);
   if (!snapshot.stages.empty()) {
-    for (const auto& stage : stages) taken += stage->Load(snapshot.stages.data() + taken);
+    for (const auto& stage : stages) stage->Load(&memory_of_stages);
   }
-  SEAM_ASSERT(taken == snapshot.stages.size());
+  SEAM_ASSERT(memory_of_stages.done());
   meter.Clear();
   touches.reset();
   blocked_directions.reset();

@@ -80,11 +80,13 @@ class SeatLeaveStage : public Stage {
       memory->push_back(static_cast<float>(d.part));
     }
   }
-  std::size_t Load(const float* memory) override {
-    for (std::size_t s = 0; s < departures_.size(); ++s) {
-      departures_[s] = {static_cast<int>(memory[2 * s]), static_cast<PartId>(memory[2 * s + 1])};
+  void Load(StageMemory* memory) override {
+    const auto parts = static_cast<int>(w_.scene.parts.size());
+    for (Departure& d : departures_) {
+      d.ticks = memory->NextInt(-1, kStageNumberMax);
+      d.part = memory->NextInt(-1, parts - 1);
+      if (d.part < 0) d.ticks = -1;
     }
-    return 2 * departures_.size();
   }
 
   bool listens() const override { return true; }

@@ -123,18 +123,18 @@ class SeatStage : public Stage {
                       static_cast<float>(a.from.angle), a.came.x, a.came.y, a.owed.x, a.owed.y});
     }
   }
-  std::size_t Load(const float* memory) override {
-    const float* m = memory;
+  void Load(StageMemory* memory) override {
     for (Approach& a : approaches_) {
-      const int ticks = static_cast<int>(m[0]);
+      const int ticks = memory->NextInt(-kStageNumberMax, kStageNumberMax);
       a.late = ticks <= kLateFrom;
       a.ticks = a.late ? kLateFrom - ticks : ticks;
-      a.from = {Vec2(m[1], m[2]).cast<double>(), static_cast<double>(m[3])};
-      a.came = {m[4], m[5]};
-      a.owed = {m[6], m[7]};
-      m += 8;
+      const float x = memory->Next(), y = memory->Next();
+      a.from = {Vec2(x, y).cast<double>(), static_cast<double>(memory->Next())};
+      for (b2Vec2* momentum : {&a.came, &a.owed}) {
+        momentum->x = memory->Next();
+        momentum->y = memory->Next();
+      }
     }
-    return static_cast<std::size_t>(m - memory);
   }
 
   bool listens() const override { return true; }

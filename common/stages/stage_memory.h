@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "common/physics/stage.h"
 #include "common/scene/types.h"
 
 namespace seam {
@@ -17,14 +18,12 @@ inline void SaveTicks(const std::map<PartId, int>& ticks, std::vector<float>* me
   }
 }
 
-/// Returns the number of values read.
-inline std::size_t LoadTicks(const float* memory, std::map<PartId, int>* ticks) {
-  const auto size = static_cast<std::size_t>(memory[0]);
+inline void LoadTicks(StageMemory* memory, std::map<PartId, int>* ticks) {
   ticks->clear();
-  for (std::size_t i = 0; i < size; ++i) {
-    (*ticks)[static_cast<PartId>(memory[1 + 2 * i])] = static_cast<int>(memory[2 + 2 * i]);
+  for (std::size_t left = memory->NextCount(2); left > 0; --left) {
+    const PartId part = memory->NextInt(0, kStageNumberMax);
+    (*ticks)[part] = memory->NextInt(0, kStageNumberMax);
   }
-  return 1 + 2 * size;
 }
 
 }  // namespace seam

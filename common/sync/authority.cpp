@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/base/state_archive.h"
 
 namespace seam {
 AuthorityTable::AuthorityTable(const Composition& composition) {
@@ -94,6 +95,26 @@ std::vector<Grants> AuthorityTable::Export(std::int64_t utime, std::int64_t tick
     }
   }
   return out;
+}
+
+void PeerSet::Persist(StateArchive& a) {
+  std::vector<std::int16_t> peers;
+  Each([&](int peer) { peers.push_back(static_cast<std::int16_t>(peer)); });
+  a.List(&peers, words_.size() * kBits, [&](std::int16_t* p) { a.Int(p, 0, kPeersMax - 1); });
+  words_.fill(0);
+  for (const int peer : peers) Add(peer);
+}
+
+/// Most changes of a mechanism's authority.
+constexpr std::int32_t kEpochMost = 1 << 30;
+
+void AuthorityTable::Persist(StateArchive& a) {
+  a.Section("authority");
+  a.Exactly(&records_, [&](AuthorityRecord* record) {
+    a.Int(&record->authority, 0, kPeersMax - 1);
+    a.Int(&record->epoch, 0, kEpochMost);
+    record->secondaries.Persist(a);
+  });
 }
 
 }  // namespace seam

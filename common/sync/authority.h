@@ -33,6 +33,7 @@ class AuthorityTable {
 
   /// Sets one entry; the server plans with this. The epoch must not decrease (asserted).
   void Set(int mechanism, const AuthorityRecord& record);
+  void Persist(StateArchive& a);
   /// Rebuilds the table after an edit. Each mechanism takes the entry of the first mechanism that
   /// it comes from, or `fresh` if it is new. A merger of several takes their highest epoch plus
   /// one, because earlier states belong to other mechanisms.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/base/state_archive.h"
+
 namespace seam {
 namespace {
 
@@ -201,6 +203,31 @@ void BodyMemory::Remap(const BodyRemap& change) {
     mechanisms.push_back(joined);
   }
   mechanisms_ = std::move(mechanisms);
+}
+
+void BodyMemory::Persist(StateArchive& a) {
+  a.Section("bodies");
+  if (a.reading()) {
+    StartAnew();
+    snapshots_ = Snapshots(world_.body_count());
+    for (int body = 0; body < world_.body_count(); ++body) {
+      snapshots_.Add(body, world_.tick(), world_.Read(body));
+    }
+    Record();
+  }
+  a.Exactly(&bodies_, [&](BodyTrack* track) {
+    a.Tick(&track->last_impact_tick);
+    a.Tick(&track->heard_tick);
+    a.Int(&track->heard_epoch, 0, INT32_MAX);
+    a.Tick(&track->dynamic_since);
+    a.Flag(&track->placed);
+    a.Real(&track->priority);
+    a.Tick(&track->asleep_since);
+    a.Tick(&track->told_tick);
+    a.Int(&track->changed_at, 0, world_.topology().revision());
+    a.Flag(&track->at_rest);
+  });
+  a.Exactly(&mechanisms_, [&](MechanismTrack* track) { a.Tick(&track->last_coupled_tick); });
 }
 
 }  // namespace seam

@@ -107,6 +107,9 @@ class BodyMemory {
   void StartAnew();
   /// Carries the records over after an edit.
   void Remap(const BodyRemap& change);
+  /// Requires that no body is parked. Reading: call when the world is at its tick. The past and the
+  /// states heard are not saved; both begin with the world's poses.
+  void Persist(StateArchive& a);
 
  private:
   const SyncConfig& config_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/scene/persist_state.h"
+
 namespace seam {
 
 const InputTrack::Known* InputTrack::Find(std::int64_t tick) const {
@@ -109,6 +111,23 @@ void InputTrack::Export(int player, int count, Inputs* to) const {
     to->lift.push_back(input.lift);
     to->buttons.push_back(input.buttons);
   }
+}
+
+void InputTrack::Persist(StateArchive& a) {
+  std::vector<Known> known;
+  for (std::int64_t t = std::max(oldest_, newest_ - kSavedTicks); newest_ >= 0 && t <= newest_;
+       ++t) {
+    if (knows(t)) known.push_back(*Find(t));
+  }
+  a.List(&known, static_cast<std::size_t>(kSavedTicks + 1), [&](Known* each) {
+    a.Int(&each->tick, 0, StateArchive::kTickMost);
+    seam::Persist(a, &each->input);
+  });
+  if (a.reading()) {
+    *this = InputTrack();
+    for (const Known& each : known) Note(each.tick, each.input);
+  }
+  a.Tick(&presses_taken_until_);
 }
 
 }  // namespace seam

@@ -9,6 +9,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 class InputTrack {
  public:
   /// Adds unknown ticks. Forgets ticks more than kKeepTicks behind.
@@ -36,7 +38,10 @@ class InputTrack {
   /// Like the above, into a message that keeps its memory, utime and sequence.
   void Export(int player, int count, Inputs* to) const;
 
-  static constexpr std::int64_t kKeepTicks = 600;
+  /// Saves the inputs of the newest kSavedTicks.
+  void Persist(StateArchive& a);
+
+  static constexpr std::int64_t kKeepTicks = 600, kSavedTicks = 120;
 
  private:
   struct Known {

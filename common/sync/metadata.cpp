@@ -1,8 +1,10 @@
 #include "common/sync/metadata.h"
 
+#include <cfloat>
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/state_archive.h"
 
 namespace seam {
 namespace {
@@ -54,6 +56,19 @@ std::vector<Meta> MetaTable::Export(std::int64_t utime, std::int64_t tick) const
   std::vector<Meta> messages;
   for (const auto& [key, value] : values_) Append(key, value, utime, tick, &messages);
   return messages;
+}
+
+void MetaTable::Persist(StateArchive& a) {
+  a.Section("metadata");
+  a.Entries(
+      &values_, static_cast<std::size_t>(kIdsMax),
+      [&](MetaKey* key) {
+        a.Int(&key->kind, 0, 127);
+        a.Int(&key->id, 0, kIdsMax - 1);
+        a.Int(&key->key, 0, 127);
+      },
+      [&](float* value) { a.Real(value, FLT_MAX); });
+  if (a.reading()) told_ = values_;
 }
 
 }  // namespace seam

@@ -12,6 +12,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// Name of one value.
 struct MetaKey {
   std::int8_t kind = kMetaPart;  ///< kMetaPart | kMetaPlayer
@@ -40,6 +42,9 @@ class MetaTable {
   std::vector<Meta> TakeChanges(std::int64_t utime, std::int64_t tick);
   /// Returns all values, for a client that joins late.
   std::vector<Meta> Export(std::int64_t utime, std::int64_t tick) const;
+
+  /// Saves the values. Reading: all count as announced.
+  void Persist(StateArchive& a);
 
   const std::map<MetaKey, float>& values() const { return values_; }
 

@@ -11,6 +11,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// Peers 0..kPeersMax - 1 (asserted).
 class PeerSet {
  public:
@@ -37,6 +39,7 @@ class PeerSet {
       }
     }
   }
+  void Persist(StateArchive& a);  // authority.cpp
   bool operator==(const PeerSet& o) const { return words_ == o.words_; }
   bool operator!=(const PeerSet& o) const { return words_ != o.words_; }
 

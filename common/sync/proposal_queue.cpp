@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/base/state_archive.h"
+
 namespace seam {
 namespace {
 
@@ -26,5 +28,14 @@ bool ProposalQueue::Add(Edit edit, std::int64_t tick) {
 }
 
 std::vector<FoundEdit> ProposalQueue::Take() { return std::exchange(waiting_, {}); }
+
+void ProposalQueue::Persist(StateArchive& a) {
+  a.Entries(
+      &proposed_, kProposedMax + 1,
+      [&](EditKey* key) {
+        for (std::int32_t& each : *key) a.Int(&each, INT32_MIN, INT32_MAX);
+      },
+      [&](std::int64_t* tick) { a.Tick(tick); });
+}
 
 }  // namespace seam

@@ -10,6 +10,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// An edit, and the tick after which physics found it.
 struct FoundEdit {
   Edit edit;
@@ -27,6 +29,8 @@ class ProposalQueue {
   void Forget(const EditKey& key) { proposed_.erase(key); }
   /// Returns the edits queued since the last call, in order.
   std::vector<FoundEdit> Take();
+  /// Requires that the queued edits have been taken.
+  void Persist(StateArchive& a);
   /// Number of edits remembered as queued.
   std::size_t remembered() const { return proposed_.size(); }
 

@@ -58,6 +58,11 @@ class Replica {
   void GoOnFrom(const World& before);
   std::int64_t tick() const { return world_.tick(); }
   void Step();
+  /// Saves or loads all that decides how this copy continues without other peers: bodies, roles,
+  /// inputs, rest, edits found. Not saved: the past, states of others, the view. Call between ticks
+  /// with no edit queued. Writing makes this tick a barrier (World::Barrier). Reading requires a
+  /// new replica of the same topology and config; after an error it must not be used any more.
+  void Persist(StateArchive& a);
 
   const World& world() const { return world_; }
   const AuthorityTable& authority() const { return roles_.table(); }
@@ -198,6 +203,9 @@ class Replica {
   /// Returns true if the edit was queued.
   bool Propose(Edit edit, std::int64_t found);
   void Remap(const BodyRemap& change);
+  /// Returns false, with an error in `a`, if the world cannot continue from `now`.
+  bool LoadWorld(const WorldSnapshot& now, StateArchive& a);
+  void PersistEdits(StateArchive& a);
   /// Forgets proposals of joints that the edit removes: a later bond may take their places and
   /// break at once.
   void ForgetProposals(const Edit& edit);

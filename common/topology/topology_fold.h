@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/base/status.h"
 #include "common/topology/topology.h"
 #include "common/topology/topology_entry.h"
 
@@ -27,6 +28,11 @@ class TopologyFold {
   /// Returns the entries that turn the scene into `now`. Requires the topology of the last Note.
   /// Cost: a pass over all parts, joints and steps.
   std::vector<TopologyEntry> Entries(const Topology& now) const;
+
+  /// Makes the fold and the topology that gave these entries, from the scene of both. Trusts none
+  /// of them. Requires a scene that ParseScene accepted, and revision >= 0.
+  static Status FromEntries(const Scene& scene, const std::vector<TopologyEntry>& entries,
+                            int revision, TopologyFold* fold, Topology* topology);
 
   /// Number of steps kept: at most a few for each part and joint there ever was.
   std::size_t steps() const { return steps_.size(); }
@@ -47,6 +53,8 @@ class TopologyFold {
   void RecordGearsOf(std::int32_t joint, const Scene& scene);
   void RecordInsert(const InsertEdit& insert, const Topology& now);
   void RecordGrowth(const Topology& now);
+  /// Records an entry that a topology has just had.
+  void NoteEntry(const TopologyEntry& entry, const Topology& now);
   /// Returns by step: its parts and joints have left, and no kept step refers to them.
   std::vector<bool> Dropped(const Topology& now) const;
   void Prune(const Topology& now);

@@ -14,6 +14,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 class AuthorityManager {
  public:
   /// Writes the authority table of `replica`; both `scene` and `replica` must outlive this object.
@@ -57,6 +59,9 @@ class AuthorityManager {
   /// Returns authority over everything a departed peer had to the server. States of that peer's
   /// epochs no longer count.
   std::vector<Grants> TakeBack(std::int64_t now_us, int peer);
+  /// Saves the memory of earlier plans: since when each mechanism has had its authority, and its
+  /// hand-over. Reading: the caller then takes back the mechanisms of absent peers.
+  void Persist(StateArchive& a);
   /// Renumbers after the mechanisms have changed; see BodyRemap.
   void Remap(const std::vector<std::vector<int>>& from);
 

@@ -1,5 +1,6 @@
-/// AuthorityManager: takes mechanisms back without the holder's consent.
+/// AuthorityManager: takes mechanisms back without the holder's consent; its state as bytes.
 
+#include "common/base/state_archive.h"
 #include "common/sync/lease.h"
 #include "server/authority/authority_manager.h"
 
@@ -46,6 +47,34 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us,
   if (mechanisms.empty()) return {};
   replica_.RolesChanged();
   return table().Export(now_us, replica_.tick(), mechanisms);
+}
+
+void AuthorityManager::Persist(StateArchive& a) {
+  a.Section("hand-overs");
+  a.Exactly(&memory_, [&](Memory* memory) {
+    a.Int(&memory->hand_over, 0, static_cast<std::int64_t>(HandOver::kOvertaken));
+    a.Int(&memory->held_from, -1, INT32_MAX);
+    a.Tick(&memory->keep_until_tick);
+    a.Int(&memory->last_authority, 0, kPeersMax - 1);
+    a.Tick(&memory->changed_tick);
+    a.Tick(&memory->fell_tick);
+    a.Flag(&memory->open);
+    a.Real(&memory->contested);
+  });
+  a.List(&plan_, memory_.size(), [&](PlannedAuthority* planned) {
+    a.Int(&planned->authority, 0, kPeersMax - 1);
+    planned->secondaries.Persist(a);
+    a.Flag(&planned->decided);
+  });
+  a.Int(&see_all_, 0, INT32_MAX);
+  a.Flag(&plan_due_);
+  if (!a.reading()) return;
+  a.Require(plan_.empty() || plan_.size() == memory_.size(), "a plan of other mechanisms");
+  open_.clear();
+  for (std::size_t m = 0; m < memory_.size(); ++m) {
+    if (plan_.empty()) memory_[m].open = false;
+    if (memory_[m].open) open_.push_back(static_cast<int>(m));
+  }
 }
 
 }  // namespace seam

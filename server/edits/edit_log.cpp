@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "common/base/state_archive.h"
 #include "common/physics/part_places.h"
 #include "common/sync/edits/topology_snapshot.h"
 #include "server/edits/proposal.h"
@@ -232,6 +233,41 @@ std::vector<Snapshot> EditLog::History(std::int64_t now_us) const {
   std::vector<Snapshot> all = ToSnapshots(topology.revision(), fold_.Entries(topology));
   for (Snapshot& part : all) part.utime = now_us;
   return all;
+}
+
+void EditLog::GoOnFrom(const TopologyFold& fold) {
+  const Topology& topology = world_.topology();
+  fold_ = fold;
+  ordered_ = topology.revision();
+  hash_after_.clear();
+  hash_after_[ordered_] = topology.composition().hash;
+}
+
+void EditLog::Persist(StateArchive& a) {
+  a.Section("edits");
+  const Topology& topology = world_.topology();
+  if (!a.reading()) {
+    SEAM_ASSERT(unapplied_.empty());
+    pending_.erase(std::remove_if(pending_.begin(), pending_.end(),
+                                  [this](const Pending& pending) { return IsStale(pending); }),
+                   pending_.end());
+  }
+  a.List(&pending_, static_cast<std::size_t>(kWaitingMax) * kPeersMax, [&](Pending* pending) {
+    seam::Persist(a, &pending->edit);
+    a.Int(&pending->peer, 0, kPeersMax - 1);
+    a.Tick(&pending->since);
+    a.Tick(&pending->found);
+    const BreakEdit* broken = pending->edit.As<BreakEdit>();
+    if (broken != nullptr && topology.HasJoint(broken->joint)) {
+      pending->made_at = topology.JointMadeAt(broken->joint);
+    }
+  });
+  a.Int(&last_tick_, 0, std::max<std::int64_t>(0, world_.tick()));
+  waiting_of_peer_.fill(0);
+  for (const Pending& pending : pending_) {
+    int& waiting = waiting_of_peer_[static_cast<std::size_t>(pending.peer)];
+    a.Require(++waiting <= kWaitingMax, "a peer has too many edits");
+  }
 }
 
 }  // namespace seam

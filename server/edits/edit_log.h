@@ -16,6 +16,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 class EditLog {
  public:
   /// `world` and `authority` must outlive it. Requires a world without edits.
@@ -75,6 +77,11 @@ class EditLog {
   /// past: this is the one place that decides how much of the past is needed. Requires that every
   /// ordered edit has been applied.
   std::vector<Snapshot> History(std::int64_t now_us) const;
+
+  /// Saves the pending edits. Requires that every ordered edit has been applied.
+  void Persist(StateArchive& a);
+  /// Continues with a world that has had edits before, of which `fold` has the effect.
+  void GoOnFrom(const TopologyFold& fold);
 
   /// Most pending edits of one peer, so that a hostile one fills only its own share.
   static constexpr int kWaitingMax = 1024;

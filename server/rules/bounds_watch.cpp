@@ -4,6 +4,7 @@
 #include <set>
 
 #include "common/physics/part_places.h"
+#include "common/scene/persist_state.h"
 
 namespace seam {
 namespace {
@@ -59,6 +60,15 @@ void BoundsWatch::NoteApplied(const Edit& edit) {
   if (removed == nullptr || !removed->left_bounds) return;
   asked_.erase(removed->part);
   ++left_;
+}
+
+void BoundsWatch::Persist(StateArchive& a) {
+  a.Section("bounds");
+  const std::size_t parts = replica_.world().scene().parts.size();
+  a.Entries(
+      &asked_, parts, [&](PartId* part) { PersistPart(a, part, parts); },
+      [&](std::int64_t* tick) { a.Tick(tick); });
+  a.Int(&left_, 0, INT64_MAX);
 }
 
 }  // namespace seam

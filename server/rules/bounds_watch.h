@@ -11,6 +11,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// True if a point is beyond one of the scene's bounds. NaN is not.
 bool OutsideBounds(const Scene& scene, const Vec2& position);
 
@@ -26,6 +28,7 @@ class BoundsWatch {
   std::vector<Edit> Next(const std::vector<int>& told);
   /// Call with each applied edit.
   void NoteApplied(const Edit& edit);
+  void Persist(StateArchive& a);
   /// Parts that have left since the start.
   std::int64_t left() const { return left_; }
 

@@ -25,6 +25,7 @@ bool Rules::Needed(const Scene& scene) {
 
 Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands, RuleSource* source)
     : world_(world),
+      seed_(seed),
       commands_(commands),
       own_world_(world),
       source_(source != nullptr ? *source : own_world_),
@@ -34,13 +35,16 @@ Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands, Rule
     last_checkpoint_ = std::max(last_checkpoint_, trigger.order);
   }
   NoteNewParts();
+  for (std::size_t i = 0; i < scene().scripts.size(); ++i) {
+    scripts_.push_back(StartScript(i, nullptr));
+  }
+}
+
+std::unique_ptr<Script> Rules::StartScript(std::size_t index, const SavedScript* saved) {
   // Errors name the file; Lua truncates names of more than 59 characters.
   const std::string file = scene().name.substr(0, 48) + ".toml";
-  std::uint64_t number = 0;
-  for (const ScriptSource& script : scene().scripts) {
-    const std::uint64_t own = static_cast<std::uint64_t>(seed) * 64 + number++;
-    scripts_.push_back(std::make_unique<Script>(script, file, own, *room_));
-  }
+  const std::uint64_t own = static_cast<std::uint64_t>(seed_) * 64 + index;
+  return std::make_unique<Script>(scene().scripts[index], file, own, *room_, saved);
 }
 
 Rules::~Rules() = default;

@@ -19,6 +19,8 @@ namespace seam {
 
 class Script;
 class ScriptRoom;
+class StateArchive;
+struct SavedScript;
 
 /// Commands of the rules to the room. Changes reach every peer a little later.
 class RoomCommands {
@@ -61,6 +63,9 @@ class Rules {
   void OnJoin(int player);
   void OnLeave(int player);
 
+  /// Saves or loads all of it. Reading starts the scripts anew, with their tables `room`.
+  void Persist(StateArchive& a);
+
   const MetaTable& metadata() const { return table_; }
   std::vector<Meta> TakeChanges(std::int64_t utime) {
     return table_.TakeChanges(utime, world_.tick());
@@ -94,14 +99,19 @@ class Rules {
   // rules_scripts.cpp
   void RunScripts();
   void ReportStopped(Script& script);
+  // rules_persist.cpp
+  void PersistScripts(StateArchive& a);
 
   const Scene& scene() const { return world_.scene(); }
+  /// Starts the script of this index: anew, or as it was saved.
+  std::unique_ptr<Script> StartScript(std::size_t index, const SavedScript* saved);
   bool Exists(PartId part) const;
   float Health(PartId part) const;
   std::string PlayerName(int player) const;
   void Say(const std::string& text) { commands_.Say(text); }
 
   const World& world_;
+  const std::int64_t seed_;
   RoomCommands& commands_;
   WorldSource own_world_;
   RuleSource& source_;

@@ -5,6 +5,7 @@
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
+#include "common/scene/persist_state.h"
 #include "common/stages/make_stages.h"
 
 namespace seam {
@@ -22,6 +23,8 @@ constexpr double kViewSettles = 0.6;
 constexpr int kComingIn = -2;
 /// Longest wait for such peers after the end of the way, s.
 constexpr double kPeerWaitMax = 1.5;
+/// Most ticks in a seat that are told apart: a month.
+constexpr int kSeatTicksMost = 1 << 28;
 
 bool PlayerSits(const World& world, int player) {
   for (const Seat& seat : world.scene().seats) {
@@ -107,7 +110,7 @@ std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
       asked_[s] = -1;
       continue;
     }
-    ++way.ticks;
+    way.ticks = std::min(way.ticks + 1, kSeatTicksMost);
     if (heard < 0) {
       way.heard_at = kComingIn;
     } else if (way.heard_at < 0 && heard >= way.revision) {
@@ -142,6 +145,18 @@ int SeatBonds::Due(const World& world, std::size_t seat) const {
   const float speed = PartPose(world, world.scene().seats[seat].part).velocity.norm();
   const float behind = std::min(speed * late / kCatchUpSpeed, 1e6f);
   return std::min(last, way.heard_at + static_cast<int>(behind));
+}
+
+void SeatBonds::Persist(StateArchive& a, const World& world) {
+  a.Section("seats");
+  const std::size_t seats = world.scene().seats.size(), parts = world.scene().parts.size();
+  a.List(&ways_, seats, [&](Way* way) {
+    PersistPart(a, &way->own, parts);
+    a.Int(&way->revision, 0, INT32_MAX);
+    a.Int(&way->ticks, 0, kSeatTicksMost);
+    a.Int(&way->heard_at, kComingIn, kSeatTicksMost);
+  });
+  a.List(&asked_, seats, [&](PartId* part) { PersistPart(a, part, parts); });
 }
 
 }  // namespace seam

@@ -10,6 +10,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// Bonds a player's part to its seat once it has moved there (MakeSeatStage).
 class SeatBonds {
  public:
@@ -17,6 +19,7 @@ class SeatBonds {
   /// were not reached in time. Call once after each tick. `heard`: number of edits that all peers
   /// have applied; below 0 while a peer is joining.
   std::vector<Edit> Next(const World& world, int heard);
+  void Persist(StateArchive& a, const World& world);
 
  private:
   /// State of one seat, from the taking of the seat until it is left.

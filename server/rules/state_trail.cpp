@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "common/scene/persist_state.h"
+
 namespace seam {
 
 void StateTrail::Add(int body, std::int64_t tick, const BodyState& state) {
@@ -90,6 +92,20 @@ void StateTrail::Remap(const std::vector<BodyOrigin>& bodies) {
   }
   trails_ = std::move(trails);
   looked_ = std::move(looked);
+}
+
+void StateTrail::Persist(StateArchive& a) {
+  a.Section("trails");
+  a.Exactly(&looked_, [&](std::int64_t* tick) { a.Tick(tick); });
+  for (Trail& trail : trails_) {
+    std::vector<Seen> newest;
+    if (!trail.empty()) newest.push_back(trail.back());
+    a.List(&newest, 1, [&](Seen* seen) {
+      a.Tick(&seen->tick);
+      seam::Persist(a, &seen->state);
+    });
+    if (a.reading()) trail.assign(newest.begin(), newest.end());
+  }
 }
 
 }  // namespace seam

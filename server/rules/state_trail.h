@@ -12,12 +12,17 @@
 
 namespace seam {
 
+class StateArchive;
+
 class StateTrail {
  public:
   struct Seen {
     std::int64_t tick = 0;
     BodyState state;
   };
+
+  /// Saves the newest state of each body.
+  void Persist(StateArchive& a);
 
   explicit StateTrail(int body_count)
       : trails_(static_cast<std::size_t>(body_count)),

@@ -1,5 +1,6 @@
 #include "server/rules/triggers.h"
 
+#include "common/base/state_archive.h"
 #include "common/scene/part_rules.h"
 
 namespace seam {
@@ -48,6 +49,19 @@ std::vector<TriggerEvent> Triggers::Update(const PlaceOf& place_of, const Player
     }
   }
   return events;
+}
+
+void Triggers::Persist(StateArchive& a, std::size_t parts) {
+  for (std::size_t t = 0; t < over_.size(); ++t) {
+    bool over = over_[t];
+    a.Flag(&over);
+    over_[t] = over;
+  }
+  const auto last = static_cast<std::int64_t>(over_.size()) - 1;
+  a.Members(&inside_, over_.size() * parts, [&](std::pair<int, PartId>* inside) {
+    a.Int(&inside->first, 0, last);
+    a.Int(&inside->second, 0, static_cast<std::int64_t>(parts) - 1);
+  });
 }
 
 }  // namespace seam

@@ -12,6 +12,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 struct TriggerEvent {
   int trigger = -1;     ///< index into Scene::triggers
   PartId part = -1;     ///< the part inside
@@ -32,6 +34,8 @@ class Triggers {
   /// trigger that is over (`once` and entered, or its carrier is gone) reports that its parts
   /// leave, and then nothing more.
   std::vector<TriggerEvent> Update(const PlaceOf& place_of, const PlayerOf& player_of);
+
+  void Persist(StateArchive& a, std::size_t parts);
 
   /// Pairs (trigger, part) that are inside now.
   const std::set<std::pair<int, PartId>>& inside() const { return inside_; }

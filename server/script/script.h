@@ -9,6 +9,7 @@
 
 #include "common/scene/part_rules.h"
 #include "common/scene/toml/toml_tree.h"
+#include "server/script/saved_script.h"
 #include "server/script/script_host.h"
 
 namespace seam {
@@ -17,8 +18,11 @@ class Script {
  public:
   /// Compiles the code and runs it once, which defines its callbacks. `scene_file` is the prefix of
   /// its error messages. `host` must outlive the script.
+  /// `saved`: continues a script that was saved. Its code runs again to define the callbacks; it
+  /// finds its table `room` as saved, and requests of changes at this time have no effect, because
+  /// the room has them already.
   Script(const ScriptSource& source, const std::string& scene_file, std::uint64_t seed,
-         ScriptHost& host);
+         ScriptHost& host, const SavedScript* saved = nullptr);
   ~Script();
   Script(const Script&) = delete;
   Script& operator=(const Script&) = delete;
@@ -40,6 +44,9 @@ class Script {
   /// tables become trees of at most 20 000 entries. Returns nothing if there is no such function or
   /// the script is stopped, before or by this call.
   std::vector<TomlNode> Ask(const char* function, double argument, int results);
+
+  /// Returns the state for a saved room. Stops the script if its table `room` cannot be saved.
+  SavedScript Save();
 
   bool stopped() const;
   /// Returns the error as "scene.toml:12: text", once stopped.

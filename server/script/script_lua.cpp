@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "server/script/quiet_host.h"
 #include "server/script/script.h"
 #include "server/script/script_lua_guard.h"
 
@@ -44,6 +45,8 @@ int OpenAll(lua_State* L) {
   OpenLuaTable(L);
   OpenLuaMath(L, static_cast<std::uint64_t>(lua_tointeger(L, 1)));
   OpenLuaWorld(L);
+  lua_newtable(L);
+  lua_setglobal(L, "room");
   return 0;
 }
 
@@ -107,6 +110,49 @@ struct Script::Impl {
     const int status = lua_load(state, NextPiece, &reader, chunk.c_str(), "t");
     if (status != LUA_OK) return Fail(status, source.line);
     Call(0, source.line);
+  }
+
+  void Resume(std::uint64_t seed, const SavedScript& saved) {
+    if (saved.stopped) {
+      error = saved.error;
+      return;
+    }
+    QuietHost quiet(*guard.host);
+    ScriptHost* const host = std::exchange(guard.host, &quiet);
+    Open(seed);
+    if (state != nullptr) SetRoom(saved.room);
+    if (state != nullptr) Load();
+    if (state != nullptr) SetLuaRandom(state, saved.random);
+    guard.host = host;
+  }
+
+  void SetRoom(const ScriptValue& room) {
+    guard.work = kLoadTicks * guard.limits.instructions;
+    lua_settop(state, 0);
+    lua_pushcfunction(state, NoteLine);
+    lua_pushcfunction(state, [](lua_State* L) {
+      PushLuaValue(L, *static_cast<const ScriptValue*>(lua_touserdata(L, 1)));
+      lua_setglobal(L, "room");
+      return 0;
+    });
+    lua_pushlightuserdata(state, const_cast<ScriptValue*>(&room));
+    Call(1, source.line);
+  }
+
+  SavedScript Save() {
+    SavedScript saved;
+    if (state != nullptr) {
+      lua_settop(state, 0);
+      try {
+        saved.room = ReadLuaRoom(state);
+        saved.random = LuaRandom(state);
+      } catch (const ScriptRefusal& refusal) {
+        Stop(source.line, refusal.what());
+      }
+    }
+    saved.stopped = state == nullptr;
+    saved.error = error;
+    return saved;
   }
 
   /// Calls the function below the `count` arguments on the stack, above NoteLine at index 1.
@@ -238,11 +284,17 @@ struct Script::Impl {
 };
 
 Script::Script(const ScriptSource& source, const std::string& scene_file, std::uint64_t seed,
-               ScriptHost& host)
+               ScriptHost& host, const SavedScript* saved)
     : impl_(std::make_unique<Impl>(source, scene_file, host)) {
+  if (saved != nullptr) {
+    impl_->Resume(seed, *saved);
+    return;
+  }
   impl_->Open(seed);
   if (impl_->state != nullptr) impl_->Load();
 }
+
+SavedScript Script::Save() { return impl_->Save(); }
 
 Script::~Script() = default;
 

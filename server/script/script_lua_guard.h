@@ -11,6 +11,7 @@
 #include <lua5.4/lua.hpp>
 
 #include "common/scene/part_rules.h"
+#include "server/script/saved_script.h"
 #include "server/script/script_host.h"
 
 namespace seam {
@@ -26,9 +27,9 @@ constexpr int kScriptCommandsMax = 64;
 
 /// Limits and usage of one script; shared by its coroutines.
 struct LuaGuard {
-  explicit LuaGuard(ScriptHost& h, const ScriptLimits& l) : host(h), limits(l) {}
+  explicit LuaGuard(ScriptHost& h, const ScriptLimits& l) : host(&h), limits(l) {}
 
-  ScriptHost& host;
+  ScriptHost* host;
   const ScriptLimits limits;
   const char* scene_file = "";
   bool charging = false;       ///< false while the state is being built
@@ -41,7 +42,7 @@ struct LuaGuard {
 };
 
 inline LuaGuard& GuardOf(lua_State* L) { return **static_cast<LuaGuard**>(lua_getextraspace(L)); }
-inline ScriptHost& HostOf(lua_State* L) { return GuardOf(L).host; }
+inline ScriptHost& HostOf(lua_State* L) { return *GuardOf(L).host; }
 
 /// The lua_Alloc function with a LuaGuard: counts, charges, and refuses above the limit.
 void* LuaAllocate(void* guard, void* block, std::size_t old_bytes, std::size_t new_bytes);
@@ -96,5 +97,16 @@ void AddLuaMaking(lua_State* L);
 /// ScriptRefusal for a value that a scene cannot hold.
 TomlNode LuaNode(lua_State* L, int line, int entries_max);
 constexpr int kLuaNodeSlots = 24;
+
+// script_lua_room.cpp: the table `room`, and the state of math.random.
+/// Returns the global table `room`; an empty table if there is none. Raises nothing; throws
+/// ScriptRefusal, naming the key, for a value that cannot be saved.
+ScriptValue ReadLuaRoom(lua_State* L);
+/// Pushes the value. May raise an error of memory.
+void PushLuaValue(lua_State* L, const ScriptValue& value);
+/// Remembers the function math.random, on top, of which the next two get and set the state.
+void KeepLuaRandom(lua_State* L);
+SavedScript::Random LuaRandom(lua_State* L);
+void SetLuaRandom(lua_State* L, const SavedScript::Random& random);
 
 }  // namespace seam

@@ -189,6 +189,8 @@ void OpenLuaMath(lua_State* L, std::uint64_t seed) {
   lua_call(L, 2, 0);
   lua_pushnil(L);
   lua_setfield(L, -2, "randomseed");
+  lua_getfield(L, -1, "random");
+  KeepLuaRandom(L);
   lua_setglobal(L, "math");
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/names.h"
+#include "common/base/state_archive.h"
 #include "common/codec/message_limits.h"
 
 namespace seam {
@@ -114,6 +115,40 @@ void PlaceTable::Leave(int peer, std::uint64_t session, bool goodbye) {
   place.previous = session;
   // An owner that never received the key could not come back with it.
   if (goodbye || !place.key_known) place = Place();
+}
+
+void PlaceTable::Persist(StateArchive& a, std::int64_t now_us) {
+  a.Section("places");
+  struct Saved {
+    int peer = 0;
+    std::int64_t age_us = 0;
+    Place place;
+  };
+  std::vector<Saved> all;
+  for (int peer = 1; peer < kPeersMax; ++peer) {
+    if (!at(peer).name.empty()) all.push_back({peer, now_us - at(peer).heard_us, at(peer)});
+  }
+  if (a.reading()) places_.fill(Place());
+  a.List(&all, places_.size(), [&](Saved* saved) {
+    Place& place = saved->place;
+    a.Int(&saved->peer, 1, kPeersMax - 1);
+    a.Int(&saved->age_us, 0, INT64_MAX);
+    a.Text(&place.name, kNameBytesMax);
+    a.Word(&place.key);
+    a.Int(&place.player, -1, static_cast<std::int64_t>(scene_.players.size()) - 1);
+    a.Flag(&place.occupied);
+    a.Flag(&place.key_known);
+    a.Word(&place.previous);
+    if (!a.reading() || !a.ok()) return;
+    a.Require(IsName(place.name) && FindName(place.name) < 0 && place.key != 0 &&
+                  at(saved->peer).name.empty(),
+              "a place is wrong");
+    // Who never learned the key could not come back with it.
+    if (place.occupied && !place.key_known) return;
+    place.heard_us = place.occupied ? now_us : now_us - std::min(saved->age_us, kNameHeldUs);
+    place.occupied = false;
+    At(saved->peer) = place;
+  });
 }
 
 }  // namespace seam

@@ -12,6 +12,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 struct Place {
   std::string name;            ///< "": free
   std::uint64_t key = 0;       ///< never 0 in a taken place
@@ -54,6 +56,10 @@ class PlaceTable {
   void Heard(int peer, std::int64_t now_us, bool ready);
   /// Ends the session of this number. `goodbye`: the owner said so; the place becomes free.
   void Leave(int peer, std::uint64_t session, bool goodbye);
+
+  /// Saves the taken places and how long ago their owners were heard. Reading: no place has a
+  /// session, and the owner of one that had is counted as heard now.
+  void Persist(StateArchive& a, std::int64_t now_us);
 
   /// Returns "free are bob, carl": the scene's players that may be claimed without a key. Names
   /// that do not fit a message are only counted. "no player is free" if there is none.

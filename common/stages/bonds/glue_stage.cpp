@@ -67,7 +67,7 @@ class GlueStage : public Stage {
   void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& edit) override;
   void Save(std::vector<float>* memory) const override;
-  std::size_t Load(const float* memory) override;
+  void Load(StageMemory* memory) override;
   bool listens() const override { return true; }
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
@@ -189,14 +189,14 @@ void GlueStage::Save(std::vector<float>* memory) const {
   }
 }
 
-std::size_t GlueStage::Load(const float* memory) {
-  blasts_.clear();
-  const auto count = static_cast<std::size_t>(memory[0]);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* m = memory + 1 + 4 * i;
-    blasts_.push_back({{m[0], m[1]}, m[2], 0, m[3]});
+void GlueStage::Load(StageMemory* memory) {
+  blasts_.assign(memory->NextCount(4), {});
+  for (BlastEdit& blast : blasts_) {
+    blast.centre.x() = memory->Next();
+    blast.centre.y() = memory->Next();
+    blast.radius = memory->Next();
+    blast.impulse = memory->Next();
   }
-  return 1 + 4 * count;
 }
 
 void GlueStage::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {

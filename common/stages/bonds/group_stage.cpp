@@ -44,7 +44,7 @@ class GroupStage : public Stage {
   void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& edit) override;
   void Save(std::vector<float>* memory) const override { pairs_.Save(memory); }
-  std::size_t Load(const float* memory) override { return pairs_.Load(memory); }
+  void Load(StageMemory* memory) override { pairs_.Load(memory); }
 
  private:
   enum class State {

@@ -43,7 +43,7 @@ class JoinStage : public Stage {
   void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& edit) override;
   void Save(std::vector<float>* memory) const override;
-  std::size_t Load(const float* memory) override;
+  void Load(StageMemory* memory) override;
 
  private:
   void Look();
@@ -161,7 +161,7 @@ void JoinStage::ProposeEdits(std::vector<Edit>* edits) {
 
 void JoinStage::Save(std::vector<float>* memory) const { SaveTicks(waiting_, memory); }
 
-std::size_t JoinStage::Load(const float* memory) { return LoadTicks(memory, &waiting_); }
+void JoinStage::Load(StageMemory* memory) { LoadTicks(memory, &waiting_); }
 
 }  // namespace
 

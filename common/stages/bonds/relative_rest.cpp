@@ -106,15 +106,13 @@ void RestPairs::Save(std::vector<float>* memory) const {
   }
 }
 
-std::size_t RestPairs::Load(const float* memory) {
-  pairs_.assign(static_cast<std::size_t>(memory[0]), {});
-  const float* next = memory + 1;
+void RestPairs::Load(StageMemory* memory) {
+  pairs_.assign(memory->NextCount(3), {});
   for (NearPair& pair : pairs_) {
-    pair.a = static_cast<PartId>(*next++);
-    pair.b = static_cast<PartId>(*next++);
-    pair.looks = static_cast<int>(*next++);
+    pair.a = memory->NextInt(0, kStageNumberMax);
+    pair.b = memory->NextInt(0, kStageNumberMax);
+    pair.looks = memory->NextInt(0, kStageNumberMax);
   }
-  return static_cast<std::size_t>(next - memory);
 }
 
 }  // namespace seam

@@ -48,7 +48,7 @@ class RestPairs {
 
   void Save(std::vector<float>* memory) const;
   /// Returns the number of values read.
-  std::size_t Load(const float* memory);
+  void Load(StageMemory* memory);
 
  private:
   std::vector<NearPair> pairs_;

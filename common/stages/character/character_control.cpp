@@ -29,23 +29,22 @@ void CharacterMemory::Save(std::vector<float>* memory) const {
                   hold[1], load[0], load[1], limp});
 }
 
-std::size_t CharacterMemory::Load(const float* memory) {
-  mode = static_cast<CharacterMode>(static_cast<int>(memory[0]));
-  time = memory[1];
-  stance = static_cast<int>(memory[2]);
-  step = memory[3];
-  from.Set(memory[4], memory[5]);
-  to = memory[6];
-  edge.Set(memory[7], memory[8]);
-  speed = memory[9];
-  phase = static_cast<int>(memory[10]);
-  phase_time = memory[11];
-  hold[0] = memory[12];
-  hold[1] = memory[13];
-  load[0] = memory[14];
-  load[1] = memory[15];
-  limp = memory[16];
-  return 17;
+void CharacterMemory::Load(StageMemory* memory) {
+  mode = static_cast<CharacterMode>(memory->NextInt(0, static_cast<int>(CharacterMode::kClimb)));
+  time = memory->Next();
+  stance = memory->NextInt(0, 1);
+  step = memory->Next();
+  from.x = memory->Next();
+  from.y = memory->Next();
+  to = memory->Next();
+  edge.x = memory->Next();
+  edge.y = memory->Next();
+  speed = memory->Next();
+  phase = memory->NextInt(-kStageNumberMax, kStageNumberMax);
+  phase_time = memory->Next();
+  for (float& each : hold) each = memory->Next();
+  for (float& each : load) each = memory->Next();
+  limp = memory->Next();
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)

@@ -47,7 +47,7 @@ struct CharacterMemory {
   float limp = 0;           ///< s left of limpness after an impact or a command
 
   void Save(std::vector<float>* memory) const;
-  std::size_t Load(const float* memory);
+  void Load(StageMemory* memory);
 };
 
 class CharacterControl {

@@ -54,12 +54,8 @@ class CharacterStage : public Stage {
   void Save(std::vector<float>* memory) const override {
     for (const CharacterControl& control : controls_) control.memory().Save(memory);
   }
-  std::size_t Load(const float* memory) override {
-    std::size_t taken = 0;
-    for (CharacterControl& control : controls_) {
-      taken += control.mutable_memory()->Load(memory + taken);
-    }
-    return taken;
+  void Load(StageMemory* memory) override {
+    for (CharacterControl& control : controls_) control.mutable_memory()->Load(memory);
   }
 
  private:

@@ -66,6 +66,11 @@ class Replay {
   void RecordAction(std::int64_t tick, int player, int action);
   /// Drops all barriers: a body is new, or the bodies have changed.
   void Forget();
+  /// Makes this tick a barrier, also for replays, and returns it.
+  WorldSnapshot BarrierNow();
+  /// Saves the record on which the next barriers depend. Reading: begins with `barrier`, the
+  /// world's state.
+  void Persist(StateArchive& a, const WorldSnapshot& barrier);
 
   // Edits at their tick (replay_edits.cpp). For each, in their order: GoBackTo, World::Apply, Remap
   // if the bodies have changed, Edited; after the last one GoOn.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/base/geometry.h"
+#include "common/scene/persist_state.h"
 #include "common/sync/correct/replay.h"
 
 namespace seam {
@@ -145,6 +146,23 @@ void Replay::GoOn() {
   if (!journey_) return;
   StepTo(journey_->now);
   Arrive();
+}
+
+WorldSnapshot Replay::BarrierNow() {
+  if (!config_.TakesBarriers(roles_.self())) return world_.Barrier();
+  if (!barriers_.empty() && barriers_.back().world.tick == world_.tick()) barriers_.pop_back();
+  AddBarrier(false);
+  return barriers_.back().world;
+}
+
+void Replay::Persist(StateArchive& a, const WorldSnapshot& barrier) {
+  a.Section("replay");
+  a.Flag(&was_alone_);
+  a.Real(&credit_, kSavedSpeedMost);
+  a.Tick(&edited_tick_);
+  if (!a.reading() || !a.ok()) return;
+  Forget();
+  if (config_.TakesBarriers(roles_.self())) barriers_.push_back({barrier, edits_done_});
 }
 
 }  // namespace seam

@@ -1,5 +1,8 @@
 #include "common/sync/edits/edit_order.h"
 
+#include "common/base/state_archive.h"
+#include "common/codec/codec.h"
+
 namespace seam {
 EditOrder ToOrder(const Edit& edit) {
   EditOrder order;
@@ -57,6 +60,20 @@ Edit ToEdit(const EditOrder& order) {
     default: break;
   }
   return Edit(what, static_cast<EditCause>(order.cause));
+}
+
+void Persist(StateArchive& a, Edit* edit) {
+  std::string bytes;
+  if (!a.reading()) {
+    const Bytes encoded = Encode(ToOrder(*edit));
+    bytes.assign(encoded.begin(), encoded.end());
+  }
+  a.Text(&bytes, kMessageBytesMax);
+  if (!a.reading()) return;
+  const AnyMessage message = Decode(Bytes(bytes.begin(), bytes.end()));
+  const auto* order = std::get_if<EditOrder>(&message);
+  a.Require(order != nullptr, "an edit is malformed");
+  *edit = order != nullptr && a.ok() ? ToEdit(*order) : Edit();
 }
 
 }  // namespace seam

@@ -1,6 +1,7 @@
 #include "common/sync/edits/topology_snapshot.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace seam {
 namespace {
@@ -52,13 +53,15 @@ Status SnapshotReader::Take(const Snapshot& part) {
   if (part.part != taken_ || part.parts != parts_ || part.number != revision_) {
     return Status::Error("its parts do not follow each other");
   }
-  Status status = TakeEntries(part);
+  std::vector<TopologyEntry> entries;
+  Status status = ReadEntries(part, &entries);
+  for (std::size_t i = 0; status.ok() && i < entries.size(); ++i) status = builder_.Add(entries[i]);
   if (!status.ok()) return status;
   ++taken_;
   return complete() ? builder_.Finish(revision_) : status;
 }
 
-Status SnapshotReader::TakeEntries(const Snapshot& part) {
+Status ReadEntries(const Snapshot& part, std::vector<TopologyEntry>* entries) {
   std::size_t value = 0, text = 0;
   for (std::size_t i = 0; i < part.kind.size(); ++i) {
     if (part.kind[i] < 1 || part.kind[i] > static_cast<std::int8_t>(TopologyEntry::kKinds)) {
@@ -80,8 +83,7 @@ Status SnapshotReader::TakeEntries(const Snapshot& part) {
       entry.text = part.text.substr(text, bytes);
       text += bytes;
     }
-    Status status = builder_.Add(entry);
-    if (!status.ok()) return status;
+    entries->push_back(std::move(entry));
   }
   const bool all = value == part.value.size() && text == part.text.size();
   return all ? Status::Ok() : Status::Error("it has more than its entries say");

@@ -16,6 +16,9 @@ namespace seam {
 /// cannot be sent.
 std::vector<Snapshot> ToSnapshots(int revision, const std::vector<TopologyEntry>& entries);
 
+/// Appends the entries of one part. Trusts none of it.
+Status ReadEntries(const Snapshot& part, std::vector<TopologyEntry>* entries);
+
 /// Assembles a snapshot from its parts. Trusts none of it.
 class SnapshotReader {
  public:
@@ -29,8 +32,6 @@ class SnapshotReader {
   const Topology& topology() const { return builder_.topology(); }
 
  private:
-  Status TakeEntries(const Snapshot& part);
-
   TopologyBuilder builder_;
   int taken_ = 0, parts_ = 0, revision_ = 0;
 };

@@ -7,6 +7,7 @@
 #include "common/physics/stage.h"
 #include "common/scene/forces.h"
 #include "common/scene/mechanism_ids.h"
+#include "common/scene/persist_state.h"
 #include "common/sync/reach/reach.h"
 
 namespace seam {
@@ -297,6 +298,19 @@ void Presence::Look() {
       changed_.push_back(static_cast<int>(m));
     }
   }
+}
+
+void Presence::Persist(StateArchive& a) {
+  a.Section("presence");
+  const auto flag = [&](char* is) { a.Int(is, 0, 1); };
+  a.Exactly(&near_, flag);
+  a.List(&unwatched_, near_.size(), flag);
+  doubtful_.Persist(a);
+  a.Exactly(&needed_until_, [&](std::int64_t* tick) { a.Tick(tick); });
+  a.Flag(&asked_);
+  a.Real(&fastest_);
+  seam::Persist(a, &around_.min, StateArchive::kRealMost);
+  seam::Persist(a, &around_.max, StateArchive::kRealMost);
 }
 
 }  // namespace seam

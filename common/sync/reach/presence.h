@@ -62,6 +62,8 @@ class Presence {
   }
   /// Call when the bodies have changed. Every mechanism is near until the next check.
   void Remap();
+  /// Requires that no mechanism is idle (NeedAll).
+  void Persist(StateArchive& a);
 
   /// Checks per second, and the time that each looks ahead, s: up to the next check, plus what an
   /// impact can change meanwhile. A near mechanism stays near for kNearKeep longer, s, because each

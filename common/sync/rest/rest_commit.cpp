@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/base/state_archive.h"
 #include "common/sync/reconcile/reconcile.h"
 #include "common/sync/rest/rest_disturbed.h"
 #include "common/sync/rest/rest_islands.h"
@@ -258,6 +259,24 @@ bool RestCommit::all() const {
     if (!Holds(open_)) return false;
   }
   return true;
+}
+
+void RestCommit::Persist(StateArchive& a) {
+  table_.Persist(a, world_);
+  watch_.Persist(a);
+  a.Exactly(&disturbed_, [&](Disturbance* d) {
+    a.Tick(&d->released_tick);
+    a.Int(&d->pushed_ticks, 0, INT32_MAX);
+    a.Int(&d->times, 0, INT32_MAX);
+  });
+  a.Flag(&edited_);
+  a.Int(&number_, 0, INT64_MAX);
+  if (!a.reading()) return;
+  freed_.clear();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (disturbed(body).released_tick >= 0) freed_.push_back(body);
+    a.Require(!Holds(body) || table_.at(body).committed, "a body is held at no pose");
+  }
 }
 
 }  // namespace seam

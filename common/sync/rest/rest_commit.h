@@ -54,6 +54,8 @@ class RestCommit {
   void Remap(const BodyRemap& change);
   /// Forgets all rest.
   void StartAnew();
+  /// Call after BodyMemory::Persist. Messages of future ticks are not saved.
+  void Persist(StateArchive& a);
 
   /// Takes commitments of another peer. Ignores entries older than a known state or commitment;
   /// keeps a message of a future tick until that tick. Returns true if it was the first word of any

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/bytes.h"
+#include "common/scene/persist_state.h"
 
 namespace seam {
 namespace {
@@ -90,6 +91,20 @@ std::vector<Rest> RestTable::Pack(const World& world, int peer, std::vector<int>
     rest.angle.push_back(record.pose.angle);
   }
   return out;
+}
+
+void RestTable::Persist(StateArchive& a, const World& world) {
+  a.Section("rest");
+  a.Exactly(&records_, [&](RestRecord* record) {
+    a.Flag(&record->committed);
+    a.Int(&record->epoch, 0, INT32_MAX);
+    a.Tick(&record->tick);
+    seam::Persist(a, &record->pose);
+  });
+  for (std::size_t i = 0; a.reading() && i < records_.size(); ++i) {
+    const auto body = static_cast<int>(i);
+    if (at(body).committed) SetHash(body, HashOfBody(world.id(body), at(body)));
+  }
 }
 
 }  // namespace seam

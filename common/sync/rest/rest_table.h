@@ -35,6 +35,8 @@ class RestTable {
   /// Carries records over after an edit; only those of unchanged bodies survive.
   void Remap(const std::vector<BodyOrigin>& origins);
 
+  void Persist(StateArchive& a, const World& world);
+
   /// Sum of the hashes of all bodies; 0 if none is committed.
   std::uint64_t Hash() const { return sum_; }
   /// Hash of a committed body's id, epoch and pose bits; 0 if it is not committed.

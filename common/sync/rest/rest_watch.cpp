@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/scene/persist_state.h"
+
 namespace seam {
 namespace {
 
@@ -47,6 +49,17 @@ void RestWatch::Look() {
     Follow(now, kStill, &track.still);
     Follow(now, kCreep, &track.slow);
   }
+}
+
+void RestWatch::Persist(StateArchive& a) {
+  a.Exactly(&tracks_, [&](Track* track) {
+    a.Tick(&track->asleep_since);
+    a.Tick(&track->looked);
+    for (Near* near : {&track->still, &track->slow}) {
+      seam::Persist(a, &near->pose);
+      a.Tick(&near->since);
+    }
+  });
 }
 
 }  // namespace seam

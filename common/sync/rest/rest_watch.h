@@ -23,6 +23,7 @@ class RestWatch {
   std::int64_t slow(int body) const { return Since(of(body).slow.since); }
   /// Restarts all times. Call when the bodies or the tick were changed.
   void StartAnew();
+  void Persist(StateArchive& a);
 
  private:
   struct Near {

@@ -20,6 +20,8 @@ struct ServerTestAccess {
   static Relevance RelevanceOf(const Server& server, int peer, int mechanism) {
     return server.broadcast_.RelevanceOf(peer, mechanism);
   }
+  static Replica& ReplicaOf(Server& server) { return server.replica_; }
+  static AuthorityManager& ManagerOf(Server& server) { return server.authority_; }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_.waiting(); }
 };
 

@@ -1,0 +1,89 @@
+#include "common/base/state_archive.h"
+
+#include <algorithm>
+
+namespace seam {
+
+Bytes StateArchive::Take() {
+  to_.resize(used_);
+  used_ = 0;
+  return std::exchange(to_, {});
+}
+
+void StateArchive::Put(const void* data, std::size_t size) {
+  if (to_.size() < used_ + size) to_.resize(std::max<std::size_t>(4096, 2 * (used_ + size)));
+  std::memcpy(to_.data() + used_, data, size);
+  used_ += size;
+}
+
+bool StateArchive::Get(void* data, std::size_t size) {
+  if (!ok()) return false;
+  if (size > left()) {
+    Fail("it ends too early");
+    return false;
+  }
+  std::memcpy(data, from_.data + at_, size);
+  at_ += size;
+  return true;
+}
+
+void StateArchive::Section(const char* name) {
+  section_ = name;
+  std::uint64_t mark = Fnv1a(name, std::strlen(name));
+  if (!reading_) return Put(&mark, sizeof mark);
+  std::uint64_t read = 0;
+  if (Get(&read, sizeof read)) Require(read == mark, "it does not begin here");
+}
+
+void StateArchive::Require(bool condition, const char* what) {
+  if (condition) return;
+  SEAM_ASSERT(reading_);
+  Fail(what);
+}
+
+void StateArchive::Fail(const std::string& what) {
+  if (ok()) status_ = Status::Error(std::string(section_) + ": " + what);
+}
+
+void StateArchive::Flag(bool* value) {
+  std::uint8_t byte = *value ? 1 : 0;
+  Int(&byte, 0, 1);
+  *value = byte != 0;
+}
+
+void StateArchive::Word(std::uint64_t* value) {
+  if (!reading_) return Put(value, sizeof *value);
+  if (!Get(value, sizeof *value)) *value = 0;
+}
+
+void StateArchive::Real(float* value, float most) {
+  if (!reading_) return Put(value, sizeof *value);
+  float read = 0;
+  if (!Get(&read, sizeof read)) return Zero(value);
+  Require(std::fabs(read) <= most, "a number is out of range");  // false for NaN
+  *value = ok() ? read : 0;
+}
+
+void StateArchive::Real(double* value, double most) {
+  if (!reading_) return Put(value, sizeof *value);
+  double read = 0;
+  if (!Get(&read, sizeof read)) return Zero(value);
+  Require(std::fabs(read) <= most, "a number is out of range");
+  *value = ok() ? read : 0;
+}
+
+void StateArchive::Text(std::string* text, std::size_t most) {
+  const std::size_t size = Count(text->size(), most);
+  if (!reading_) return Put(text->data(), size);
+  text->assign(size, '\0');
+  if (size > 0 && !Get(&(*text)[0], size)) text->clear();
+}
+
+std::size_t StateArchive::Count(std::size_t count, std::size_t most) {
+  auto number = static_cast<std::uint32_t>(count);
+  Int(&number, 0, static_cast<std::int64_t>(most));
+  if (reading_) Require(number <= left(), "a list is longer than all that follows");
+  return ok() ? number : 0;
+}
+
+}  // namespace seam

@@ -1,0 +1,89 @@
+/// World: snapshots as bytes, and worlds that continue from them in another process.
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "common/base/state_archive.h"
+#include "common/physics/joint_impulses.h"
+#include "common/physics/stage.h"
+#include "common/physics/world_impl.h"
+#include "common/scene/persist_state.h"
+#include "common/scene/scene_limits.h"
+
+namespace seam {
+namespace {
+
+/// Most contact points of a world, and numbers that its stages save: far more than bodies have.
+constexpr std::size_t kPointsMost = 1 << 24, kStageNumbersMost = 1 << 24;
+/// Most rows of a joint's impulses.
+constexpr std::size_t kImpulsesMost = 5;
+/// s: longer than any body may be slow before it sleeps.
+constexpr float kQuietMost = 1e6f;
+
+bool PointsAscend(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
+  return std::tie(x.pair, x.feature) < std::tie(y.pair, y.feature);
+}
+
+}  // namespace
+
+void Persist(StateArchive& a, WorldSnapshot* snapshot) {
+  a.Section("world");
+  a.Int(&snapshot->tick, 0, StateArchive::kTickMost);
+  a.Word(&snapshot->composition);
+  a.Word(&snapshot->joints_there);
+  std::vector<WorldSnapshot::Body> bodies(snapshot->bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = snapshot->bodies[i];
+  a.List(&bodies, kPartsMax, [&](WorldSnapshot::Body* body) {
+    Persist(a, &body->state);
+    a.Flag(&body->awake);
+    a.Real(&body->quiet_s, kQuietMost);
+  });
+  if (a.reading()) snapshot->bodies.Take(bodies);
+  a.List(&snapshot->points, kPointsMost, [&](WorldSnapshot::Point* point) {
+    a.Word(&point->pair);
+    a.Word(&point->feature);
+    a.Real(&point->normal);
+    a.Real(&point->tangent);
+  });
+  a.List(&snapshot->joints, kPointsMost, [&](std::vector<float>* impulses) {
+    a.List(impulses, kImpulsesMost, [&](float* impulse) { a.Real(impulse); });
+  });
+  a.List(&snapshot->left, kPartsMax, [&](WorldSnapshot::Left* left) {
+    a.Int(&left->body, 0, static_cast<std::int64_t>(kPartsMax));
+    a.Int(&left->steps, 0, kStageNumberMax);
+  });
+  a.List(&snapshot->speeds, kPointsMost, [&](float* speed) { a.Real(speed); });
+  a.List(&snapshot->stages, kStageNumbersMost, [&](float* number) { a.Real(number); });
+}
+
+Status World::Load(const WorldSnapshot& snapshot) {
+  Impl& w = *impl_;
+  const Status good = w.ValidateSnapshot(snapshot);
+  if (!good.ok()) return Status::Error("its bodies or joints are not those of its edits");
+  bool joints = snapshot.joints.size() == w.built.joints.size() &&
+                snapshot.speeds.size() == w.scene.joints.size();
+  for (std::size_t j = 0; joints && j < snapshot.joints.size(); ++j) {
+    if (snapshot.joints[j].empty()) continue;
+    b2Joint* const made = w.built.joints[j];
+    joints = made != nullptr &&
+             snapshot.joints[j].size() == static_cast<std::size_t>(ImpulsesOf(made).count);
+  }
+  if (!joints) return Status::Error("its joints have other impulses or speeds");
+  const auto count = static_cast<int>(w.built.moving.size());
+  const bool left = std::all_of(snapshot.left.begin(), snapshot.left.end(),
+                                [count](const auto& each) { return each.body < count; });
+  if (!left) return Status::Error("it names bodies that it has not");
+  if (!std::is_sorted(snapshot.points.begin(), snapshot.points.end(), PointsAscend)) {
+    return Status::Error("its contact points are not in order");
+  }
+  StageMemory memory(snapshot.stages);
+  if (!snapshot.stages.empty()) {
+    for (const auto& stage : w.stages) stage->Load(&memory);
+  }
+  if (!memory.good() || !memory.done()) return Status::Error("a stage's memory is wrong");
+  SetTick(snapshot.tick);
+  return Restore(snapshot);
+}
+
+}  // namespace seam

@@ -1,0 +1,63 @@
+/// Server: its room's state, for clients that join and for a server that continues the room.
+
+#include "server/authority_source.h"
+#include "server/room_state.h"
+#include "server/rules/rules.h"
+#include "server/server.h"
+#include "server/server_commands.h"
+
+namespace seam {
+
+RoomState Server::State() {
+  return RoomState({room_, replica_, authority_, edits_, seat_bonds_, bounds_, sessions_, clock_,
+                    rule_source_.get(), rules_.get()});
+}
+
+Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }
+
+Status Server::Resume(const SavedRoom& saved, std::int64_t now_us) {
+  std::vector<int> gone;
+  Status status = State().Load(saved, now_us, &gone);
+  if (!status.ok()) return status;
+  if (commands_ != nullptr) commands_->TakeSaid();  // scripts have run their code once more
+  bool held = false, wanted = false;
+  for (int m = 0; m < replica_.authority().count(); ++m) {
+    held = held || replica_.authority().at(m).authority != 0;
+    wanted = wanted || authority_.Wanted(m) != 0;
+  }
+  for (int peer = 1; held && peer < kPeersMax; ++peer) authority_.TakeBack(now_us, peer);
+  if (held || wanted) authority_.PlanSoon();  // before anything is given to a peer that has gone
+  for (const int player : gone) {
+    if (rules_ != nullptr) rules_->OnLeave(player);
+    LetGo(now_us, player, 0);
+  }
+  return status;
+}
+
+void Server::SendWorld(std::int64_t now_us, Session& session) {
+  // Half a world would be another world: a client that cannot be sent all of it has to leave.
+  bool sent = true;
+  const auto send = [&](const auto& messages) {
+    for (const auto& message : messages) {
+      sent = sent && session.link.SendReliable(Encode(message));
+    }
+  };
+  const RoomState state = State();
+  const std::vector<Snapshot> edits = state.Edits(now_us);
+  sent = edits.size() <= static_cast<std::size_t>(kSnapshotPartsMax);
+  send(edits);
+  send(state.Authority(now_us));
+  broadcast_.NoteTold(session.peer);
+  send(state.Bodies(now_us));
+  send(state.Resting(now_us));
+  send(state.Metadata(now_us));
+  if (!sent) sessions_.Leave(session, "the world is more than can be sent to it");
+}
+
+void Server::SendBodies(std::int64_t now_us, Session& session) {
+  const RoomState state = State();
+  for (const States& states : state.Bodies(now_us)) session.link.SendReliable(Encode(states));
+  for (const Rest& rest : state.Resting(now_us)) session.link.SendReliable(Encode(rest));
+}
+
+}  // namespace seam

@@ -1,0 +1,116 @@
+/// Damaged bytes of a room are refused in one line, and never crash; saving is quick.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <string>
+
+#include "common/base/random.h"
+#include "tests/support/arena.h"
+#include "tests/support/lone_room.h"
+
+namespace seam {
+namespace room_state_damage_test {
+
+using Clock = std::chrono::steady_clock;
+
+/// A room with edits, rest, joints, a seat and a script: some of everything that is saved.
+Bytes Rich() {
+  LoneRoom room(Arena());
+  room.StepTo(110);
+  return room.Save();
+}
+
+TEST(RoomStateDamage, TruncatedBytesAreRefused) {
+  const Bytes good = Rich();
+  for (std::size_t size = 0; size < good.size(); size += 1 + size / 40) {
+    LoneRoom loaded(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)),
+                    "buffer");
+    ASSERT_TRUE(loaded.server == nullptr) << size;
+    ASSERT_EQ(loaded.status.why().find("this is no saved room: "), 0u) << loaded.status.why();
+  }
+}
+
+TEST(RoomStateDamage, FlippedBitsAreRefused) {
+  const Bytes good = Rich();
+  Random random(11);
+  for (int i = 0; i < 3000; ++i) {
+    Bytes bad = good;
+    bad[random.Next() % bad.size()] ^= static_cast<std::uint8_t>(1u << random.Next() % 8);
+    Status status;
+    ASSERT_TRUE(SavedRoom::Read(bad, &status) == nullptr);
+    ASSERT_FALSE(status.ok());
+    ASSERT_EQ(status.why().find('\n'), std::string::npos);
+  }
+}
+
+/// Makes the hash of changed bytes right again, as somebody would who means harm.
+void Sign(Bytes* bytes) {
+  const std::uint64_t hash = Fnv1a(bytes->data() + 24, bytes->size() - 24);
+  std::memcpy(bytes->data() + 16, &hash, sizeof hash);
+}
+
+/// Bytes that are changed and signed may be accepted, if all that they say is possible; then the
+/// room runs. Nothing crashes.
+void Attack(const Bytes& good, int times, std::uint64_t seed) {
+  Random random(seed);
+  int refused = 0, accepted = 0;
+  for (int i = 0; i < times; ++i) {
+    Bytes bad = good;
+    const int changes = 1 + static_cast<int>(random.Next() % 3);
+    for (int c = 0; c < changes; ++c) {
+      const std::size_t at = 24 + random.Next() % (bad.size() - 24);
+      const std::uint64_t how = random.Next() % 4;
+      if (how == 0) bad[at] = 0xff;
+      if (how == 1) bad[at] = 0;
+      if (how >= 2) bad[at] ^= static_cast<std::uint8_t>(1u << random.Next() % 8);
+    }
+    if (random.Chance(0.1)) bad.resize(24 + random.Next() % (bad.size() - 24));
+    Sign(&bad);
+    LoneRoom loaded(bad, "buffer");
+    if (loaded.server == nullptr) {
+      ++refused;
+      ASSERT_FALSE(loaded.status.ok());
+      ASSERT_EQ(loaded.status.why().find('\n'), std::string::npos) << loaded.status.why();
+      continue;
+    }
+    ++accepted;
+    for (int t = 0; t < 3; ++t) loaded.Step();
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+  EXPECT_GT(refused, times / 10);
+  EXPECT_GT(accepted, 0);
+}
+
+TEST(RoomStateDamage, SignedDamageNeverCrashes) { Attack(Rich(), 2000, 1); }
+
+TEST(RoomStateDamage, SignedDamageOfBondsSeatsAndWaterNeverCrashes) {
+  for (const char* scene : {"dockside", "gluehouse", "ragdolls"}) {
+    LoneRoom room(LoadScene("scenes/" + std::string(scene) + ".toml"));
+    room.StepTo(100);
+    Attack(room.Save(), 200, 2);
+  }
+}
+
+TEST(RoomStateDamage, SavingIsQuick) {
+  LoneRoom room(LoadScene("scenes/swarm.toml"));
+  room.StepTo(30);
+  const int bodies = room.server->replica().world().body_count();
+  ASSERT_GE(bodies, 1000);
+  double best_ms = 1e9;
+  std::size_t bytes = 0;
+  for (int i = 0; i < 5; ++i) {
+    room.Step();
+    const auto begin = Clock::now();
+    bytes = room.Save().size();
+    const std::chrono::duration<double, std::milli> took = Clock::now() - begin;
+    best_ms = std::min(best_ms, took.count());
+  }
+  std::printf("%d bodies: %.2f ms, %zu bytes\n", bodies, best_ms, bytes);
+  EXPECT_LT(best_ms, 100) << "more than six ticks";
+  EXPECT_LT(bytes, static_cast<std::size_t>(bodies) * 1000);
+}
+
+}  // namespace room_state_damage_test
+}  // namespace seam
