@@ -8,6 +8,7 @@
 
 #include "common/base/command_line.h"
 #include "common/base/find_scene.h"
+#include "common/base/limits.h"
 #include "common/codec/version_line.h"
 #include "common/net/impair.h"
 #include "common/sync/method.h"

@@ -158,6 +158,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/sync/reach", "common/sync"},
       {"common/sync/edits", "none"},
       {"common/base/command", "common/base"},
+      {"common/base/spatial", "common/base"},
       {"common/measure/contents", "common/measure"},
       {"common/measure/screen", "common/measure"},
       {"common/sync/show", "common/sync"},
