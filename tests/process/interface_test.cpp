@@ -129,8 +129,10 @@ Names MoreRows() {
 void AddTables(Interface* interface) {
   interface->Add("seam-measure --csv column", Split(CsvHeader(), ','));
   interface->Add("seam-measure --more row", MoreRows());
-  interface->Add("seam-lab sweep column", Split(SweepHeader(), ','));
-  interface->Add("seam-lab physics column", Split(PhysicsHeader(), ','));
+  interface->Add("seam-lab sweep column",
+                 Split(SweepKeyColumns() + ',' + SweepValueColumns(), ','));
+  interface->Add("seam-lab physics column",
+                 Split(PhysicsKeyColumns() + ',' + PhysicsValueColumns(), ','));
   const LabWorkspace files;
   Output({"seam-lab", "overhead", (Root() / "scenes/cradle.toml").string(), "-o", files / "o.csv",
           "--repeats", "1"});

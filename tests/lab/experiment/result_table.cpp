@@ -1,4 +1,4 @@
-#include "tests/lab/sweep_table.h"
+#include "tests/lab/experiment/result_table.h"
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
-#include "tests/lab/report/csv_table.h"
+#include "tests/lab/experiment/csv_table.h"
 
 namespace seam {
 namespace {
@@ -34,23 +34,28 @@ Fields FieldsOr(const std::string& line) {
 
 }  // namespace
 
-SweepTable::SweepTable(const std::string& path, const std::string& header, int key_columns,
-                       const std::vector<std::string>& keys, bool force)
-    : path_(path), header_(header), lines_(keys.size()) {
+ResultTable::ResultTable(const std::string& path, const std::string& key_columns,
+                         const std::string& value_columns, const std::vector<std::string>& keys,
+                         bool force)
+    : path_(path), header_(key_columns + ',' + value_columns), lines_(keys.size()) {
   RequirePlainFile(path);
   const bool there = access(path.c_str(), F_OK) == 0;
-  Load(there && !force ? ReadPlainFile(path, kTableBytesMax) : "", key_columns, keys);
+  Load(there && !force ? ReadPlainFile(path, kTableBytesMax) : "", CsvFields(key_columns).size(),
+       keys);
   Rewrite();
 }
 
-SweepTable::~SweepTable() {
+ResultTable::~ResultTable() {
   if (file_ != nullptr) std::fclose(file_);
 }
 
-void SweepTable::Load(const std::string& text, int key_columns,
-                      const std::vector<std::string>& keys) {
+void ResultTable::Load(const std::string& text, std::size_t key_columns,
+                       const std::vector<std::string>& keys) {
   std::map<Fields, std::size_t> rows;
-  for (std::size_t i = 0; i < keys.size(); ++i) rows[CsvFields(keys[i])] = i;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (rows.emplace(CsvFields(keys[i]), i).second) continue;
+    throw OperatorError(path_ + ": the same run twice: " + keys[i]);
+  }
   const std::size_t columns = CsvFields(header_).size();
   std::size_t at = text.find('\n');
   const std::string first = text.substr(0, at);
@@ -64,7 +69,7 @@ void SweepTable::Load(const std::string& text, int key_columns,
     const std::string line = text.substr(begin, at - begin);
     Fields fields = FieldsOr(line);
     const bool whole = fields.size() == columns;
-    if (whole) fields.resize(static_cast<std::size_t>(key_columns));
+    if (whole) fields.resize(key_columns);
     const auto row = whole ? rows.find(fields) : rows.end();
     if (row == rows.end() || Has(row->second)) {
       RefuseTable(path_, "line " + std::to_string(number) +
@@ -75,7 +80,7 @@ void SweepTable::Load(const std::string& text, int key_columns,
   }
 }
 
-void SweepTable::Rewrite() {
+void ResultTable::Rewrite() {
   if (file_ != nullptr) std::fclose(file_);
   file_ = nullptr;
   const std::string draft = path_ + ".part";
@@ -99,7 +104,7 @@ void SweepTable::Rewrite() {
   if (file_ == nullptr) CannotWrite(path_);
 }
 
-void SweepTable::Add(std::size_t row, const std::string& line) {
+void ResultTable::Add(std::size_t row, const std::string& line) {
   SEAM_ASSERT(!Has(row));
   lines_[row] = line;
   ++count_;

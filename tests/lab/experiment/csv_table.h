@@ -1,6 +1,6 @@
 #pragma once
-/// Reads CSV (RFC 4180): a line, or a file with a header, its columns found by name. What is
-/// damaged is said once.
+/// Reads CSV (RFC 4180): a line, or a file with a header, its columns found by name. Damage is
+/// reported once.
 
 #include <map>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace seam {
 
-/// The values of a CSV line without its end. Throws OperatorError for a quote that does not close,
-/// or more than one line.
+/// Returns the values of a CSV line without its end. Throws OperatorError for a quote that does not
+/// close, or more than one line.
 std::vector<std::string> CsvFields(const std::string& line);
 
 class CsvTable {

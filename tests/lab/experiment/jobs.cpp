@@ -1,4 +1,4 @@
-#include "tests/lab/jobs.h"
+#include "tests/lab/experiment/jobs.h"
 
 #include <poll.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-#include "tests/lab/report/csv_table.h"
+#include "tests/lab/experiment/csv_table.h"
 
 #include <fmt/format.h>
 
