@@ -36,6 +36,7 @@
 #include "common/sync/roles.h"
 #include "common/sync/send_scheduler.h"
 #include "common/sync/show/strand_view.h"
+#include "common/sync/table/body_table.h"
 
 namespace seam {
 
@@ -60,6 +61,9 @@ class Replica {
   void Step();
 
   const World& world() const { return world_; }
+  /// The table of the world's bodies and mechanisms, for columns of readers. They must not outlive
+  /// this.
+  const BodyTable& table() const { return table_; }
   const AuthorityTable& authority() const { return roles_.table(); }
   /// The server plans here; clients only apply grants.
   AuthorityTable& authority() { return roles_.table(); }
@@ -197,7 +201,6 @@ class Replica {
   bool IsComplete(const Edit& edit, std::int64_t found) const;
   /// Returns true if the edit was queued.
   bool Propose(Edit edit, std::int64_t found);
-  void Remap(const BodyRemap& change);
   /// Forgets proposals of joints that the edit removes: a later bond may take their places and
   /// break at once.
   void ForgetProposals(const Edit& edit);
@@ -208,6 +211,7 @@ class Replica {
   // Order matters: each uses members above it.
   SyncConfig config_;
   World world_;
+  BodyTable table_;
   Roles roles_;
   Drivers drivers_;
   BodyMemory memory_;

@@ -65,11 +65,9 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);
   rest_.MarkEdited();
-  if (change) {
-    Remap(*change);
-  } else {
-    FollowRoles();  // the player in a seat determines the predicted mechanisms
-  }
+  if (change) table_.Renumber(*change);
+  FollowRoles();  // also if only the player in a seat, and so the predicted mechanisms, changed
+  if (change && config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
   replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
   return change;
@@ -180,17 +178,6 @@ void Replica::GoOnFrom(const World& before) {
     memory_.snapshots().Add(body, tick(), state);
     if (BodyState* past = memory_.history().At(tick(), body)) *past = state;
   }
-}
-
-void Replica::Remap(const BodyRemap& change) {
-  memory_.Remap(change);
-  display_.Remap(change);
-  roles_.Remap(change.mechanisms);
-  presence_.Remap();
-  replay_.Remap(change);
-  rest_.Remap(change);
-  FollowRoles();
-  if (config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
 }
 
 }  // namespace seam

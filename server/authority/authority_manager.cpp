@@ -1,6 +1,7 @@
 #include "server/authority/authority_manager.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/physics/stage.h"
 #include "common/sync/lease.h"
@@ -301,14 +302,12 @@ void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {
 }
 
 std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
-  AuthorityTable told = table();
-  std::vector<int> all;
-  for (int m = 0; m < table().count(); ++m) {
+  std::vector<int> all(static_cast<std::size_t>(table().count()));
+  std::iota(all.begin(), all.end(), 0);
+  return table().Export(now_us, replica_.tick(), all, [this](int m) {
     const bool moving = memory_[static_cast<std::size_t>(m)].hand_over != HandOver::kNone;
-    if (moving) told.Set(m, WithoutHolder(table().at(m)));
-    all.push_back(m);
-  }
-  return told.Export(now_us, replica_.tick(), all);
+    return moving ? WithoutHolder(table().at(m)) : table().at(m);
+  });
 }
 
 int AuthorityManager::Wanted(int mechanism) const {

@@ -1,6 +1,6 @@
 /// The ring of recent states.
 
-#include "common/physics/history.h"
+#include "common/sync/history.h"
 
 #include <gtest/gtest.h>
 
