@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -112,10 +111,10 @@ class Replica {
   const Edit& next_queued() const { return queued_.front().edit; }
   /// Applies all queued edits that are due.
   void ApplyEdits();
-  /// Applies the next queued edit. Returns the remap of bodies, or nullopt if they are unchanged.
-  /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
+  /// Applies the next queued edit; if it changes bodies, renumbers all columns of table(). Each
+  /// merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
   /// applied two at once would stay an epoch behind. Requires has_queued().
-  std::optional<BodyRemap> ApplyNextEdit();
+  void ApplyNextEdit();
   /// Returns the edits that this peer found as the authority of the affected bodies; in mode oracle
   /// all that physics finds.
   std::vector<FoundEdit> TakeProposals() { return proposals_.Take(); }

@@ -53,7 +53,7 @@ void Replica::ApplyEdits() {
   while (has_queued()) ApplyNextEdit();
 }
 
-std::optional<BodyRemap> Replica::ApplyNextEdit() {
+void Replica::ApplyNextEdit() {
   const QueuedEdit next = std::move(queued_.front());
   queued_.erase(queued_.begin());
   memory_.UnparkAll();  // the edit may reach any of them
@@ -62,7 +62,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
     world_.Settle();
   }
   replay_.GoBackTo(next.tick);
-  std::optional<BodyRemap> change = world_.Apply({next.edit});
+  const std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);
   rest_.MarkEdited();
   if (change) table_.Renumber(*change);
@@ -70,7 +70,6 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   if (change && config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
   replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
-  return change;
 }
 
 void Replica::FindEdits() {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "common/sync/replica.h"
+#include "common/sync/table/body_column.h"
+#include "common/sync/table/mechanism_column.h"
 #include "server/authority/capacity_watch.h"
 #include "server/authority/sleeping_index.h"
 #include "server/authority/plan.h"
@@ -57,8 +59,6 @@ class AuthorityManager {
   /// Returns authority over everything a departed peer had to the server. States of that peer's
   /// epochs no longer count.
   std::vector<Grants> TakeBack(std::int64_t now_us, int peer);
-  /// Renumbers after the mechanisms have changed; see BodyRemap.
-  void Remap(const std::vector<std::vector<int>>& from);
 
   /// Returns the whole table for a joining client. A mechanism being revoked is listed without an
   /// authority, as other peers were told.
@@ -133,6 +133,8 @@ class AuthorityManager {
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }
+  /// Returns the state of a mechanism made of these.
+  Memory Merged(int m, const std::vector<const Memory*>& before) const;
   /// Fills in the planner's input (authority_view.cpp).
   void Look(const PlannerInputs& situation);
   void LookAtPlayers(const PlannerInputs& situation, AuthorityView* view) const;
@@ -143,6 +145,7 @@ class AuthorityManager {
   bool MayLeaveOut(const AuthorityView& view);
   /// Choose the mechanisms of the view (authority_sleeping.cpp).
   void SeeAll();
+  bool SeesAll() const { return static_cast<int>(seen_.size()) == memory_.size(); }
   void SeeAwakeAndNear(const AuthorityView& view);
   bool MayBeIndexed(int m) const;
   void FindDisturbed();
@@ -191,8 +194,8 @@ class AuthorityManager {
     Vec2 position{0, 0};
     float angle = 0;
   };
-  std::vector<Lay> at_rest_;      // by body of a sleeping mechanism
-  std::vector<char> doubtful_;    // by sleeping mechanism: it may have been woken
+  BodyColumn<Lay> at_rest_;         // of sleeping mechanisms
+  MechanismColumn<char> doubtful_;  // a sleeping one may have been woken
   std::vector<int> stirred_;      // scratch of FindDisturbed: bodies
   std::uint64_t index_change_ = 0;  // World::last_change at the last FindDisturbed
   CapacityWatch capacity_;
@@ -206,7 +209,8 @@ class AuthorityManager {
   PeerSet silent_;                           // in the last Update
   std::vector<std::int64_t> round_trip_us_;  // by peer, in the last Update
   bool plan_due_ = true;
-  std::vector<Memory> memory_;  // by mechanism
+  MechanismColumn<Memory> memory_;
+  EditHook edited_;
 };
 
 }  // namespace seam

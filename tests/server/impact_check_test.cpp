@@ -39,7 +39,8 @@ position = [1, 0]
   }
 
   World world_;
-  StateTrail trail_{2};
+  BodyTable bodies_{2, 0};
+  StateTrail trail_{bodies_};
 };
 
 TEST_F(ImpactCheckTest, NoMoreThanTheMomentumThatCame) {
@@ -50,7 +51,7 @@ TEST_F(ImpactCheckTest, NoMoreThanTheMomentumThatCame) {
 
 TEST_F(ImpactCheckTest, WhatHardlyMovesStrikesNobody) {
   Know(0, {0, 0});
-  StateTrail slow(2);
+  StateTrail slow(bodies_);
   BodyState state = world_.Read(0);
   slow.Add(0, 10, state);
   state = world_.Read(1);
@@ -72,7 +73,7 @@ TEST_F(ImpactCheckTest, OnlyWhatWasKnownByThenExplainsIt) {
 }
 
 TEST_F(ImpactCheckTest, WhatWasToldLongBeforeMayHaveComeThereOnItsWay) {
-  StateTrail old(2);
+  StateTrail old(bodies_);
   old.Add(0, 10, world_.Read(0));
   BodyState far = world_.Read(1);
   far.position = {6, 0};
@@ -85,7 +86,7 @@ TEST_F(ImpactCheckTest, WhatWasToldLongBeforeMayHaveComeThereOnItsWay) {
 
 TEST_F(ImpactCheckTest, WhatStandsStillDoesNotStrikeTheGround) {
   EXPECT_FALSE(Can(3, {0.5f, 0}, 11, -1));
-  StateTrail falling(2);
+  StateTrail falling(bodies_);
   BodyState state = world_.Read(0);
   state.velocity = {0, -4};
   falling.Add(0, 10, state);

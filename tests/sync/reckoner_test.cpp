@@ -76,7 +76,8 @@ std::vector<BodyState> Turning(const World& world, float spin, const Vec2& veloc
 TEST(Reckoner, AMechanismGoesOnAsOneAndItsWheelGoesOnTurning) {
   World world(ParseScene(kRods, "test.toml"));
   ASSERT_EQ(world.body_count(), 3);
-  Snapshots snapshots(3);
+  const BodyTable bodies(3, 0);
+  Snapshots snapshots(bodies);
   const std::vector<BodyState> states = Turning(world, 3, Vec2(5, -1));
   for (int body = 0; body < 3; ++body) {
     snapshots.Add(body, 0, states[static_cast<std::size_t>(body)]);
@@ -114,7 +115,8 @@ BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodySta
       "a = \"a\"\nb = \"b\"\nfrequency = 5\n" +
           joint,
       "sprung.toml"));
-  Snapshots snapshots(2);
+  const BodyTable bodies(2, 0);
+  Snapshots snapshots(bodies);
   BodyState b = world.Read(1);
   b.velocity = moves.velocity;
   b.spin = moves.spin;
@@ -157,7 +159,8 @@ TEST(Reckoner, WhatASpringHoldsSwingsAndTravelsNoFurther) {
 
 TEST(Reckoner, StatesOfDifferentTicksDoNotTearIt) {
   World world(ParseScene(kRods, "test.toml"));
-  Snapshots snapshots(3);
+  const BodyTable bodies(3, 0);
+  Snapshots snapshots(bodies);
   const std::vector<BodyState> states = Turning(world, 1, Vec2(0, 0));
   snapshots.Add(0, 6, states[0]);
   snapshots.Add(1, 0, states[1]);
@@ -218,7 +221,8 @@ TEST(Reckoner, WhatClosingTornJointsFindsIsNoMotion) {
   const JointCloser joints(world);
   float fastest = 0, jumped = 0;
   for (int draw = 0; draw < 400; ++draw) {
-    Snapshots snapshots(3);
+    const BodyTable bodies(3, 0);
+    Snapshots snapshots(bodies);
     for (int body = 0; body < 3; ++body) {
       BodyState s = world.Read(body);
       s.position += Vec2(off(random), off(random));
@@ -271,7 +275,8 @@ spin = 1
 TEST(Reckoner, WhatFallsFreelyBouncesOffWhatIsAnchored) {
   World world(ParseScene(kThrown, "test.toml"));
   const JointCloser joints(world);
-  Snapshots falling(2), straight(2);
+  const BodyTable bodies(2, 0);
+  Snapshots falling(bodies), straight(bodies);
   for (int body = 0; body < 2; ++body) {
     falling.Add(body, 0, world.Read(body), true);
     straight.Add(body, 0, world.Read(body));
@@ -302,7 +307,8 @@ TEST(Reckoner, WhatIsAbsentIsTakenToWhereItFallsUntilTheNextLook) {
   World truth(ParseScene(kThrown, "test.toml"));
   world.SetMotion(0, Motion::kAbsent);
   const JointCloser joints(world);
-  Snapshots snapshots(2);
+  const BodyTable bodies(2, 0);
+  Snapshots snapshots(bodies);
   snapshots.Add(0, 0, world.Read(0), true);
   Reckoner reckoner(world, snapshots, joints);
   for (int tick = 0; tick <= 24; tick += kAbsentEvery) {
@@ -317,7 +323,8 @@ TEST(Reckoner, WhatIsAbsentIsTakenToWhereItFallsUntilTheNextLook) {
 
 TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   World world(ParseScene(kRods, "test.toml"));
-  Smoother smoother(3, kSmoothRate);
+  const BodyTable bodies(3, 0);
+  Smoother smoother(bodies, kSmoothRate);
   for (int body = 0; body < 3; ++body) {
     // Where physics is now, less where the view is: turned by 1 rad about a point, and moved.
     const BodyState s = world.Read(body);
