@@ -43,8 +43,7 @@ void Define(Command& app, Flags& f) {
   app.Option("--rooms", f.rooms, "spread over the rooms NAME-1 to NAME-N of --room NAME")
       .Range(1, 4096);
   app.Option("--threads", f.threads, "threads that run the clients").Range(1, 256);
-  app.Option("--join-timeout", f.join_s, "seconds until all must have joined")
-      .Range(0.1, 1e6);
+  app.Option("--join-timeout", f.join_s, "seconds until all must have joined").Range(0.1, 1e6);
   app.Option("--metrics", f.metrics, "host:port of the server's page: its figures too");
   app.Option("--lcm-url", f.lcm_url, "LCM bus: the server's figures too (default: none)");
   app.Switch("--quiet", f.quiet, "no progress line");

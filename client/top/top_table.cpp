@@ -42,9 +42,10 @@ std::string TopTable::Row(const std::string& room, const Heard& heard) {
   };
   double out = 0, in = 0;
   for (int kind = 0; kind <= kTrafficOther; ++kind) {
-    out +=
-        rate(BytesOf(load, load.bytes_out, kind), BytesOf(heard.before, heard.before.bytes_out, kind));
-    in += rate(BytesOf(load, load.bytes_in, kind), BytesOf(heard.before, heard.before.bytes_in, kind));
+    out += rate(BytesOf(load, load.bytes_out, kind),
+                BytesOf(heard.before, heard.before.bytes_out, kind));
+    in += rate(BytesOf(load, load.bytes_in, kind),
+               BytesOf(heard.before, heard.before.bytes_in, kind));
   }
   char text[256];
   std::snprintf(

@@ -154,4 +154,11 @@ Composition Compose(const Scene& scene) {
   return composition;
 }
 
+std::vector<int> BodyOfAssembly(const Composition& composition) {
+  std::vector<int> bodies;
+  int next = 0;
+  for (const Assembly& a : composition.assemblies) bodies.push_back(a.anchored ? -1 : next++);
+  return bodies;
+}
+
 }  // namespace seam

@@ -107,8 +107,8 @@ std::vector<Grants> GrantAudience::Owed(int peer, Which which) {
   for (int m = 0; m < pending_->any.size(); ++m) {
     if (pending_->any[m] == 0 || !pending_->owed[m].Has(peer)) continue;
     const Relevance least = which == Which::kAll   ? Relevance::kNone
-                          : which == Which::kFar ? Relevance::kFar
-                                                 : Relevance::kNear;
+                            : which == Which::kFar ? Relevance::kFar
+                                                   : Relevance::kNear;
     if (pending_->merged[m] != 0 || interest_.Of(peer, m) >= least) mechanisms.push_back(m);
   }
   return Owed(peer, mechanisms);

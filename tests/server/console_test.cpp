@@ -1,5 +1,5 @@
-/// What the server's operator reads: who is here, the percentile of its ticks, what each client's
-/// sessions came to.
+/// The output for the server's operator: present players, the percentile of its ticks, the totals
+/// of each client's sessions.
 
 #include "server/console.h"
 
@@ -14,7 +14,7 @@ namespace console_test {
 
 using Lines = std::vector<std::string>;
 
-TEST(TickTimes, APercentileIsTheTimeThatSoManyTicksDidNotExceed) {
+TEST(TickTimes, APercentileIsTheTimeThatItsShareOfTicksDidNotExceed) {
   TickTimes times;
   EXPECT_EQ(times.Percentile(99), 0);
   for (int us = 0; us < 10000; us += 10) times.Note(us, 1);
@@ -23,7 +23,7 @@ TEST(TickTimes, APercentileIsTheTimeThatSoManyTicksDidNotExceed) {
   EXPECT_EQ(times.Percentile(100), 10000);
 }
 
-TEST(TickTimes, TicksDoneTogetherTookTheirShareEach) {
+TEST(TickTimes, TicksDoneTogetherShareTheTimeEqually) {
   TickTimes times;
   times.Note(8000, 8);
   times.Note(100, 0);
@@ -44,7 +44,7 @@ TEST(AccountBook, ManyNamesShareTheLastAccountAndCostNoMoreMemory) {
   EXPECT_EQ(book.Of("others").sessions, 3000 - static_cast<int>(AccountBook::kAccountsMax) + 1);
 }
 
-TEST(AccountBook, ARoundTripThatIsNotKnownIsNoReading) {
+TEST(AccountBook, AnUnknownRoundTripIsNoReading) {
   ClientAccount account;
   EXPECT_EQ(account.rtt_us(), -1);
   account.Read(-1, 0);
@@ -75,7 +75,7 @@ class ServerConsole : public ::testing::Test {
   Lines news_;
 };
 
-TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
+TEST_F(ServerConsole, ReportsJoinsLeavesAndMissingPlayers) {
   EXPECT_EQ(MissingPlayers(cluster_.server()), "ann, bob");
   EXPECT_EQ(ServerProgress(cluster_.server(), 360, TickTimes()),
             "waiting: 0 of 2 players (ann, bob missing); Ctrl-C stops");
@@ -97,7 +97,7 @@ TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
   EXPECT_LT(line.size(), 110u) << line;
 }
 
-TEST_F(ServerConsole, TheSummaryIsOfEachClientAlsoOfThoseWhoAreGone) {
+TEST_F(ServerConsole, TheSummaryIncludesClientsThatLeft) {
   cluster_.RunToTick(60);
   cluster_.Kill(1);
   cluster_.RunToTick(400);

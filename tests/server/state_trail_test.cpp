@@ -1,4 +1,4 @@
-/// What the rules look at of told states: each once, in the order of ticks, no body going back.
+/// The states that the rules check: each once, in the order of ticks, no body going back.
 
 #include "server/rules/state_trail.h"
 
@@ -16,7 +16,7 @@ BodyState At(float x) {
   return state;
 }
 
-TEST(StateTrail, TellsTheTicksOfAllBodiesEachOnceAndInOrder) {
+TEST(StateTrail, ReportsEachTickOnceAndInOrder) {
   BodyTable bodies(2, 0);
   StateTrail trail(bodies);
   trail.Add(1, 12, At(2));
@@ -30,7 +30,7 @@ TEST(StateTrail, TellsTheTicksOfAllBodiesEachOnceAndInOrder) {
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13}));
 }
 
-TEST(StateTrail, ABodyThatWasLookedAtLaterDoesNotGoBackForOneThatIsToldLater) {
+TEST(StateTrail, ALateStateDoesNotReprocessBodiesAlreadyChecked) {
   BodyTable bodies(2, 0);
   StateTrail trail(bodies);
   trail.Add(0, 20, At(5));
@@ -47,7 +47,7 @@ TEST(StateTrail, ABodyThatWasLookedAtLaterDoesNotGoBackForOneThatIsToldLater) {
   EXPECT_EQ(trail.TickOf(1, 10), -1);
 }
 
-TEST(StateTrail, WhatOthersBecameIsNewAndWhatStayedIsNot) {
+TEST(StateTrail, ARemapKeepsUnchangedBodiesProcessed) {
   BodyTable bodies(2, 0);
   StateTrail trail(bodies);
   trail.Add(0, 10, At(0));
@@ -64,7 +64,7 @@ TEST(StateTrail, WhatOthersBecameIsNewAndWhatStayedIsNot) {
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{9}));
 }
 
-TEST(StateTrail, TheWayBetweenTwoStatesIsLookedAtTickByTick) {
+TEST(StateTrail, ThePathBetweenTwoStatesIsCheckedTickByTick) {
   BodyTable bodies(1, 0);
   StateTrail trail(bodies);
   trail.Add(0, 10, At(1));
@@ -78,7 +78,7 @@ TEST(StateTrail, TheWayBetweenTwoStatesIsLookedAtTickByTick) {
   EXPECT_EQ(trail.TickOf(0, 99), 14);
 }
 
-TEST(StateTrail, WhatWasPutElsewhereOrWasLongSilentHasNoWayThere) {
+TEST(StateTrail, AJumpOrALongSilenceHasNoPath) {
   BodyTable bodies(1, 0);
   StateTrail trail(bodies);
   trail.Add(0, 10, At(0));

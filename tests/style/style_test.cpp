@@ -1,4 +1,4 @@
-/// How files are written: columns, lengths, names, promises, units of messages.
+/// Checks how files are written: columns, lengths, names, promises, units of messages.
 
 #include <glob.h>
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Style, NamesOfFilesAreSnakeCase) {
   EXPECT_TRUE(offenders.empty()) << offenders;
 }
 
-/// Lines of a page that are too wide, without tables, code, and what a program writes there.
+/// Lines of a page that are too wide, without tables, code and generated text.
 std::string WideLines(const Source& page, std::size_t columns) {
   std::string wide;
   bool code = false, written = false;
@@ -139,7 +139,7 @@ std::vector<std::string> PathsIn(const std::string& line) {
   return paths;
 }
 
-/// Whether a path from `folder` or from the root is there; "*", and NAME, stand for any letters.
+/// True if a path from `folder` or from the root exists; "*", and NAME, stand for any letters.
 bool Exists(const std::string& path, const fs::path& folder) {
   std::string pattern = path.substr(0, path.find('#'));
   for (std::size_t at; (at = pattern.find("NAME")) != std::string::npos;) {
@@ -168,14 +168,14 @@ std::pair<std::string, int> MissingPaths(const Source& page, bool tables_only) {
   return missing;
 }
 
-TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
+TEST(Docs, EveryPathInTheReadmesTablesContributingAndArchitectureExists) {
   for (const Source& page : Pages()) {
     const bool readme = page.path == "README.md";
     const bool all = page.path == "docs/contributing.md" || page.path == "docs/architecture.md";
     if (!readme && !all) continue;
     const auto [missing, count] = MissingPaths(page, readme);
     EXPECT_EQ(missing, "");
-    EXPECT_GT(count, 20) << page.path;
+    EXPECT_GT(count, readme ? 10 : 20) << page.path;
   }
   Source page;
   page.path = "docs/a.md";
@@ -186,11 +186,11 @@ TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
   EXPECT_EQ(MissingPaths(page, false).second, 5);
 }
 
-TEST(Docs, AQuestionOfTheReadmeThatAsksWhereIsAnsweredByAtMostTwoFiles) {
+TEST(Docs, EachRowOfTheTableOfPlacesNamesAtMostTwoFiles) {
   std::string offenders;
   bool below = false;
   int rows = 0;
-  for (const std::string& line : Lines(Root() / "README.md")) {
+  for (const std::string& line : Lines(Root() / "docs/architecture.md")) {
     if (line.rfind("## ", 0) == 0) below = line.rfind("## Where is", 0) == 0;
     if (!below || line.rfind('|', 0) != 0) continue;
     ++rows;
@@ -238,7 +238,7 @@ bool Hardens(const std::string& header) {
   return accepted > 0;
 }
 
-TEST(LcmTypes, TheHardeningRefusesWhatItDoesNotUnderstand) {
+TEST(LcmTypes, TheHardeningRefusesUnknownCode) {
   const std::string decoder = "int a_t::_decodeNoHash(const void *buf, int offset, int maxlen)\n";
   const std::string check = "    if(__s_len__ > maxlen - pos) return -1;\n";
   const std::string assign =

@@ -9,7 +9,7 @@
 namespace seam {
 namespace history_test {
 
-/// Two bodies whose states say which tick and body they are.
+/// Two bodies with states that encode tick and body.
 std::vector<BodyState> StatesOf(std::int64_t tick) {
   std::vector<BodyState> states(2);
   for (std::size_t body = 0; body < 2; ++body) {
@@ -62,7 +62,7 @@ TEST(History, CorrectionsStayAndClearForgets) {
   EXPECT_EQ(history.At(99, 0), nullptr);
 }
 
-TEST(HistoryDeathTest, GapsAreOurOwnBug) {
+TEST(HistoryDeathTest, AGapAborts) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const BodyTable bodies(2, 0);
   History history(bodies, 5, Now);

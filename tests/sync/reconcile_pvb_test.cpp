@@ -1,4 +1,4 @@
-/// pvb: where the blended path leads, and that it never jumps.
+/// pvb: the goal of the blended path, and that it never jumps.
 
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ TEST(Pvb, GoesEvenlyFromRestToRest) {
   EXPECT_NEAR(worst, 1.0f / 30, 1e-5) << "30 ticks, one as long as the other";
 }
 
-TEST(Pvb, NeverJumpsWhateverMessageComes) {
+TEST(Pvb, NeverJumpsOnAnyMessage) {
   // The authority's ball is kicked; the copy hears of it 9 ticks later and flies after it.
   FollowedCopy f(
       "gravity = [0, 0]\n[solver]\nsleep = false\n"
@@ -108,7 +108,7 @@ TEST(Pvb, NeverJumpsWhateverMessageComes) {
   EXPECT_LT(f.Apart(0).norm(), 0.01f);
 }
 
-TEST(Pvb, ABlowEndsTheBlendUntilTheNextMessage) {
+TEST(Pvb, AnImpactEndsTheBlendUntilTheNextMessage) {
   PullMemory memory;
   PullInput in;
   in.step = 1.0f / 60;
@@ -125,7 +125,7 @@ TEST(Pvb, ABlowEndsTheBlendUntilTheNextMessage) {
   EXPECT_GT(PullPvb(in, &memory).now.velocity.x(), 1);
 }
 
-TEST(Pvb, PlacesOnlyWhatIsFarOff) {
+TEST(Pvb, PlacesOnlyDistantCopies) {
   ReconcileInput in;
   in.remote.position = Vec2(7.9f, 0);
   EXPECT_EQ(ReconcilePvb(in).now.position.norm(), 0);

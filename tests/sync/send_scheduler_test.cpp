@@ -52,7 +52,7 @@ class Row {
   SendScheduler scheduler{config, *world, roles, memory, reach, replay};
 };
 
-TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneSendTells) {
+TEST(SendScheduler, BodiesTakeTurnsIfASendCannotHoldAll) {
   constexpr int kBodies = 240;
   Row row(kBodies);
   std::set<int> waiting;
@@ -69,7 +69,7 @@ TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneSendTells) {
   }
 }
 
-TEST(SendScheduler, WhatWasJustStruckGoesFirst) {
+TEST(SendScheduler, AJustStruckBodyGoesFirst) {
   Row row(240);
   row.memory.track(239).last_impact_tick = 0;
   const std::vector<int> told = row.NextSend();
@@ -77,7 +77,7 @@ TEST(SendScheduler, WhatWasJustStruckGoesFirst) {
   EXPECT_EQ(told[told.size() - 2], static_cast<int>(kBodiesPerSend) - 2);
 }
 
-TEST(SendScheduler, TellsNothingOfOthersBodiesNorOfThoseNotYetPlaced) {
+TEST(SendScheduler, SendsNeitherOthersBodiesNorUnplacedOnes) {
   Row row(4);
   AuthorityRecord other;
   other.authority = 2;
@@ -86,7 +86,7 @@ TEST(SendScheduler, TellsNothingOfOthersBodiesNorOfThoseNotYetPlaced) {
   EXPECT_EQ(row.NextSend(), (std::vector<int>{0, 3}));
 }
 
-TEST(SendScheduler, BetweenTwoSendsThereIsNothingToTake) {
+TEST(SendScheduler, NothingIsDueBetweenTwoSends) {
   Row row(2);
   row.world->Step();
   row.scheduler.Collect();
@@ -97,7 +97,7 @@ TEST(SendScheduler, BetweenTwoSendsThereIsNothingToTake) {
   EXPECT_TRUE(row.scheduler.Take().empty());
 }
 
-TEST(SendScheduler, ABodyThatFellAsleepIsToldAndLiesWhereItLay) {
+TEST(SendScheduler, ASleepingBodyIsSentWithItsPose) {
   Row row(1);
   BodyState rest = row.world->Read(0);
   rest.position.x() = 0.3001f;  // between two quanta
@@ -110,7 +110,7 @@ TEST(SendScheduler, ABodyThatFellAsleepIsToldAndLiesWhereItLay) {
   EXPECT_NE(row.world->Read(0).position, Quantised(rest).position);
 }
 
-TEST(SendScheduler, WhatIsCommittedToRestIsToldNoMore) {
+TEST(SendScheduler, ABodyCommittedToRestIsNotSent) {
   Row row(2);
   row.world->SetAwake(0, false);
   row.memory.track(0).at_rest = true;

@@ -13,7 +13,8 @@ namespace {
 
 /// Restitution from here on counts as 1.
 constexpr float kEverything = 0.999f;
-/// Speed above which a body has an impact even without gravity, m/s; added to the fall of kRestSteps.
+/// Speed above which a body has an impact even without gravity, m/s; added to the fall of
+/// kRestSteps.
 constexpr double kSlowestElastic = 1e-3;
 /// Impacts per contact in one step; and limit of contact checks in a step, which must end even
 /// where thousands of bodies start in one place.
