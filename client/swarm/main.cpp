@@ -93,7 +93,7 @@ void Doze() {
 }
 
 /// Time for members that have waited for others to catch up, us.
-constexpr std::int64_t kSettleUs = 1000000;
+constexpr std::int64_t kCatchUpUs = 1000000;
 
 /// Waits until all clients simulate. False if stopped by a signal.
 bool WaitUntilJoined(const Flags& f, const Swarm& swarm, ProgressLine* line) {
@@ -110,7 +110,7 @@ bool WaitUntilJoined(const Flags& f, const Swarm& swarm, ProgressLine* line) {
     if (line->Due(now_us)) line->Show(now_us, std::to_string(swarm.running()) + " have joined");
     Doze();
   }
-  const std::int64_t settled_us = SteadyClockUs() + kSettleUs;
+  const std::int64_t settled_us = SteadyClockUs() + kCatchUpUs;
   while (SteadyClockUs() < settled_us && g_stop == 0) Doze();
   return g_stop == 0;
 }

@@ -40,6 +40,17 @@ TEST(DurationHistogram, PercentilesAreAtMostSixPercentAboveTheSortedValue) {
   }
 }
 
+TEST(DurationHistogram, CountsSeveralEqualDurationsAtOnce) {
+  DurationHistogram histogram;
+  histogram.Add(1000, 98);
+  histogram.Add(5000, 2);
+  histogram.Add(9000, 0);
+  EXPECT_EQ(histogram.count(), 100);
+  EXPECT_EQ(histogram.max_us(), 5000);
+  EXPECT_NEAR(static_cast<double>(histogram.PercentileUs(0.98)), 1000, 63);
+  EXPECT_EQ(histogram.PercentileUs(0.99), 5000);
+}
+
 TEST(DurationHistogram, NegativeTimesCountAsZeroAndHugeOnesAreKept) {
   DurationHistogram histogram;
   histogram.Add(-5);

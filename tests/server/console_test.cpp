@@ -1,5 +1,4 @@
-/// The output for the server's operator: present players, the percentile of its ticks, the totals
-/// of each client's sessions.
+/// Texts for the operator of a server: players in the room, and the account of each client.
 
 #include "server/console.h"
 
@@ -13,28 +12,6 @@ namespace seam {
 namespace console_test {
 
 using Lines = std::vector<std::string>;
-
-TEST(TickTimes, APercentileIsTheTimeThatItsShareOfTicksDidNotExceed) {
-  TickTimes times;
-  EXPECT_EQ(times.Percentile(99), 0);
-  for (int us = 0; us < 10000; us += 10) times.Note(us, 1);
-  EXPECT_EQ(times.Percentile(50), 5000);
-  EXPECT_EQ(times.Percentile(99), 9900);
-  EXPECT_EQ(times.Percentile(100), 10000);
-}
-
-TEST(TickTimes, TicksDoneTogetherShareTheTimeEqually) {
-  TickTimes times;
-  times.Note(8000, 8);
-  times.Note(100, 0);
-  EXPECT_EQ(times.Percentile(100), 1000 + TickTimes::kBinUs);
-}
-
-TEST(TickTimes, NoTickIsLongerThanTheLastBin) {
-  TickTimes times;
-  times.Note(100000000, 1);
-  EXPECT_EQ(times.Percentile(99), 100000);
-}
 
 TEST(AccountBook, ManyNamesShareTheLastAccountAndCostNoMoreMemory) {
   AccountBook book;
@@ -77,7 +54,7 @@ class ServerConsole : public ::testing::Test {
 
 TEST_F(ServerConsole, ReportsJoinsLeavesAndMissingPlayers) {
   EXPECT_EQ(MissingPlayers(cluster_.server()), "ann, bob");
-  EXPECT_EQ(ServerProgress(cluster_.server(), 360, TickTimes()),
+  EXPECT_EQ(ServerProgress(cluster_.server(), 360, DurationHistogram()),
             "waiting: 0 of 2 players (ann, bob missing); Ctrl-C stops");
   cluster_.RunToTick(60);
   cluster_.Kill(1);
@@ -89,11 +66,11 @@ TEST_F(ServerConsole, ReportsJoinsLeavesAndMissingPlayers) {
       << ::testing::PrintToString(news_);
   EXPECT_EQ(MissingPlayers(cluster_.server()), "bob");
   EXPECT_EQ(cluster_.server().TakeReports(), Lines{}) << "taken";
-  TickTimes times;
-  times.Note(1500, 1);
+  DurationHistogram times;
+  times.Add(1500);
   const std::string line = ServerProgress(cluster_.server(), 1800, times);
   EXPECT_EQ(line.rfind("7 of 30 s, 1 of 2 players (bob missing), rtt ", 0), 0u) << line;
-  EXPECT_NE(line.find("tick p99 1.52 ms"), std::string::npos) << line;
+  EXPECT_NE(line.find("tick p99 1.50 ms"), std::string::npos) << line;
   EXPECT_LT(line.size(), 110u) << line;
 }
 

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +52,63 @@ TEST(Style, NoFileIsLongerThan350Lines) {
     }
   }
   EXPECT_TRUE(offenders.empty()) << offenders;
+}
+
+/// Returns the names of the constants that a source defines: kName in a declaration that begins its
+/// line with constexpr or const, before its value.
+std::set<std::string> ConstantsIn(const Source& source) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < source.lines.size(); ++i) {
+    std::string text = source.lines[i].substr(0, source.lines[i].find("//"));
+    text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
+    for (const char* word : {"static ", "inline "}) {
+      if (text.rfind(word, 0) == 0) text.erase(0, std::string(word).size());
+    }
+    if (text.rfind("constexpr ", 0) != 0 && text.rfind("const ", 0) != 0) continue;
+    for (std::size_t j = i + 1; text.find(';') == std::string::npos && j < source.lines.size();
+         ++j) {
+      text += ' ' + source.lines[j].substr(0, source.lines[j].find("//"));
+    }
+    int depth = 0;
+    for (std::size_t at = 0; at < text.size() && text[at] != ';'; ++at) {
+      if (text[at] == '(' || text[at] == '{') ++depth;
+      if (text[at] == ')' || text[at] == '}') --depth;
+      const bool begins = at > 0 && (text[at - 1] == ' ' || text[at - 1] == '*');
+      if (depth > 0 || !begins || text[at] != 'k') continue;
+      std::size_t end = at;
+      while (end < text.size() && (std::isalnum(text[end]) != 0 || text[end] == '_')) ++end;
+      std::size_t next = end;
+      if (next < text.size() && text[next] == '[') next = text.find(']', next) + 1;
+      next = text.find_first_not_of(' ', next);
+      const bool value = next != std::string::npos && (text[next] == '=' || text[next] == '{') &&
+                         text.compare(next, 2, "==") != 0;
+      if (value) names.insert(text.substr(at, end - at));
+      at = end - 1;
+    }
+  }
+  return names;
+}
+
+TEST(Style, EachConstantHasOneHome) {
+  Source source;
+  source.lines = {"constexpr int kOne = 1, kTwo = kOne == 1 ? 2 : 3;  // kNot = 1",
+                  "  static const char* const kNames[] = {kThree, \"a\"};",
+                  "constexpr Largest kFour{1, 2};",
+                  "const bool same = kFive == 5;",
+                  "constexpr double kSix =",
+                  "    1, kSeven = 2;"};
+  EXPECT_EQ(ConstantsIn(source),
+            (std::set<std::string>{"kFour", "kNames", "kOne", "kSeven", "kSix", "kTwo"}));
+  std::map<std::string, std::string> homes;
+  std::string offenders;
+  for (const Source& product : Sources(kProduct, {".h", ".cpp"})) {
+    for (const std::string& name : ConstantsIn(product)) {
+      const auto [home, first] = homes.emplace(name, product.path);
+      if (!first) offenders += name + ": " + home->second + ", " + product.path + "\n";
+    }
+  }
+  EXPECT_GT(homes.size(), 900u);
+  EXPECT_EQ(offenders, "") << "share one of the same meaning, rename one of another";
 }
 
 TEST(Style, HeadersBeginWithAPromise) {
