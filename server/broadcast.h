@@ -179,7 +179,8 @@ class Broadcast {
   std::vector<Due> due_;                     // in Relay, by peer; else empty
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
   bool peer_became_ready_ = false;           // a peer became ready: followers_ is out of date
-  std::vector<std::vector<int>> followers_;  // by mechanism: peers; large rooms only
+  // Peers, in large rooms only.
+  std::vector<std::vector<int>> followers_;  // rebuilt by FindFollowers, by mechanism
   std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_
 };

@@ -68,7 +68,7 @@ class Roles {
   const World& world_;
   AuthorityTable table_;
   PeerSet silent_;
-  mutable std::vector<bool> own_;  // for revision own_of_revision_
+  mutable std::vector<bool> own_;  // rebuilt for each revision, by mechanism
   mutable int own_of_revision_ = -1;
 };
 

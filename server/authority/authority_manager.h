@@ -183,7 +183,7 @@ class AuthorityManager {
   Replica& replica_;
   const bool physics_edits_;
   const bool islands_;
-  AuthorityPlan plan_;     // the last one
+  AuthorityPlan plan_;     // rebuilt by Plan, by mechanism
   AuthorityView view_;     // input of the last plan; kept to reuse its memory
   std::vector<int> seen_;  // mechanisms in view_, ascending
   bool limited_ = false;   // the last plan had a player of limited capacity

@@ -162,7 +162,7 @@ class Replay {
   std::vector<int> sitters_;                          // by seat, as of the last edit
   std::deque<Action> actions_;                        // since the first barrier
   std::int64_t from_ = -1;                            // oldest requested tick; -1: none
-  std::vector<bool> pressed_;                         // in the running replay, by mechanism
+  std::vector<bool> pressed_;                         // scratch of a replay, by mechanism
   bool was_alone_ = false;                            // at the previous send tick
   double credit_ = 0;                                 // ticks that may still be stepped again
   std::function<void()> on_stepped_again_ = [] {};

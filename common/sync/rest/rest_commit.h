@@ -140,7 +140,7 @@ class RestCommit {
   RestTable table_;
   RestWatch watch_;
   BodyColumn<Disturbance> disturbed_;
-  std::vector<bool> driven_;            // in this step, by mechanism: an input moves it
+  std::vector<bool> driven_;            // scratch, by mechanism: an input moves it
   std::vector<int> freed_;              // bodies released here, and some that no longer are
   std::vector<int> due_;                // bodies that this step has to check
   mutable int open_ = 0;                // a body that was not held at the last call of all()
