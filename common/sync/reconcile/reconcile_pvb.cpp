@@ -16,8 +16,8 @@ namespace seam {
 namespace {
 
 /// Farther off than this, m, the copy is placed: a blend would move it at hundreds of m/s.
-constexpr float kPlaceBeyond = 8;
-constexpr float kMovedOnMax = 0.3f;  // s, for a copy that is placed
+constexpr float kPvbPlaceBeyond = 8;
+constexpr float kPvbMovedOnMax = 0.3f;  // s, for a copy that is placed
 /// Shortest blend, s. The article blends over one interval; with 30 messages a second this corrects
 /// half a metre at 15 m/s, and two peers' corrections build up against each other: a stack of ten
 /// explodes. Longer follows later.
@@ -29,7 +29,7 @@ constexpr float kStruck = 1;
 /// towards the other's correction. More lets a stack rock; zero lets sliding bodies drift apart.
 constexpr float kCoupledShare = 0.02f;
 /// Above this spin the angle is not followed, rad/s: the wire lost its revolutions.
-constexpr float kSpinFollowed = 15;
+constexpr float kPvbSpinFollowed = 15;
 
 /// Returns Q at `t`, for a position or an angle. `there`: P' at that time.
 template <typename T>
@@ -46,8 +46,8 @@ T Blended(float t, float blend, const T& p0, const T& v0, const T& there0, const
 
 Correction ReconcilePvb(const ReconcileInput& in) {
   Correction out;
-  const BodyState d = Minus(Extrapolate(in.remote, std::min(in.dt, kMovedOnMax)), in.local);
-  if (d.position.norm() > kPlaceBeyond) out.now = d;
+  const BodyState d = Minus(Extrapolate(in.remote, std::min(in.dt, kPvbMovedOnMax)), in.local);
+  if (d.position.norm() > kPvbPlaceBeyond) out.now = d;
   return out;
 }
 
@@ -72,7 +72,7 @@ Correction PullPvb(const PullInput& in, PullMemory* memory) {
   Correction out;
   const Vec2 way = path(t + in.step, in.target_next) - path(t, in.target);
   out.now.velocity = (way - in.drift.position) / in.step - in.local.velocity;
-  if (std::fabs(in.target.spin) < kSpinFollowed) {
+  if (std::fabs(in.target.spin) < kPvbSpinFollowed) {
     out.now.spin =
         (turn(t + in.step, in.target_next) - turn(t, in.target)) / in.step - in.local.spin;
   } else {
