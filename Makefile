@@ -80,6 +80,7 @@ COMMON := $(call obj,$(filter common/%,$(SOURCES)))
 SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
 # The programs beside a player's: what a load test and a view of the server's load have in common with it.
 WATCHERS := $(call obj,$(filter-out $(MAINS),$(filter client/swarm/% client/top/%,$(SOURCES))))
+TOP := $(call obj,$(filter-out $(MAINS),$(filter client/top/%,$(SOURCES))))
 CLIENT := $(filter-out $(WATCHERS),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
 EXPORT := $(call obj,$(filter render/export/%,$(SOURCES))) $(call alone,render/canvas/shapes.cpp render/canvas/figure.cpp)
@@ -192,7 +193,7 @@ $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-swarm: $(OUT)/client/swarm/main.o $(WATCHERS) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
-$(OUT)/seam-top: $(OUT)/client/top/main.o $(filter $(OUT)/client/top/%,$(WATCHERS)) $(OUT)/libseam-common.a
+$(OUT)/seam-top: $(OUT)/client/top/main.o $(TOP) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@

@@ -8,6 +8,7 @@
 
 #include "common/base/command_line.h"
 #include "common/base/find_scene.h"
+#include "common/base/limits.h"
 #include "common/base/names.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
@@ -92,7 +93,7 @@ void Define(Command& app, Flags& f) {
       .Range(0, kInputDelayTicksMax);
   app.Option("--impair", f.impair, "impair the network in both directions by a profile");
   app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);
-  app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, 240);
+  app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, kSendHzMax);
   app.Option("--budget", f.budget,
              "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
   app.Option("--room", f.room, "name of the room in the channels; of several: NAME-1, NAME-2, ...");
@@ -106,7 +107,7 @@ void Define(Command& app, Flags& f) {
              "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
       .Range(1, 65535);
   app.Option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
-      .Range(0, 31);
+      .Range(0, kPlayersMax);
   app.Option("--duration", f.duration_s,
              "seconds to run after tick 0 (0: until stopped; default: the scene's)")
       .Range(0.0, 1e6);

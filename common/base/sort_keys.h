@@ -1,7 +1,9 @@
 #pragma once
 /// Radix sort by a 32-bit key: O(n), not O(n log n), for the thousands of boxes of a plan.
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -18,8 +20,13 @@ inline std::uint32_t OrderedBits(float value) {
 /// A sort key in the high 32 bits, the index of its owner in the low 32 bits.
 using SortKey = std::uint64_t;
 
-/// Sorts by key and keeps the order of equal keys (stable). `spare` is scratch memory.
+/// Fewer keys are sorted by comparison: the tables of a radix sort cost more.
+constexpr std::size_t kRadixSortMin = 256;
+
+/// Sorts by key; the indices must ascend, and those of equal keys still do then. `spare` is scratch
+/// memory.
 inline void SortByKey(std::vector<SortKey>* keys, std::vector<SortKey>* spare) {
+  if (keys->size() < kRadixSortMin) return std::sort(keys->begin(), keys->end());
   constexpr int kDigits = 3, kDigitBits = 11;
   constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
   std::array<std::array<std::uint32_t, 1u << kDigitBits>, kDigits> begin{};

@@ -1,5 +1,7 @@
 #include "common/measure/owners.h"
 
+#include "common/scene/ownership.h"
+
 namespace seam {
 namespace {
 
@@ -9,14 +11,8 @@ int OwnerOf(const World& world, int body) {
   const int mechanism = world.mechanism(body);
   const int owner = composition.mechanisms[static_cast<std::size_t>(mechanism)].owner;
   if (owner >= 0) return owner;
-  for (std::size_t p = 0; p < scene.players.size(); ++p) {
-    const PartId vehicle = scene.players[p].vehicle;
-    if (vehicle < 0) continue;
-    const int assembly = composition.assembly_of_part[static_cast<std::size_t>(vehicle)];
-    if (assembly < 0) continue;
-    const Assembly& seat = composition.assemblies[static_cast<std::size_t>(assembly)];
-    if (seat.mechanism == mechanism) return static_cast<int>(p);
-  }
+  const int of_vehicle = VehicleOwner(scene, composition, mechanism);
+  if (of_vehicle >= 0) return of_vehicle;
   const Vec2 at = world.Read(body).position;
   for (std::size_t p = 0; p < scene.players.size(); ++p) {
     const Player& player = scene.players[p];

@@ -155,15 +155,15 @@ class SpecReader {
   }
 
   std::int64_t Time(std::size_t index, std::size_t count) const {
-    static const std::map<std::string, double> kUnits = {{"us", 1}, {"ms", 1e3}, {"s", 1e6}};
-    const double us = Scaled(Value(index, count), kUnits, "a time such as 50ms (us, ms or s)");
+    static const std::map<std::string, double> kTimeUnits = {{"us", 1}, {"ms", 1e3}, {"s", 1e6}};
+    const double us = Scaled(Value(index, count), kTimeUnits, "a time such as 50ms (us, ms or s)");
     if (us > static_cast<double>(kDelayUsMax)) Fail("longer than 60s");
     return std::llround(us);
   }
 
   double Share(std::size_t index, std::size_t count) const {
-    static const std::map<std::string, double> kUnits = {{"%", 0.01}, {"", 1}};
-    const double share = Scaled(Value(index, count), kUnits, "a share such as 1% or 0.01");
+    static const std::map<std::string, double> kShareUnits = {{"%", 0.01}, {"", 1}};
+    const double share = Scaled(Value(index, count), kShareUnits, "a share such as 1% or 0.01");
     if (share > 1) Fail("a share above 100%");
     return share;
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/physics/fixture_proxies.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_build.h"
 #include "common/scene/connectors.h"

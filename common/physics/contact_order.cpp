@@ -5,7 +5,6 @@
 #include <tuple>
 #include <vector>
 
-#include "common/physics/fixture_proxies.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_shapes.h"
 

@@ -21,5 +21,8 @@ struct Reveal {
   };                                          \
   template struct Reveal<tag, &owner::member>
 
+/// The entries of a fixture in the engine's tree of boxes.
+SEAM_REVEAL(Proxies, b2FixtureProxy*, b2Fixture, m_proxies);
+
 }  // namespace
 }  // namespace seam

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "common/base/bytes.h"
-#include "common/base/disjoint_sets.h"
+#include "common/base/spatial/disjoint_sets.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/mass.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/base/spatial/box_sweep.h"
 #include "common/scene/scene_limits.h"
 
 namespace seam {
@@ -100,16 +101,14 @@ class Count {
   }
 
   Crowding Run() {
-    std::vector<Box> boxes = Boxes();
-    const int axis = Axis(boxes);
-    std::sort(boxes.begin(), boxes.end(),
-              [&](const Box& a, const Box& b) { return a.min[axis] < b.min[axis]; });
-    std::vector<const Box*> moving, still;  // boxes that may reach the next one
-    for (const Box& box : boxes) {
-      Meet(box, axis, &moving);
-      if (box.moves) Meet(box, axis, &still);
-      (box.moves ? moving : still).push_back(&box);
-    }
+    const std::vector<Box> boxes = Boxes();
+    const BoxSweep sweep(boxes, [](std::size_t) { return 0.0f; });
+    // Two boxes that never move do not collide.
+    const auto label = [&](std::size_t i) { return boxes[i].moves ? -1 : 0; };
+    sweep.EachPairApart(0, label, [&](std::size_t i, std::size_t j) {
+      const Box &a = boxes[i], &b = boxes[j];
+      if (Overlap({a.min, a.max}, b) && MayCollide(a, b)) Add(a, b);
+    });
     out_.part = Most(of_part_);
     out_.bullet_part = Most(bullets_of_part_);
     return out_;
@@ -137,31 +136,6 @@ class Count {
                        !assembly.anchored, bullet[index]});
     }
     return boxes;
-  }
-
-  /// Returns the axis along which the boxes are spread more.
-  static int Axis(const std::vector<Box>& boxes) {
-    Eigen::Array2d sum(0, 0), squares(0, 0);
-    for (const Box& box : boxes) {
-      const Eigen::Array2d centre = (box.min + box.max).cast<double>().array() / 2;
-      sum += centre;
-      squares += centre * centre;
-    }
-    const double n = std::max(1.0, static_cast<double>(boxes.size()));
-    const Eigen::Array2d spread = squares / n - (sum / n) * (sum / n);
-    return spread.y() > spread.x() ? 1 : 0;
-  }
-
-  /// Counts the overlaps of `box` with `open`; drops boxes that end before it.
-  void Meet(const Box& box, int axis, std::vector<const Box*>* open) {
-    std::size_t kept = 0;
-    for (const Box* other : *open) {
-      if (other->max[axis] - box.min[axis] <= kSlop) continue;
-      (*open)[kept++] = other;
-      const Limits limits{other->min, other->max};
-      if (Overlap(limits, box) && MayCollide(*other, box)) Add(*other, box);
-    }
-    open->resize(kept);
   }
 
   bool MayCollide(const Box& a, const Box& b) const {

@@ -21,8 +21,7 @@ struct Crowding {
 };
 
 /// Counts the pairs whose later part is `first` or after it. With `first` above 0, earlier parts
-/// count only if they never move: the scene does not know the current place of moving parts. Sweeps
-/// along the axis of larger spread: O(n log n + pairs that overlap on it).
+/// count only if they never move: the scene does not know the current place of moving parts.
 Crowding CrowdingOf(const Scene& scene, const Composition& composition, PartId first = 0);
 
 /// Throws OperatorError "FILE:LINE: ..." if the pairs exceed kCrowdMax or kBulletCrowdMax.

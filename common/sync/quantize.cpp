@@ -2,20 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seam {
 namespace {
 
-float RoundTo(float value, float quantum) {
-  return static_cast<float>(std::nearbyint(static_cast<double>(value) / quantum) * quantum);
+/// Returns a coordinate in quanta.
+std::uint32_t PositionQuanta(float value) {
+  constexpr double kQuantaMax = std::numeric_limits<std::int32_t>::max();
+  const double quanta = std::nearbyint(static_cast<double>(value) / kPositionQuantum);
+  return static_cast<std::uint32_t>(
+      static_cast<std::int32_t>(std::clamp(quanta, -kQuantaMax, kQuantaMax)));
 }
 
-std::int16_t ToInt16(double value) {
-  return static_cast<std::int16_t>(std::clamp(value, -32767.0, 32767.0));
-}
-
-float ClampedVelocity(float value) {
-  return std::clamp(RoundTo(value, kVelocityQuantum), -127.0f, 127.0f);
+std::int16_t SpeedQuanta(float value) {
+  constexpr double kSpeedQuantaMax = 127 * kQuantaPerSpeed;
+  const double quanta = std::nearbyint(static_cast<double>(value) / kVelocityQuantum);
+  return static_cast<std::int16_t>(std::clamp(quanta, -kSpeedQuantaMax, kSpeedQuantaMax));
 }
 
 std::int64_t AngleSteps(float angle) {
@@ -26,57 +29,50 @@ std::int16_t LowBits(std::int64_t steps) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(steps & 0xffff));
 }
 
-}  // namespace
-
-BodyState Quantised(const BodyState& state) {
-  BodyState out;
-  out.position = Vec2(RoundTo(state.position.x(), kPositionQuantum),
-                      RoundTo(state.position.y(), kPositionQuantum));
-  out.angle = static_cast<float>(static_cast<double>(AngleSteps(state.angle)) * kAngleQuantum);
-  out.velocity = Vec2(ClampedVelocity(state.velocity.x()), ClampedVelocity(state.velocity.y()));
-  out.spin = ClampedVelocity(state.spin);
-  return out;
+/// Returns a coordinate in m.
+double Metres(std::uint32_t quanta) {
+  return static_cast<std::int32_t>(quanta) / static_cast<double>(kQuantaPerMetre);
 }
 
-std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bodies) {
+}  // namespace
+
+WireBody Quantise(const BodyState& state) {
+  WireBody body;
+  body.x = PositionQuanta(state.position.x());
+  body.y = PositionQuanta(state.position.y());
+  body.angle = LowBits(AngleSteps(state.angle));
+  body.vx = SpeedQuanta(state.velocity.x());
+  body.vy = SpeedQuanta(state.velocity.y());
+  body.spin = SpeedQuanta(state.spin);
+  return body;
+}
+
+std::vector<States> Pack(const States& header, const std::vector<WireBody>& bodies) {
   std::vector<States> out;
-  for (const PackedBody& body : bodies) {
-    const BodyState q = Quantised(body.state);
-    const bool fits = !out.empty() && out.back().id.size() < kStatesBodiesMax &&
-                      std::fabs(q.position.x() - static_cast<float>(out.back().origin_x)) <
-                          static_cast<float>(kOriginReach) &&
-                      std::fabs(q.position.y() - static_cast<float>(out.back().origin_y)) <
-                          static_cast<float>(kOriginReach);
-    if (!fits) {
+  for (const WireBody& body : bodies) {
+    if (out.empty() || !Fits(out.back(), body)) {
       out.push_back(header);
-      out.back().origin_x = static_cast<std::int32_t>(std::lround(q.position.x()));
-      out.back().origin_y = static_cast<std::int32_t>(std::lround(q.position.y()));
+      out.back().origin_x = static_cast<std::int32_t>(std::lround(Metres(body.x)));
+      out.back().origin_y = static_cast<std::int32_t>(std::lround(Metres(body.y)));
     }
-    States& s = out.back();
-    s.id.push_back(body.id);
-    s.epoch.push_back(body.epoch);
-    s.flags.push_back(body.flags);
-    s.x.push_back(ToInt16((static_cast<double>(q.position.x()) - s.origin_x) * kQuantaPerMetre));
-    s.y.push_back(ToInt16((static_cast<double>(q.position.y()) - s.origin_y) * kQuantaPerMetre));
-    s.angle.push_back(LowBits(AngleSteps(q.angle)));
-    s.vx.push_back(ToInt16(static_cast<double>(q.velocity.x()) * kQuantaPerSpeed));
-    s.vy.push_back(ToInt16(static_cast<double>(q.velocity.y()) * kQuantaPerSpeed));
-    s.spin.push_back(ToInt16(static_cast<double>(q.spin) * kQuantaPerSpeed));
+    AppendBody(body, &out.back());
   }
   return out;
 }
 
-BodyState Unpack(const States& s, std::size_t i, float near_angle) {
+BodyState Unpack(const WireBody& body, float near_angle) {
   BodyState out;
-  out.position =
-      Vec2(static_cast<float>(s.origin_x + s.x[i] / static_cast<double>(kQuantaPerMetre)),
-           static_cast<float>(s.origin_y + s.y[i] / static_cast<double>(kQuantaPerMetre)));
+  out.position = Vec2(static_cast<float>(Metres(body.x)), static_cast<float>(Metres(body.y)));
   const std::int64_t near_steps = AngleSteps(near_angle);
-  const std::int64_t difference = LowBits(s.angle[i] - near_steps);
+  const std::int64_t difference = LowBits(body.angle - near_steps);
   out.angle = static_cast<float>(static_cast<double>(near_steps + difference) * kAngleQuantum);
-  out.velocity = Vec2(s.vx[i] * kVelocityQuantum, s.vy[i] * kVelocityQuantum);
-  out.spin = s.spin[i] * kVelocityQuantum;
+  out.velocity = Vec2(body.vx * kVelocityQuantum, body.vy * kVelocityQuantum);
+  out.spin = body.spin * kVelocityQuantum;
   return out;
+}
+
+BodyState Unpack(const States& states, std::size_t i, float near_angle) {
+  return Unpack(BodyAt(states, i), near_angle);
 }
 
 }  // namespace seam

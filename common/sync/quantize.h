@@ -1,32 +1,26 @@
 #pragma once
-/// Conversion of states to the wire: integers in fixed quanta.
+/// Conversion of states to and from the quanta of the wire.
 
 #include <vector>
 
 #include "common/codec/messages.h"
 #include "common/codec/quanta.h"
+#include "common/codec/wire_body.h"
 #include "common/scene/types.h"
 
 namespace seam {
 
-/// Returns the state that a receiver will have: every field rounded to its quantum. Idempotent. The
-/// angle keeps its revolutions. Speeds beyond the int16 range (128 m/s, 128 rad/s) are clamped to
-/// it.
-BodyState Quantised(const BodyState& state);
+/// Rounds every field to its quantum; id, tick, epoch and flags are left out. Speeds beyond 127 m/s
+/// and 127 rad/s are clamped to it.
+WireBody Quantise(const BodyState& state);
 
-/// One body's entry in a States message.
-struct PackedBody {
-  PartId id = 0;
-  std::int32_t epoch = 0;
-  std::int8_t flags = 0;
-  BodyState state;
-};
+/// Splits bodies into messages of at most kStatesBodiesMax, each within kOriginReach of its origin.
+/// The header fields (utime, peer, tick, revision, composition) are copied from `header`.
+std::vector<States> Pack(const States& header, const std::vector<WireBody>& bodies);
 
-/// Splits bodies into messages of at most kStatesBodiesMax, each within 60 m of its origin. The
-/// header fields (utime, peer, tick, composition) are copied from `header`.
-std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bodies);
-
-/// Returns entry `i` of a message; the angle is unwrapped to the turn nearest `near_angle`.
+/// Returns the state that a receiver has; the angle is unwrapped to the turn nearest `near_angle`.
+BodyState Unpack(const WireBody& body, float near_angle);
+/// Returns that of entry `i` of a message.
 BodyState Unpack(const States& states, std::size_t i, float near_angle);
 
 }  // namespace seam

@@ -33,7 +33,7 @@ SendScheduler::SendScheduler(const SyncConfig& config, World& world, const Roles
 void SendScheduler::Collect() {
   outgoing_.clear();
   if (config_.mode == Mode::kOracle || world_.tick() % config_.send_every() != 0) return;
-  std::map<std::pair<std::int64_t, int>, std::vector<PackedBody>> told;  // by tick and authority
+  std::map<std::pair<std::int64_t, int>, std::vector<WireBody>> told;  // by tick and authority
   for (const int body : ChooseBodies()) {
     const int authority = roles_.table().at(world_.mechanism(body)).authority;
     const std::int64_t tick = TickToSend(body);
@@ -116,40 +116,39 @@ std::vector<int> SendScheduler::ChooseBodies() {
   return due;
 }
 
-PackedBody SendScheduler::Describe(int body) const {
-  PackedBody packed;
-  packed.id = world_.id(body);
-  packed.epoch = roles_.table().at(world_.mechanism(body)).epoch;
-  packed.flags = world_.awake(body) ? std::int8_t{0} : kStateAsleep;
-  packed.state = world_.Read(body);
-  return packed;
+WireBody SendScheduler::Describe(int body, const BodyState& state, bool asleep) const {
+  WireBody wire = Quantise(state);
+  wire.id = world_.id(body);
+  wire.epoch = roles_.table().at(world_.mechanism(body)).epoch;
+  wire.flags = asleep ? kStateAsleep : std::int8_t{0};
+  return wire;
 }
 
-PackedBody SendScheduler::Tell(int body, std::int64_t tick) {
+WireBody SendScheduler::Tell(int body, std::int64_t tick) {
   memory_.track(body).priority = 0;
-  PackedBody packed = Describe(body);
-  const bool awake = world_.awake(body);
-  if (memory_.Struck(body)) packed.flags |= kStateImpact;
-  if (!awake) {
-    packed.state.velocity.setZero();
-    packed.state.spin = 0;
+  BodyState state = world_.Read(body);
+  bool asleep = !world_.awake(body);
+  if (asleep) {
+    state.velocity.setZero();
+    state.spin = 0;
   }
   if (tick < world_.tick()) {
-    packed.state = *memory_.ComparablePast(body, tick);
-    const bool moved = packed.state.velocity.squaredNorm() > 0 || packed.state.spin != 0;
-    packed.flags = static_cast<std::int8_t>(moved ? packed.flags & ~kStateAsleep : packed.flags);
+    state = *memory_.ComparablePast(body, tick);
+    asleep = asleep && !(state.velocity.squaredNorm() > 0 || state.spin != 0);
   }
-  const bool asleep = (packed.flags & kStateAsleep) != 0;
-  if (!asleep && memory_.FallsFreely(body, tick, packed.state)) packed.flags |= kStateFalls;
   // The sender continues from its own numbers, moving or at rest: writing the rounded pose back
   // topples a stack of ten boxes even in a world of its own (docs/lessons.md).
-  return packed;
+  WireBody wire = Describe(body, state, asleep);
+  if (memory_.Struck(body)) wire.flags |= kStateImpact;
+  if (!asleep && memory_.FallsFreely(body, tick, state)) wire.flags |= kStateFalls;
+  return wire;
 }
 
 std::vector<States> SendScheduler::Everything() const {
-  std::vector<PackedBody> bodies;
+  std::vector<WireBody> bodies;
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (!memory_.track(body).at_rest) bodies.push_back(Describe(body));
+    if (memory_.track(body).at_rest) continue;
+    bodies.push_back(Describe(body, world_.Read(body), !world_.awake(body)));
   }
   return Pack(Header(), bodies);
 }

@@ -39,8 +39,8 @@ class SendScheduler {
   bool Due(int body);
   bool SendsStateOf(int body) const;
   std::vector<int> ChooseBodies();
-  PackedBody Describe(int body) const;
-  PackedBody Tell(int body, std::int64_t tick);
+  WireBody Describe(int body, const BodyState& state, bool asleep) const;
+  WireBody Tell(int body, std::int64_t tick);
   void NoteTold(int body, std::int64_t tick);
   /// Tick for which a body's state is sent.
   std::int64_t TickToSend(int body) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "common/base/disjoint_sets.h"
+#include "common/base/spatial/disjoint_sets.h"
 #include "common/topology/floors.h"
 
 namespace seam {
@@ -92,8 +92,7 @@ Foundations::Foundations(const FeatherStore& whole, const FeatureList<BrickField
   for (const BrickField& field : fields) {
     first_.push_back(towers);
     EachBuildingBlock(field, [&](const BuildingBlock& block) {
-      nodes.push_back(
-          {block, static_cast<int>(towers) + block.building, field.y, field.height});
+      nodes.push_back({block, static_cast<int>(towers) + block.building, field.y, field.height});
     });
     towers += static_cast<std::size_t>(BuildingsOf(field));
   }

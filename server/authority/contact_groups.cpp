@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/base/disjoint_sets.h"
-#include "server/authority/box_sweep.h"
+#include "common/base/spatial/box_sweep.h"
+#include "common/base/spatial/disjoint_sets.h"
 #include "server/authority/crowds.h"
 #include "server/authority/player_of_peer.h"
 #include "server/authority/swept_boxes.h"

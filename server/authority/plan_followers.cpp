@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "common/sync/reach/box_grid.h"
+#include "common/base/spatial/box_grid.h"
 #include "server/authority/contact_groups.h"
 #include "server/authority/crowds.h"
 #include "server/authority/group_lists.h"

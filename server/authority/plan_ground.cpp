@@ -1,7 +1,7 @@
 #include "server/authority/plan_ground.h"
 
-#include "common/base/disjoint_sets.h"
-#include "server/authority/box_sweep.h"
+#include "common/base/spatial/box_sweep.h"
+#include "common/base/spatial/disjoint_sets.h"
 
 namespace seam {
 

@@ -5,8 +5,8 @@
 #include <cfloat>
 #include <cmath>
 
-#include "common/sync/reach/box_grid.h"
-#include "server/authority/box_sweep.h"
+#include "common/base/spatial/box_grid.h"
+#include "common/base/spatial/box_sweep.h"
 #include "server/authority/dwell.h"
 #include "server/authority/islands.h"
 #include "server/authority/plan_capacity.h"

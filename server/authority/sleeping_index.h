@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/sync/reach/kept_boxes.h"
+#include "common/base/spatial/box_index.h"
 #include "server/authority/plan.h"
 
 namespace seam {
@@ -37,7 +37,7 @@ class SleepingIndex {
   std::vector<int> Near(const std::vector<MovingBox>& boxes, const PlanSight& sight);
 
  private:
-  KeptBoxes boxes_;
+  BoxIndex<MovingBox> boxes_;
   int looks_ = 0;
   std::vector<int> found_in_;  // rebuilt by Clear, by mechanism: last search that found it
 };

@@ -14,23 +14,6 @@ namespace {
 /// The angle of a wheel that spins faster than this is not visible, rad/s.
 constexpr float kSpinSent = 6;
 
-ReceivedState Entry(const States& states, std::size_t i) {
-  ReceivedState heard;
-  heard.peer = states.peer;
-  heard.tick = states.tick;
-  heard.revision = states.revision;
-  heard.composition = states.composition;
-  heard.epoch = states.epoch[i];
-  heard.flags = states.flags[i];
-  heard.x = states.origin_x * kQuantaPerMetre + states.x[i];
-  heard.y = states.origin_y * kQuantaPerMetre + states.y[i];
-  heard.angle = states.angle[i];
-  heard.vx = states.vx[i];
-  heard.vy = states.vy[i];
-  heard.spin = states.spin[i];
-  return heard;
-}
-
 /// Returns an upper bound of the distance from a body's origin to its farthest point, m.
 float ReachOf(const World& world, int body) {
   const MovingBox box = BoxOf(world, body);
@@ -40,9 +23,9 @@ float ReachOf(const World& world, int body) {
 
 }  // namespace
 
-bool NewestStates::IsNews(const Body& body, const ReceivedState& told, const ReckoningRule& rule,
+bool NewestStates::IsNews(const Body& body, const WireBody& told, const ReckoningRule& rule,
                           double repeat_s) const {
-  const ReceivedState& now = body.heard;
+  const WireBody& now = body.heard;
   if (told.tick < 0 || told.epoch != now.epoch) return true;
   if (((told.flags ^ now.flags) & kStateAsleep) != 0) return true;
   const float seconds = static_cast<float>(now.tick - told.tick) / static_cast<float>(tick_hz_);
@@ -51,8 +34,11 @@ bool NewestStates::IsNews(const Body& body, const ReceivedState& told, const Rec
                       kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
   if (seconds >= (speed < kRepeatSlow ? kStateRepeatSlowS : repeat_s)) return true;
   if (seconds < rule.least) return false;
-  const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
-  const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
+  const auto difference = [](std::uint32_t a, std::uint32_t b) {
+    return static_cast<float>(static_cast<std::int32_t>(a - b));
+  };
+  const float x = difference(now.x, told.x) * kQuantum - seconds * kSpeed * told.vx;
+  const float y = difference(now.y, told.y) * kQuantum - seconds * kSpeed * told.vy;
   Vec2 way(x, y);
   if ((told.flags & kStateFalls) != 0) {
     // As the engine integrates: a substep moves by the velocity at its end (Flight).
@@ -73,13 +59,15 @@ bool NewestStates::IsNews(const Body& body, const ReceivedState& told, const Rec
 const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, double repeat_s) {
   const std::size_t count = states.id.size();
   told_.assign(count, Told{});
+  const StatesHeader header = HeaderOf(states);
   for (std::size_t i = 0; i < count; ++i) {
     Told& told = told_[i];
     told.body = world_.BodyOfId(states.id[i]);
     if (told.body < 0) continue;
     told.mechanism = world_.mechanism(told.body);
     Body& body = bodies_[told.body];
-    body.heard = Entry(states, i);
+    body.header = header;
+    body.heard = BodyAt(states, i);
     if (body.reach < 0) body.reach = ReachOf(world_, told.body);
     News& news = together_[told.mechanism];
     if (IsNews(body, body.far, kFarReckoning, repeat_s)) {

@@ -8,23 +8,12 @@
 #include <vector>
 
 #include "common/codec/messages.h"
+#include "common/codec/wire_body.h"
 #include "common/physics/world.h"
 #include "common/sync/table/body_column.h"
 #include "common/sync/table/mechanism_column.h"
 
 namespace seam {
-
-/// A body's entry of a States message, with the message's header; in quanta of states_t.
-struct ReceivedState {
-  std::int32_t peer = 0;   ///< the authority
-  std::int64_t tick = -1;  ///< -1: no state received
-  std::int32_t revision = 0;
-  std::int64_t composition = 0;
-  std::int32_t epoch = 0;
-  std::int8_t flags = 0;
-  std::int32_t x = 0, y = 0;  ///< 1/512 m, from the room's origin
-  std::int16_t angle = 0, vx = 0, vy = 0, spin = 0;
-};
 
 /// Receivers that need a new state, besides the body's followers.
 enum class News : std::uint8_t {
@@ -68,7 +57,9 @@ class NewestStates {
   /// `repeat_s`: s after which the state of a moving body is sent in any case.
   const std::vector<Told>& Take(const States& states, double repeat_s = kStateRepeatS);
   /// Returns the latest state of an assembly. Requires has(id).
-  const ReceivedState& at(PartId id) const { return bodies_[world_.BodyOfId(id)].heard; }
+  const WireBody& at(PartId id) const { return bodies_[world_.BodyOfId(id)].heard; }
+  /// Returns the header of the message that it came in. Requires has(id).
+  const StatesHeader& header(PartId id) const { return bodies_[world_.BodyOfId(id)].header; }
   bool has(PartId id) const {
     const int body = world_.BodyOfId(id);
     return body >= 0 && bodies_[body].heard.tick >= 0;
@@ -76,10 +67,11 @@ class NewestStates {
 
  private:
   struct Body {
-    ReceivedState heard, near, far;  // the latest; the last due to near, and to far receivers
-    float reach = -1;                // m, from its origin to its farthest point; -1: not known yet
+    StatesHeader header;        // of the latest
+    WireBody heard, near, far;  // the latest; the last due to near, and to far receivers
+    float reach = -1;           // m, from its origin to its farthest point; -1: not known yet
   };
-  bool IsNews(const Body& body, const ReceivedState& told, const ReckoningRule& rule,
+  bool IsNews(const Body& body, const WireBody& told, const ReckoningRule& rule,
               double repeat_s) const;
 
   const World& world_;

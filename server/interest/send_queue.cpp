@@ -5,12 +5,9 @@
 #include <tuple>
 #include <utility>
 
-#include "common/codec/quanta.h"
-
 namespace seam {
 namespace {
 
-constexpr std::int32_t kReachQuanta = kOriginReach * kQuantaPerMetre;
 /// Bytes of a message besides its bodies, with the headers of link and datagram.
 constexpr double kMessageCost = static_cast<double>(kStatesBytes.empty) + 30;
 
@@ -18,35 +15,17 @@ constexpr double kMessageCost = static_cast<double>(kStatesBytes.empty) + 30;
 struct Origin {
   std::int32_t x, y;
 
-  explicit Origin(const ReceivedState& first)
-      : x(first.x / kQuantaPerMetre * kQuantaPerMetre),
-        y(first.y / kQuantaPerMetre * kQuantaPerMetre) {}
-  bool Reaches(const ReceivedState& state) const {
-    return std::abs(state.x - x) < kReachQuanta && std::abs(state.y - y) < kReachQuanta;
+  explicit Origin(const WireBody& first)
+      : x(static_cast<std::int32_t>(first.x) / kQuantaPerMetre * kQuantaPerMetre),
+        y(static_cast<std::int32_t>(first.y) / kQuantaPerMetre * kQuantaPerMetre) {}
+  bool Reaches(const WireBody& body) const {
+    return NearOrigin(body.x, x) && NearOrigin(body.y, y);
   }
 };
 
-PackedHeader HeaderOf(const ReceivedState& state) {
-  return {state.peer, state.tick, state.revision, state.composition};
-}
-
-bool Same(const PackedHeader& a, const PackedHeader& b) {
+bool Same(const StatesHeader& a, const StatesHeader& b) {
   return a.peer == b.peer && a.tick == b.tick && a.revision == b.revision &&
          a.composition == b.composition;
-}
-
-PackedState Packed(const ReceivedState& state) {
-  PackedState packed;
-  packed.tick = state.tick;
-  packed.epoch = state.epoch;
-  packed.x = static_cast<std::uint32_t>(state.x);
-  packed.y = static_cast<std::uint32_t>(state.y);
-  packed.angle = state.angle;
-  packed.vx = state.vx;
-  packed.vy = state.vy;
-  packed.spin = state.spin;
-  packed.flags = state.flags;
-  return packed;
 }
 
 }  // namespace
@@ -107,18 +86,18 @@ bool SendQueue::Place::operator<(const Place& o) const {
 
 void SendQueue::ComposeInOrder(const NewestStates& newest) {
   bodies_.resize(order_.size());  // before any pointer into it is taken
-  Origin origin{ReceivedState{}};
+  Origin origin{WireBody{}};
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const PartId id = order_[i].id;
-    const ReceivedState& state = newest.at(id);
-    const PackedHeader header = HeaderOf(state);
+    const WireBody& body = newest.at(id);
+    const StatesHeader& header = newest.header(id);
     const bool fits = !composed_.empty() && composed_.back().size() < kStatesBodiesMax &&
-                      Same(composed_.back().header, header) && origin.Reaches(state);
+                      Same(composed_.back().header, header) && origin.Reaches(body);
     if (!fits) {
-      origin = Origin(state);
+      origin = Origin(body);
       composed_.push_back({header, &bodies_[i], &bodies_[i]});
     }
-    bodies_[i] = {static_cast<std::int32_t>(id), Packed(state)};
+    bodies_[i] = body;
     ++composed_.back().end;
   }
 }
@@ -134,8 +113,7 @@ const std::vector<SendQueue::Message>& SendQueue::Compose(std::int64_t now_us,
     const PartId id = waiting_[i].id;
     place_[static_cast<std::size_t>(id)] = -1;
     if (!newest.has(id)) continue;  // an edit has changed the body since
-    const ReceivedState& state = newest.at(id);
-    order_.push_back({state.peer, state.tick, id});
+    order_.push_back({newest.header(id).peer, newest.at(id).tick, id});
   }
   std::sort(order_.begin(), order_.end());
   ComposeInOrder(newest);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/codec/messages.h"
-#include "common/codec/packed/packing.h"
+#include "common/codec/wire_body.h"
 #include "common/sync/limits.h"
 #include "server/interest/newest_states.h"
 
@@ -29,8 +29,8 @@ class SendQueue {
   void Spend(std::size_t bytes) { credit_ -= static_cast<double>(bytes); }
   /// States for one message: one authority, one tick, all near one origin.
   struct Message {
-    PackedHeader header;
-    const PackedEntry *begin = nullptr, *end = nullptr;  ///< ids ascend
+    StatesHeader header;
+    const WireBody *begin = nullptr, *end = nullptr;  ///< ids ascend
     std::size_t size() const { return static_cast<std::size_t>(end - begin); }
   };
   /// Dequeues the states of highest priority, as many as the budget allows now, and returns them as
@@ -79,8 +79,8 @@ class SendQueue {
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
   bool pressing_ = false;
-  std::vector<Message> composed_;    // by the last Compose
-  std::vector<PackedEntry> bodies_;  // entries of composed_
+  std::vector<Message> composed_;  // by the last Compose
+  std::vector<WireBody> bodies_;   // of composed_
   std::vector<Place> order_;
   std::vector<std::int32_t> place_;  // by part: index in waiting_; -1: not queued
   double each_ = static_cast<double>(kStatesBytes.each);  // bytes per body, running mean

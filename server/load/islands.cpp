@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/base/disjoint_sets.h"
+#include "common/base/spatial/disjoint_sets.h"
 
 namespace seam {
 

@@ -2,6 +2,7 @@
 /// Player that owns a mechanism.
 
 #include "common/physics/part_places.h"
+#include "common/scene/ownership.h"
 
 namespace seam {
 
@@ -9,12 +10,8 @@ namespace seam {
 /// nobody.
 inline int PlayerOf(const World& world, int mechanism) {
   if (mechanism < 0) return -1;
-  const std::vector<Player>& players = world.scene().players;
-  for (std::size_t p = 0; p < players.size(); ++p) {
-    if (players[p].vehicle >= 0 && MechanismOf(world, players[p].vehicle) == mechanism) {
-      return static_cast<int>(p);
-    }
-  }
+  const int player = VehicleOwner(world.scene(), world.composition(), mechanism);
+  if (player >= 0) return player;
   return world.composition().mechanisms[static_cast<std::size_t>(mechanism)].owner;
 }
 

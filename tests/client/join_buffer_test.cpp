@@ -32,9 +32,8 @@ class JoinBufferTest : public ::testing::Test {
     States header;
     header.tick = tick;
     header.composition = composition();
-    PackedBody body;
+    WireBody body = Quantise({{x, 3}, 0, {2, 0}, 0});
     body.id = id;
-    body.state = {{x, 3}, 0, {2, 0}, 0};
     for (const States& states : Pack(header, {body})) held_.Add(states);
   }
   void Lies(PartId id, std::int64_t tick, float x) {
@@ -145,12 +144,10 @@ TEST(JoinBufferMechanism, HasTheTurnsThatItsHingesAllow) {
   States header;
   header.tick = 70;
   header.composition = static_cast<std::int64_t>(replica.world().composition().hash);
-  std::vector<PackedBody> bodies(2);
-  bodies[1].id = 1;
-  bodies[0].state.angle = 3;
-  bodies[1].state.angle = 3.6f;
   const Vec2 elbow = Turned(Vec2(0.5f, 0), 3.0f);
-  bodies[1].state.position = elbow + Turned(Vec2(0.5f, 0), 3.6f);
+  std::vector<WireBody> bodies = {Quantise({{0, 0}, 3, {0, 0}, 0}),
+                                  Quantise({elbow + Turned(Vec2(0.5f, 0), 3.6f), 3.6f, {0, 0}, 0})};
+  bodies[1].id = 1;
   JoinBuffer held;
   for (const States& states : Pack(header, bodies)) held.Add(states);
   replica.StartAt(70);

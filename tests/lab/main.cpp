@@ -8,6 +8,7 @@
 
 #include "common/base/command_line.h"
 #include "common/base/find_scene.h"
+#include "common/base/limits.h"
 #include "common/codec/version_line.h"
 #include "common/net/impair.h"
 #include "common/sync/method.h"
@@ -61,7 +62,7 @@ Command* DefineDivergence(Command& app, DivergenceCommand& c) {
       "first-divergence", "where two recordings' views differ first (status 1), or equal (0)");
   divergence->Option("A", c.log_a, "an LCM log").Required();
   divergence->Option("B", c.log_b, "an LCM log of the same scene").Required();
-  divergence->Option("--peer", c.peer, "compare this peer's views alone").Range(0, 31);
+  divergence->Option("--peer", c.peer, "compare this peer's views alone").Range(0, kPeersMax - 1);
   divergence->Switch("--common", c.common, "leave out views that only one of them has");
   return divergence;
 }

@@ -92,10 +92,9 @@ TEST(NewestStates, BouncesOfAFallingBodyAreRelevant) {
     before = now;
     if (tick % 2 != 0) continue;
     ++flights;
-    PackedBody body;
+    WireBody body = Quantise(now);
     body.id = 1;
     body.flags = falls ? kStateFalls : std::int8_t{0};
-    body.state = now;
     const std::vector<States> states = Pack(
         [&] {
           States header;

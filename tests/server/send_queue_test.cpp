@@ -61,9 +61,9 @@ TEST_F(SendQueueTest, WithoutABudgetEverythingGoesAtOnceInMessagesThatFit) {
   for (const SendQueue::Message& message : send_queue.Compose(0, newest_)) {
     EXPECT_LE(message.size(), kStatesBodiesMax);
     int before = -1;
-    for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+    for (const WireBody* body = message.begin; body != message.end; ++body) {
       EXPECT_GT(body->id, std::exchange(before, body->id));
-      EXPECT_EQ(static_cast<int>(body->state.x), body->id) << "it tells of that body";
+      EXPECT_EQ(static_cast<int>(body->x), body->id) << "it tells of that body";
       told.insert(body->id);
     }
   }
@@ -86,7 +86,7 @@ TEST_F(SendQueueTest, KeepsTheBudgetSendsUrgentBodiesFirstAndAllEventually) {
       const std::size_t size = BytesOf(message);
       send_queue.Spend(size);
       bytes += size;
-      for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+      for (const WireBody* body = message.begin; body != message.end; ++body) {
         told.push_back(body->id);
       }
     }
@@ -117,7 +117,7 @@ TEST_F(SendQueueTest, RaisingAPendingBodyRaisesThatBody) {
   for (; told.size() < raised.size() && now_us < 10'000'000; now_us += kTickUs) {
     for (const SendQueue::Message& message : send_queue.Compose(now_us, newest_)) {
       send_queue.Spend(BytesOf(message));
-      for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+      for (const WireBody* body = message.begin; body != message.end; ++body) {
         told.insert(body->id);
       }
     }

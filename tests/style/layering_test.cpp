@@ -159,6 +159,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/sync/reach", "common/sync(/table)?"},
       {"common/sync/edits", "none"},
       {"common/base/command", "common/base"},
+      {"common/base/spatial", "common/base"},
       {"common/measure/contents", "common/measure"},
       {"common/measure/screen", "common/measure"},
       {"common/sync/show", "common/sync(/table)?"},

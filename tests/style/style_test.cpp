@@ -74,7 +74,8 @@ std::set<std::string> ConstantsIn(const Source& source) {
       if (text[at] == '(' || text[at] == '{') ++depth;
       if (text[at] == ')' || text[at] == '}') --depth;
       const bool begins = at > 0 && (text[at - 1] == ' ' || text[at - 1] == '*');
-      if (depth > 0 || !begins || text[at] != 'k') continue;
+      const bool constant = text[at] == 'k' && std::isupper(text[at + 1]) != 0;
+      if (depth > 0 || !begins || !constant) continue;
       std::size_t end = at;
       while (end < text.size() && (std::isalnum(text[end]) != 0 || text[end] == '_')) ++end;
       std::size_t next = end;

@@ -67,13 +67,12 @@ class FollowedCopy {
     States header;
     header.tick = truth.tick();
     header.composition = static_cast<std::int64_t>(truth.composition().hash);
-    std::vector<PackedBody> bodies;
+    std::vector<WireBody> bodies;
     for (int body = 0; body < truth.body_count(); ++body) {
-      PackedBody packed;
+      WireBody packed = Quantise(truth.Read(body));
       packed.id = truth.id(body);
       packed.epoch = 1;
       if (!truth.awake(body)) packed.flags = kStateAsleep;
-      packed.state = Quantised(truth.Read(body));
       bodies.push_back(packed);
     }
     return Pack(header, bodies).front();

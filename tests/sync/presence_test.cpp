@@ -72,11 +72,12 @@ class Line {
     states.peer = 2;
     states.tick = tick;
     states.composition = static_cast<std::int64_t>(replica.world().composition().hash);
-    PackedBody told;
+    BodyState state;
+    state.position = position;
+    state.velocity = velocity;
+    WireBody told = Quantise(state);
     told.id = replica.world().id(body);
     told.epoch = 1;
-    told.state.position = position;
-    told.state.velocity = velocity;
     for (const States& packed : Pack(states, {told})) replica.Receive(packed);
   }
 

@@ -6,6 +6,7 @@
 
 #include "common/sync/quantize.h"
 #include "tests/support/followed_copy.h"
+#include "tests/support/quantised.h"
 
 namespace seam {
 namespace reconcile_resimulate_test {

@@ -42,10 +42,9 @@ float WorstAfterBounces(float lower, std::int64_t late) {
     }
     truth.Step();
     copy.Step();
-    PackedBody packed;
+    WireBody packed = Quantise(truth.Read(0));
     packed.id = truth.id(0);
     packed.epoch = 1;
-    packed.state = Quantised(truth.Read(0));
     States header;
     header.tick = tick;
     header.composition = static_cast<std::int64_t>(truth.composition().hash);

@@ -4,6 +4,7 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/quantize.h"
+#include "tests/support/quantised.h"
 #include "tests/support/replica_test_access.h"
 #include "tests/support/scripted_world.h"
 #include "tests/support/wired_replicas.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tests/support/quantised.h"
 #include "tests/support/small_world.h"
 
 namespace seam {

@@ -13,45 +13,49 @@
 #include "common/sync/quantize.h"
 #include "common/sync/smoother.h"
 #include "common/sync/snapshots.h"
+#include "tests/support/quantised.h"
 
 namespace seam {
 namespace sync_parts_test {
 
 TEST(Quantize, IsIdempotentAndBothEndsHoldTheSameNumbers) {
   Random random(7);
-  std::vector<PackedBody> bodies;
+  std::vector<WireBody> bodies;
+  std::vector<BodyState> states;
   for (int i = 0; i < 400; ++i) {
-    PackedBody b;
-    b.id = i;
-    b.epoch = i % 5;
-    b.state.position = Vec2(static_cast<float>(random.Uniform(-500, 500)),
-                            static_cast<float>(random.Uniform(-500, 500)));
-    b.state.angle = static_cast<float>(random.Uniform(-50, 50));
-    b.state.velocity = Vec2(static_cast<float>(random.Uniform(-100, 100)),
-                            static_cast<float>(random.Uniform(-100, 100)));
-    b.state.spin = static_cast<float>(random.Uniform(-90, 90));
-    const BodyState q = Quantised(b.state);
+    BodyState b;
+    b.position = Vec2(static_cast<float>(random.Uniform(-500, 500)),
+                      static_cast<float>(random.Uniform(-500, 500)));
+    b.angle = static_cast<float>(random.Uniform(-50, 50));
+    b.velocity = Vec2(static_cast<float>(random.Uniform(-100, 100)),
+                      static_cast<float>(random.Uniform(-100, 100)));
+    b.spin = static_cast<float>(random.Uniform(-90, 90));
+    const BodyState q = Quantised(b);
     const BodyState qq = Quantised(q);
     EXPECT_EQ(q.position, qq.position);
     EXPECT_EQ(q.angle, qq.angle);
     EXPECT_EQ(q.velocity, qq.velocity);
     EXPECT_EQ(q.spin, qq.spin);
-    EXPECT_LE((q.position - b.state.position).cwiseAbs().maxCoeff(), kPositionQuantum * 0.51f);
-    EXPECT_LE(std::fabs(q.spin - b.state.spin), kVelocityQuantum * 0.51f);
-    b.state = q;
-    bodies.push_back(b);
+    EXPECT_LE((q.position - b.position).cwiseAbs().maxCoeff(), kPositionQuantum * 0.51f);
+    EXPECT_LE(std::fabs(q.spin - b.spin), kVelocityQuantum * 0.51f);
+    WireBody wire = Quantise(b);
+    wire.id = i;
+    wire.epoch = i % 5;
+    bodies.push_back(wire);
+    states.push_back(q);
   }
   std::size_t seen = 0;
   for (const States& s : Pack(States{}, bodies)) {
     ASSERT_LE(s.id.size(), kStatesBodiesMax);
     for (std::size_t i = 0; i < s.id.size(); ++i, ++seen) {
-      const PackedBody& sent = bodies[static_cast<std::size_t>(s.id[i])];
+      const BodyState& sent = states[static_cast<std::size_t>(s.id[i])];
+      EXPECT_EQ(s.epoch[i], s.id[i] % 5);
       // The receiver's own copy is less than half a turn away.
-      const BodyState got = Unpack(s, i, sent.state.angle + 2.5f);
-      EXPECT_EQ(got.position, sent.state.position);
-      EXPECT_EQ(got.angle, sent.state.angle);
-      EXPECT_EQ(got.velocity, sent.state.velocity);
-      EXPECT_EQ(got.spin, sent.state.spin);
+      const BodyState got = Unpack(s, i, sent.angle + 2.5f);
+      EXPECT_EQ(got.position, sent.position);
+      EXPECT_EQ(got.angle, sent.angle);
+      EXPECT_EQ(got.velocity, sent.velocity);
+      EXPECT_EQ(got.spin, sent.spin);
     }
   }
   EXPECT_EQ(seen, bodies.size());

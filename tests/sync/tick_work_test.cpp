@@ -77,10 +77,8 @@ TEST(TickWork, ADistantBodyBecomesPresentIfItsAuthorityPlacesItNear) {
   for (int tick = 0; tick < 60; ++tick) replica->Step();
   constexpr int kFirst = 2;  // of the far ones
   ASSERT_EQ(replica->world().motion(kFirst), Motion::kAbsent);
-  PackedBody body;
+  WireBody body = Quantise({{0, 1.6f}, 0, {0, -2}, 0});
   body.id = replica->world().id(kFirst);
-  body.state.position = {0, 1.6f};
-  body.state.velocity = {0, -2};
   States header;
   header.tick = replica->tick();
   header.composition = static_cast<std::int64_t>(replica->world().composition().hash);

@@ -32,9 +32,9 @@ PackedMotion::PackedMotion(float x, float y, int hz) : tick_hz(std::max(1, hz)) 
   gravity_y = fine(y);
 }
 
-PackedState PredictVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
-                            bool falls) {
-  PackedState to = from;
+WireBody PredictVelocity(const PackedMotion& motion, const WireBody& from, std::int64_t tick,
+                         bool falls) {
+  WireBody to = from;
   to.tick = tick;
   if (!falls) return to;
   const std::int64_t ticks = Ticks(from.tick, tick);
@@ -43,7 +43,7 @@ PackedState PredictVelocity(const PackedMotion& motion, const PackedState& from,
   return to;
 }
 
-void PredictPose(const PackedMotion& motion, const PackedState& from, PackedState* to) {
+void PredictPose(const PackedMotion& motion, const WireBody& from, WireBody* to) {
   const std::int64_t ticks = Ticks(from.tick, to->tick);
   // Positions are in 1/512 m and velocities in 1/256 m/s, so the sum of two velocities is their
   // mean in position units per second.

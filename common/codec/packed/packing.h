@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "common/codec/packed/bits.h"
+#include "common/codec/wire_body.h"
 
 namespace seam {
 
@@ -22,38 +23,16 @@ struct PackedMotion {
   PackedMotion(float x, float y, int hz);
 };
 
-/// A body's entry of a States, quantised; x and y are from the room's origin.
-struct PackedState {
-  std::int64_t tick = 0;
-  std::int32_t epoch = 0;
-  std::uint32_t x = 0, y = 0;  ///< two's complement
-  std::int16_t angle = 0, vx = 0, vy = 0, spin = 0;
-  std::int8_t flags = 0;
-};
-
-/// Header fields common to all entries of a States.
-struct PackedHeader {
-  std::int32_t peer = 0;  ///< the authority
-  std::int64_t tick = 0;
-  std::int32_t revision = 0;
-  std::int64_t composition = 0;
-};
-/// One body's id and state.
-struct PackedEntry {
-  std::int32_t id = 0;
-  PackedState state;
-};
-
-/// Fields of a PackedState that are coded as differences, in this order.
+/// Fields of a WireBody that are coded as differences, in this order.
 enum PackedField { kPackedVx, kPackedVy, kPackedSpin, kPackedX, kPackedY, kPackedAngle };
 constexpr std::size_t kPackedFields = 6;
 
-/// Predicts the velocities of `from` at `tick`: under gravity if it `falls`, else unchanged. Epoch
-/// and flags are those of `from`.
-PackedState PredictVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
-                            bool falls);
+/// Predicts the velocities of `from` at `tick`: under gravity if it `falls`, else unchanged. Id,
+/// epoch and flags are those of `from`.
+WireBody PredictVelocity(const PackedMotion& motion, const WireBody& from, std::int64_t tick,
+                         bool falls);
 /// Predicts the pose of `to` at to->tick from the pose of `from` and the mean of both velocities.
-void PredictPose(const PackedMotion& motion, const PackedState& from, PackedState* to);
+void PredictPose(const PackedMotion& motion, const WireBody& from, WireBody* to);
 
 /// Adaptive state of the coding of one message; reset for each message.
 struct PackedContext {
@@ -63,7 +42,7 @@ struct PackedContext {
   std::array<AdaptiveGolomb, kPackedFields> fresh{AdaptiveGolomb(9),  AdaptiveGolomb(9),
                                                   AdaptiveGolomb(8),  AdaptiveGolomb(10),
                                                   AdaptiveGolomb(10), AdaptiveGolomb(13)};
-  PackedState last;         // state of the previous entry
+  WireBody last;            // state of the previous entry
   std::int32_t id_gap = 0;  // id distance of the previous entry in the group; 0: none
   std::int32_t id = -1;     // id of the previous entry in the group
   std::uint32_t back = 0;   // messages back to the previous entry's reference state; 0: none

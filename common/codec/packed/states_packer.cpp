@@ -4,8 +4,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "common/codec/quanta.h"
-
 namespace seam {
 namespace {
 
@@ -55,25 +53,11 @@ class Run {
   int width_ = 0;  // at most 32
 };
 
-PackedState EntryOf(const States& states, std::size_t i) {
-  PackedState state;
-  state.tick = states.tick;
-  state.epoch = states.epoch[i];
-  state.flags = states.flags[i];
-  state.x = static_cast<std::uint32_t>(states.origin_x * kQuantaPerMetre + states.x[i]);
-  state.y = static_cast<std::uint32_t>(states.origin_y * kQuantaPerMetre + states.y[i]);
-  state.angle = states.angle[i];
-  state.vx = states.vx[i];
-  state.vy = states.vy[i];
-  state.spin = states.spin[i];
-  return state;
-}
-
 std::int32_t Difference(std::int16_t a, std::int16_t b) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
 }
 
-std::int32_t VelocityError(const PackedState& state, const PackedState& guess) {
+std::int32_t VelocityError(const WireBody& state, const WireBody& guess) {
   return std::abs(Difference(state.vx, guess.vx)) + std::abs(Difference(state.vy, guess.vy));
 }
 
@@ -95,7 +79,7 @@ void StatesPacker::Spare(std::vector<Sent>* bodies) {
   *bodies = {};
 }
 
-void StatesPacker::Begin(const PackedHeader& header) {
+void StatesPacker::Begin(const StatesHeader& header) {
   open_ = true;
   ++number_;
   if (sent_.size() >= kSentMost) {
@@ -120,7 +104,7 @@ void StatesPacker::Begin(const PackedHeader& header) {
   context_.tick = header.tick;
 }
 
-void StatesPacker::BeginGroup(const PackedHeader& header) {
+void StatesPacker::BeginGroup(const StatesHeader& header) {
   group_ = true;
   bits_.Put(1, 1);
   bits_.PutGolomb(static_cast<std::uint32_t>(header.peer), 4);
@@ -142,7 +126,7 @@ void StatesPacker::End() {
   ready_.push_back(std::move(message));
 }
 
-void StatesPacker::PutDifferences(const PackedState& state, const PackedState& guess,
+void StatesPacker::PutDifferences(const WireBody& state, const WireBody& guess,
                                   std::array<AdaptiveGolomb, kPackedFields>* learned) {
   Run run(&bits_);
   const auto put = [&](PackedField field, std::int32_t difference) __attribute__((always_inline)) {
@@ -160,10 +144,10 @@ void StatesPacker::PutDifferences(const PackedState& state, const PackedState& g
   run.End();
 }
 
-void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
+void StatesPacker::AddBody(const WireBody& state) {
   Run run(&bits_);
   run.Put(1, 1);
-  const std::int32_t gap = id - context_.id;
+  const std::int32_t gap = state.id - context_.id;
   if (gap == context_.id_gap) {
     run.Put(1, 1);
   } else {
@@ -171,14 +155,14 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
     run.PutGolomb(static_cast<std::uint32_t>(gap - 1), context_.id < 0 ? 8 : 2);
   }
   context_.id_gap = context_.id < 0 ? 1 : gap;
-  context_.id = id;
-  Known& known = KnownOf(id);
+  context_.id = state.id;
+  Known& known = KnownOf(state.id);
   const bool kept = known.number >= 0 && known.sent - known.count < kPackedKept;
   const auto back = kept ? static_cast<std::uint32_t>(number_ - known.number) : 0;
   run.Put(back == context_.back ? 1 : 0, 1);
   if (back != context_.back) run.PutGolomb(back, 4);
   context_.back = back;
-  const PackedState& before = kept ? known.state : context_.last;
+  const WireBody& before = kept ? known.state : context_.last;
   const bool same = state.epoch == before.epoch && state.flags == before.flags;
   run.Put(same ? 1 : 0, 1);
   if (!same) {
@@ -187,11 +171,11 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
   }
   if (kept) {
     // Chooses the better prediction: free fall or constant velocity.
-    const PackedState fallen = PredictVelocity(motion_, before, state.tick, true);
+    const WireBody fallen = PredictVelocity(motion_, before, state.tick, true);
     const bool falls = VelocityError(state, fallen) < VelocityError(state, before);
     run.Put(falls ? 1 : 0, 1);
     run.End();
-    PackedState now = state;
+    WireBody now = state;
     PredictPose(motion_, before, &now);
     now.vx = falls ? fallen.vx : before.vx;
     now.vy = falls ? fallen.vy : before.vy;
@@ -199,17 +183,16 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
     PutDifferences(state, now, &context_.known);
   } else {
     run.End();
-    PackedState guess;
+    WireBody guess;
     guess.x = context_.last.x;
     guess.y = context_.last.y;
     PutDifferences(state, guess, &context_.fresh);
   }
   context_.last = state;
-  sent_.back().push_back({id, ++known.sent, state});
+  sent_.back().push_back({state, ++known.sent});
 }
 
-void StatesPacker::AddEntry(const PackedHeader& header, std::int32_t id, const PackedState& state,
-                            bool* begun) {
+void StatesPacker::AddEntry(const StatesHeader& header, const WireBody& state, bool* begun) {
   if (open_ && bits_.size() + kEntryBytesMost > kPackedBytesMax) End();
   if (!open_) {
     Begin(header);
@@ -220,25 +203,24 @@ void StatesPacker::AddEntry(const PackedHeader& header, std::int32_t id, const P
     BeginGroup(header);
     *begun = true;
   }
-  AddBody(state, id);
+  AddBody(state);
 }
 
 void StatesPacker::Add(const States& states) {
-  const PackedHeader header{states.peer, states.tick, states.revision, states.composition};
+  const StatesHeader header = HeaderOf(states);
   const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
   bool begun = false;
   for (std::size_t i = 0; i < states.id.size(); ++i) {
-    AddEntry(header, states.id[i], EntryOf(states, i), &begun);
+    AddEntry(header, BodyAt(states, i), &begun);
   }
 }
 
-void StatesPacker::Add(const PackedHeader& header, const PackedEntry* begin,
-                       const PackedEntry* end) {
+void StatesPacker::Add(const StatesHeader& header, const WireBody* begin, const WireBody* end) {
   const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
   bool begun = false;
-  for (; begin != end; ++begin) AddEntry(header, begin->id, begin->state, &begun);
+  for (; begin != end; ++begin) AddEntry(header, *begin, &begun);
 }
 
 std::vector<StatesPacker::Message> StatesPacker::Take(std::int64_t now_us) {
@@ -259,7 +241,8 @@ void StatesPacker::FindLostStates(std::int64_t until_us) {
     const std::vector<Sent>* const bodies = StatesSentIn(in_flight_.front().number);
     if (bodies == nullptr) continue;
     for (const Sent& sent : *bodies) {
-      if (KnownOf(sent.id).count < sent.count) owed_.push_back({sent.id, sent.count, 0, kResendUs});
+      const std::int32_t id = sent.state.id;
+      if (KnownOf(id).count < sent.count) owed_.push_back({id, sent.count, 0, kResendUs});
     }
   }
   if (owed_.size() == before) return;
@@ -300,7 +283,7 @@ void StatesPacker::Acknowledge(std::int64_t number) {
   std::vector<Sent>* const bodies = StatesSentIn(number);
   if (bodies == nullptr) return;
   for (const Sent& sent : *bodies) {
-    Known& known = KnownOf(sent.id);
+    Known& known = KnownOf(sent.state.id);
     if (number < known.number) continue;
     known.number = number;
     known.count = sent.count;

@@ -26,8 +26,8 @@ class StatesPacker {
   };
   /// Adds the contents of a States except utime and sequence.
   void Add(const States& states);
-  /// Adds entries with ascending ids; their states must have the header's tick.
-  void Add(const PackedHeader& header, const PackedEntry* begin, const PackedEntry* end);
+  /// Adds bodies with ascending ids, at the header's tick.
+  void Add(const StatesHeader& header, const WireBody* begin, const WireBody* end);
   bool empty() const { return !open_ && ready_.empty(); }
   /// Returns the messages with everything added since the last call, in order, to be sent at
   /// `now_us`.
@@ -43,9 +43,8 @@ class StatesPacker {
 
  private:
   struct Sent {
-    std::int32_t id = 0;
+    WireBody state;
     std::int32_t count = 0;  // number of the state among those sent of the body, from 1
-    PackedState state;
   };
   /// A message in flight or lost.
   struct InFlight {
@@ -60,17 +59,17 @@ class StatesPacker {
   struct Known {
     std::int64_t number = -1;  // message that carried the state; -1: none acknowledged
     std::int32_t count = 0, sent = 0;
-    PackedState state;
+    WireBody state;
   };
-  void Begin(const PackedHeader& header);
-  void BeginGroup(const PackedHeader& header);
-  /// Adds an entry, in a new message if the open one is full. `*begun`: the open group is for these
-  /// entries; if not, begins a group and sets it.
-  void AddEntry(const PackedHeader& header, std::int32_t id, const PackedState& state, bool* begun);
+  void Begin(const StatesHeader& header);
+  void BeginGroup(const StatesHeader& header);
+  /// Adds a body, in a new message if the open one is full. `*begun`: the open group is for these
+  /// bodies; if not, begins a group and sets it.
+  void AddEntry(const StatesHeader& header, const WireBody& state, bool* begun);
   void End();
   void Spare(std::vector<Sent>* bodies);
-  void AddBody(const PackedState& state, std::int32_t id);
-  void PutDifferences(const PackedState& state, const PackedState& guess,
+  void AddBody(const WireBody& state);
+  void PutDifferences(const WireBody& state, const WireBody& guess,
                       std::array<AdaptiveGolomb, kPackedFields>* learned);
   Known& KnownOf(std::int32_t id);
   /// Returns the states in a message, empty once acknowledged; nullptr if no longer recorded.

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "common/codec/quanta.h"
 #include "common/codec/validate.h"
 
 namespace seam {
@@ -27,32 +26,9 @@ bool InRange(std::uint32_t coordinate) {
   return value >= -kCoordinateMax && value <= kCoordinateMax;
 }
 
-void Append(std::int32_t id, const PackedState& state, States* to) {
-  to->id.push_back(id);
-  to->epoch.push_back(state.epoch);
-  to->flags.push_back(state.flags);
-  to->x.push_back(static_cast<std::int16_t>(static_cast<std::int32_t>(state.x) -
-                                            to->origin_x * kQuantaPerMetre));
-  to->y.push_back(static_cast<std::int16_t>(static_cast<std::int32_t>(state.y) -
-                                            to->origin_y * kQuantaPerMetre));
-  to->angle.push_back(state.angle);
-  to->vx.push_back(state.vx);
-  to->vy.push_back(state.vy);
-  to->spin.push_back(state.spin);
-}
-
-bool Fits(const States& states, const PackedState& state) {
-  const auto near = [](std::int32_t origin, std::uint32_t at) {
-    return std::abs(static_cast<std::int32_t>(at) - origin * kQuantaPerMetre) <
-           kOriginReach * kQuantaPerMetre;
-  };
-  return states.id.size() < kStatesBodiesMax && near(states.origin_x, state.x) &&
-         near(states.origin_y, state.y);
-}
-
 }  // namespace
 
-const PackedState* StatesUnpacker::Find(std::int32_t id, std::int64_t number) const {
+const WireBody* StatesUnpacker::Find(std::int32_t id, std::int64_t number) const {
   const auto i = static_cast<std::size_t>(id);
   if (i >= place_.size() || place_[i] < 0) return nullptr;
   // Searched from the newest: most reference states are recent.
@@ -68,7 +44,7 @@ std::size_t StatesUnpacker::kept() const {
 }
 
 void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
-  const auto i = static_cast<std::size_t>(entry.id);
+  const auto i = static_cast<std::size_t>(entry.state.id);
   if (place_.size() <= i) place_.resize(i + 1, -1);
   if (place_[i] < 0) {
     place_[i] = static_cast<std::int32_t>(kept_.size());
@@ -99,17 +75,18 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   const std::int64_t id = context.id + gap;
   if (id >= kIdsMax) return false;
   context.id_gap = context.id < 0 ? 1 : static_cast<std::int32_t>(gap);
-  context.id = entry->id = static_cast<std::int32_t>(id);
+  context.id = static_cast<std::int32_t>(id);
   if (bits->Get(1) == 0) context.back = bits->GetGolomb(4);
-  const PackedState* from = nullptr;
+  const WireBody* from = nullptr;
   if (context.back > 0) {
     entry->from = number - context.back;
-    from = Find(entry->id, entry->from);
+    from = Find(context.id, entry->from);
     if (from == nullptr) return false;
   }
-  const PackedState& before = from != nullptr ? *from : context.last;
-  PackedState state;
+  const WireBody& before = from != nullptr ? *from : context.last;
+  WireBody state;
   state.tick = context.tick;
+  state.id = context.id;
   state.epoch = before.epoch;
   state.flags = before.flags;
   if (bits->Get(1) == 0) {
@@ -127,7 +104,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
     *value = Low(static_cast<std::uint32_t>(*value) + get(field));
   };
   if (from != nullptr) {
-    const PackedState guess = PredictVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
+    const WireBody guess = PredictVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
     state.vx = guess.vx;
     state.vy = guess.vy;
     state.spin = guess.spin;
@@ -149,7 +126,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
 }
 
 /// Begins the next States of a message, without bodies, with its origin at the first body.
-States* StatesUnpacker::Begin(const States& header, const PackedState& first) {
+States* StatesUnpacker::Begin(const States& header, const WireBody& first) {
   if (spare_.empty()) spare_.emplace_back();
   told_.push_back(std::move(spare_.back()));
   spare_.pop_back();
@@ -196,7 +173,7 @@ const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed) {
       Entry entry;
       if (!TakeBody(&bits, number, &entry)) return nullptr;
       if (states == nullptr || !Fits(*states, entry.state)) states = Begin(header, entry.state);
-      Append(entry.id, entry.state, states);
+      AppendBody(entry.state, states);
       entries_.push_back(entry);
     }
     if (states == nullptr || !bits.ok()) return nullptr;

@@ -26,7 +26,7 @@ class StatesUnpacker {
  private:
   struct Kept {
     std::int64_t number = 0;  // number of its message
-    PackedState state;
+    WireBody state;
   };
   struct Body {
     std::vector<Kept> all;  // newest states, ascending by number
@@ -35,13 +35,12 @@ class StatesUnpacker {
     std::int64_t marked = -1, marked_from = -1;
   };
   struct Entry {
-    std::int32_t id = 0;
     std::int64_t from = -1;  // message of its reference state; -1: none
-    PackedState state;
+    WireBody state;
   };
-  States* Begin(const States& header, const PackedState& first);
+  States* Begin(const States& header, const WireBody& first);
   bool TakeBody(BitReader* bits, std::int64_t number, Entry* entry);
-  const PackedState* Find(std::int32_t id, std::int64_t number) const;
+  const WireBody* Find(std::int32_t id, std::int64_t number) const;
   void Keep(std::int64_t number, const Entry& entry);
 
   const PackedMotion motion_;

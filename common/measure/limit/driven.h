@@ -7,8 +7,7 @@
 
 namespace seam {
 
-/// Returns, by body, true if its mechanism holds the player's vehicle, a character of the player, a
-/// part with the player as Part::owner, or a part with a seat on which the player sits.
+/// Returns, by body, true if a part makes its mechanism the player's own (EachOwnPart).
 std::vector<bool> DrivenBy(const World& world, int player);
 
 }  // namespace seam

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "common/scene/character.h"
+#include "common/scene/ownership.h"
 
 namespace seam {
 
@@ -35,26 +35,18 @@ std::vector<PartId> OwnBodies::Find(int edits, int player) const {
   const Composition& composition = revision->composition();
   if (player < 0 || static_cast<std::size_t>(player) >= scene.players.size()) return {};
   std::set<int> mechanisms;
-  const auto add = [&](PartId part) {
-    const int of = revision->AssemblyOf(part);
-    if (of < 0) return;
-    const int mechanism = composition.assemblies[static_cast<std::size_t>(of)].mechanism;
-    if (mechanism >= 0) mechanisms.insert(mechanism);
-  };
-  add(scene.players[static_cast<std::size_t>(player)].vehicle);
-  for (const Part& part : scene.parts) {
-    if (part.owner == player && !part.gone) add(part.id);
-  }
-  for (const Character& character : scene.characters) {
-    if (character.player == player) add(character.parts[kTorso]);
-  }
-  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
-    int who = revisions_->At(0)->scene().seats[s].player;
+  const auto sitter = [&](std::size_t seat) {
+    int player_there = revisions_->At(0)->scene().seats[seat].player;
     for (const Sitting& sitting : sittings_) {
-      if (sitting.number < edits && sitting.seat == static_cast<int>(s)) who = sitting.player;
+      const bool here = sitting.number < edits && sitting.seat == static_cast<int>(seat);
+      if (here) player_there = sitting.player;
     }
-    if (who == player) add(scene.seats[s].part);
-  }
+    return player_there;
+  };
+  EachOwnPart(scene, player, sitter, [&](PartId part) {
+    const int mechanism = MechanismIn(composition, part);
+    if (mechanism >= 0) mechanisms.insert(mechanism);
+  });
   std::vector<PartId> ids;
   for (const Assembly& assembly : composition.assemblies) {
     if (!assembly.anchored && mechanisms.count(assembly.mechanism) > 0) ids.push_back(assembly.id);

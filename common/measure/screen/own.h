@@ -10,9 +10,8 @@
 namespace seam {
 
 /// Peer p plays the scene's player p - 1: the server gives that place while it is free. A body is
-/// the peer's own if its mechanism holds, after the view's edits, the player's `vehicle`, a part
-/// with the player as `owner`, a character of the player, or a part with a seat that the player
-/// sits on. Authority does not count, so that all methods are compared by the same bodies. The
+/// the peer's own if after the view's edits a part makes its mechanism the player's (EachOwnPart).
+/// Authority does not count, so that all methods are compared by the same bodies. The
 /// server, peer 0, has no bodies of its own.
 class OwnBodies {
  public:

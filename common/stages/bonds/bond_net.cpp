@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/disjoint_sets.h"
+#include "common/base/spatial/disjoint_sets.h"
 
 namespace seam {
 namespace {

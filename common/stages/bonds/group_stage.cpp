@@ -2,8 +2,8 @@
 #include <cmath>
 #include <set>
 
-#include "common/base/disjoint_sets.h"
 #include "common/base/geometry.h"
+#include "common/base/spatial/disjoint_sets.h"
 #include "common/physics/world_shapes.h"
 #include "common/scene/grouping.h"
 #include "common/stages/bonds/relative_rest.h"

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/spatial/box_index.h"
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/mode.h"
 #include "common/sync/peer_set.h"
-#include "common/sync/reach/kept_boxes.h"
 #include "common/sync/roles.h"
 #include "common/sync/table/body_column.h"
 #include "common/sync/table/mechanism_column.h"
@@ -117,7 +117,7 @@ class Presence {
     int changed_in = -1;      // last check before which it may have changed
   };
   BodyColumn<Rested> rested_;
-  KeptBoxes resting_;
+  BoxIndex<MovingBox> resting_;
   std::vector<int> rests_;    // bodies in resting_; some rest no more
   float fastest_ = 0;         // speed of the fastest of them, m/s
   std::uint64_t change_ = 0;  // World::last_change at the last check

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/base/disjoint_sets.h"
+#include "common/base/spatial/disjoint_sets.h"
 
 namespace seam {
 

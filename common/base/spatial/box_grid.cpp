@@ -1,6 +1,7 @@
-#include "common/sync/reach/box_grid.h"
+#include "common/base/spatial/box_grid.h"
 
 #include <cmath>
+#include <utility>
 
 namespace seam {
 namespace {
@@ -25,39 +26,23 @@ std::pair<float, float> Middle(std::vector<float> values) {
 
 }  // namespace
 
-BoxGrid::BoxGrid(const std::vector<MovingBox>& boxes, const std::vector<char>* use) {
-  std::vector<int> small;
-  std::vector<Vec2> centres;
-  small.reserve(boxes.size());
-  centres.reserve(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (use != nullptr && (*use)[i] == 0) continue;
-    const float half = (boxes[i].max - boxes[i].min).maxCoeff() / 2;
-    if (half > kCellSide / 2) {
-      large_.push_back(static_cast<int>(i));
-      continue;
-    }
-    widest_ = std::max(widest_, half);
-    small.push_back(static_cast<int>(i));
-    centres.push_back((boxes[i].min + boxes[i].max) / 2);
-  }
-  if (small.empty()) return;
+void BoxGrid::Fill(const std::vector<int>& boxes, const std::vector<Eigen::Vector2f>& centres) {
   ChooseCells(centres);
-  std::vector<std::size_t> cell_of(small.size());
+  std::vector<std::size_t> cell_of(boxes.size());
   start_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (std::size_t k = 0; k < small.size(); ++k) {
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
     cell_of[k] = Cell(Column(centres[k].x()), Row(centres[k].y()));
     ++start_[cell_of[k] + 1];
   }
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
   std::vector<int> next(start_.begin(), start_.end() - 1);
-  items_.resize(small.size());
-  for (std::size_t k = 0; k < small.size(); ++k) {
-    items_[static_cast<std::size_t>(next[cell_of[k]]++)] = small[k];
+  items_.resize(boxes.size());
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    items_[static_cast<std::size_t>(next[cell_of[k]]++)] = boxes[k];
   }
 }
 
-void BoxGrid::ChooseCells(const std::vector<Vec2>& centres) {
+void BoxGrid::ChooseCells(const std::vector<Eigen::Vector2f>& centres) {
   std::vector<float> xs, ys;
   const std::size_t every = 1 + centres.size() / kSamples;
   for (std::size_t i = 0; i < centres.size(); i += every) {

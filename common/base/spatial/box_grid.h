@@ -2,22 +2,41 @@
 /// Grid of 8 m cells in flat arrays; finds the boxes that may be near a rectangle without checking
 /// all of them.
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <vector>
-
-#include "common/sync/reach/zones.h"
 
 namespace seam {
 
 class BoxGrid {
  public:
-  /// Indexes all boxes, or only those with a nonzero entry in `use` (by box).
-  explicit BoxGrid(const std::vector<MovingBox>& boxes, const std::vector<char>* use = nullptr);
+  /// Indexes all boxes (with corners `min` and `max`, m), or only those with a nonzero entry in
+  /// `use` (by box).
+  template <class Box>
+  explicit BoxGrid(const std::vector<Box>& boxes, const std::vector<char>* use = nullptr) {
+    std::vector<int> small;
+    std::vector<Eigen::Vector2f> centres;
+    small.reserve(boxes.size());
+    centres.reserve(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (use != nullptr && (*use)[i] == 0) continue;
+      const float half = (boxes[i].max - boxes[i].min).maxCoeff() / 2;
+      if (half > kCellSide / 2) {
+        large_.push_back(static_cast<int>(i));
+        continue;
+      }
+      widest_ = std::max(widest_, half);
+      small.push_back(static_cast<int>(i));
+      centres.push_back((boxes[i].min + boxes[i].max) / 2);
+    }
+    if (!small.empty()) Fill(small, centres);
+  }
 
   /// Calls `visit` (a box index) once for each box that overlaps the rectangle, and for some that
   /// lie a few cells beside it.
   template <class Visit>
-  void Near(const Vec2& min, const Vec2& max, const Visit& visit) const {
+  void Near(const Eigen::Vector2f& min, const Eigen::Vector2f& max, const Visit& visit) const {
     for (const int i : large_) visit(i);
     if (items_.empty()) return;
     const int from = Column(min.x() - widest_), to = Column(max.x() + widest_);
@@ -41,9 +60,11 @@ class BoxGrid {
   std::size_t Cell(int column, int row) const {
     return static_cast<std::size_t>(row * columns_ + column);
   }
-  void ChooseCells(const std::vector<Vec2>& centres);
+  /// Puts boxes with these centres into cells.
+  void Fill(const std::vector<int>& boxes, const std::vector<Eigen::Vector2f>& centres);
+  void ChooseCells(const std::vector<Eigen::Vector2f>& centres);
 
-  Vec2 low_{0, 0};
+  Eigen::Vector2f low_{0, 0};
   float cell_ = kCellSide;
   int columns_ = 1, rows_ = 1;
   float widest_ = 0;        // half of the longest side among the boxes in cells, m

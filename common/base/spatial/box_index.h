@@ -6,22 +6,32 @@
 #include <optional>
 #include <vector>
 
-#include "common/sync/reach/box_grid.h"
+#include "common/base/spatial/box_grid.h"
 
 namespace seam {
 
-class KeptBoxes {
+/// `Box` has the corners `min` and `max`, m.
+template <class Box>
+class BoxIndex {
  public:
   /// Removes all boxes. Numbers must be below `numbers`.
-  void Clear(std::size_t numbers);
+  void Clear(std::size_t numbers) {
+    entry_.assign(numbers, -1);
+    entries_.clear();
+    in_grid_ = 0;
+    grid_.reset();
+  }
   std::size_t numbers() const { return entry_.size(); }
   bool Has(int number) const { return entry_[static_cast<std::size_t>(number)] >= 0; }
   /// Returns the box of a number. Requires Has.
-  const MovingBox& at(int number) const {
+  const Box& at(int number) const {
     return entries_[static_cast<std::size_t>(entry_[static_cast<std::size_t>(number)])].box;
   }
   /// Sets or moves the box of a number.
-  void Put(int number, const MovingBox& box);
+  void Put(int number, const Box& box) {
+    entry_[static_cast<std::size_t>(number)] = static_cast<int>(entries_.size());
+    entries_.push_back({number, box});
+  }
   /// Removes the box of a number; does nothing if there is none.
   void Take(int number) {
     if (!entry_.empty()) entry_[static_cast<std::size_t>(number)] = -1;
@@ -33,7 +43,8 @@ class KeptBoxes {
   }
   /// Calls `visit(number, box)` once for each box that overlaps the rectangle.
   template <class Visit>
-  void EachWithin(const Vec2& min, const Vec2& max, const Visit& visit) const {
+  void EachWithin(const Eigen::Vector2f& min, const Eigen::Vector2f& max,
+                  const Visit& visit) const {
     const auto look = [&](std::size_t i) {
       const Entry& entry = entries_[i];
       const bool kept = entry_[static_cast<std::size_t>(entry.number)] == static_cast<int>(i);
@@ -49,13 +60,27 @@ class KeptBoxes {
   static constexpr std::size_t kLateMost = 16, kLateShare = 64;
   struct Entry {
     int number = 0;
-    MovingBox box;
+    Box box;
   };
-  static bool Overlap(const MovingBox& box, const Vec2& min, const Vec2& max) {
+  static bool Overlap(const Box& box, const Eigen::Vector2f& min, const Eigen::Vector2f& max) {
     return box.min.x() <= max.x() && min.x() <= box.max.x() && box.min.y() <= max.y() &&
            min.y() <= box.max.y();
   }
-  void Rebuild();
+  void Rebuild() {
+    std::size_t left = 0;
+    std::vector<Box> boxes;
+    boxes.reserve(entries_.size());
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      int& entry = entry_[static_cast<std::size_t>(entries_[i].number)];
+      if (entry != static_cast<int>(i)) continue;
+      entry = static_cast<int>(left);
+      boxes.push_back(entries_[i].box);
+      entries_[left++] = entries_[i];
+    }
+    entries_.resize(left);
+    in_grid_ = left;
+    grid_.emplace(boxes);
+  }
 
   std::vector<int> entry_;      // by number: index in entries_; -1: no box
   std::vector<Entry> entries_;  // some are outdated

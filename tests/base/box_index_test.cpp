@@ -1,4 +1,4 @@
-#include "common/sync/reach/kept_boxes.h"
+#include "common/base/spatial/box_index.h"
 
 #include <gtest/gtest.h>
 
@@ -9,24 +9,28 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace kept_boxes_test {
+namespace box_index_test {
 
-MovingBox BoxAt(Random* random, float wide, float side) {
-  const Vec2 at(static_cast<float>(random->Uniform(-wide, wide)),
-                static_cast<float>(random->Uniform(-20, 20)));
-  MovingBox box;
+struct Box {
+  Eigen::Vector2f min{0, 0}, max{0, 0};
+};
+
+Box BoxAt(Random* random, float wide, float side) {
+  const Eigen::Vector2f at(static_cast<float>(random->Uniform(-wide, wide)),
+                           static_cast<float>(random->Uniform(-20, 20)));
+  Box box;
   box.min = at;
-  box.max = at + Vec2(side, side);
+  box.max = at + Eigen::Vector2f(side, side);
   return box;
 }
 
-TEST(KeptBoxes, FindsEachOverlappingBoxOnceAndNoOther) {
+TEST(BoxIndex, FindsEachOverlappingBoxOnceAndNoOther) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
     constexpr int kNumbers = 300;
-    KeptBoxes kept;
+    BoxIndex<Box> kept;
     kept.Clear(kNumbers);
-    std::map<int, MovingBox> truth;
+    std::map<int, Box> truth;
     int found_in_all = 0;
     for (int round = 0; round < 60; ++round) {
       for (int i = 0; i < 20; ++i) {
@@ -41,9 +45,9 @@ TEST(KeptBoxes, FindsEachOverlappingBoxOnceAndNoOther) {
         }
       }
       if (random.Chance(0.5)) kept.Tidy();
-      const MovingBox asked = BoxAt(&random, 250, 30);
+      const Box asked = BoxAt(&random, 250, 30);
       std::vector<int> found, expected;
-      kept.EachWithin(asked.min, asked.max, [&](int number, const MovingBox& box) {
+      kept.EachWithin(asked.min, asked.max, [&](int number, const Box& box) {
         found.push_back(number);
         EXPECT_EQ(box.min, truth.at(number).min);
         EXPECT_EQ(kept.at(number).max, truth.at(number).max);
@@ -64,5 +68,5 @@ TEST(KeptBoxes, FindsEachOverlappingBoxOnceAndNoOther) {
   }
 }
 
-}  // namespace kept_boxes_test
+}  // namespace box_index_test
 }  // namespace seam

@@ -2,13 +2,13 @@
 /// Finds all pairs of boxes that overlap when each is grown. Sweeps along the axis of greatest
 /// spread, in strips across it; linear in the number of boxes if they are not crowded.
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "common/base/sort_keys.h"
-#include "common/sync/reach/zones.h"
 
 namespace seam {
 
@@ -21,17 +21,18 @@ constexpr float kPairRounding = 0.01f;
 ///                         +-----+     --> along
 class BoxSweep {
  public:
-  /// `grow` (of a box's index) returns the margin on all sides, m.
-  template <class Grow>
-  BoxSweep(const std::vector<MovingBox>& boxes, const Grow& grow) {
+  /// `Box` has the corners `min` and `max`, m. `grow` (of a box's index) returns the margin on all
+  /// sides, m.
+  template <class Box, class Grow>
+  BoxSweep(const std::vector<Box>& boxes, const Grow& grow) {
     grown_.reserve(boxes.size());
-    Vec2 low(0, 0), high(0, 0), sides(0, 0);
+    Eigen::Vector2f low(0, 0), high(0, 0), sides(0, 0);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const MovingBox& box = boxes[i];
+      const Box& box = boxes[i];
       low = i == 0 ? box.min : low.cwiseMin(box.min);
       high = i == 0 ? box.max : high.cwiseMax(box.max);
       grown_.push_back(grow(i) + kPairRounding);
-      sides += box.max - box.min + 2 * Vec2(grown_.back(), grown_.back());
+      sides += box.max - box.min + 2 * Eigen::Vector2f(grown_.back(), grown_.back());
     }
     const int along = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
     Divide(boxes.size(), low[1 - along], high[1 - along], sides[1 - along]);
@@ -124,7 +125,8 @@ class BoxSweep {
         std::clamp((at - low_) * per_m_, 0.0f, static_cast<float>(strips_ - 1)));
   }
 
-  void Fill(const std::vector<MovingBox>& boxes, int along) {
+  template <class Box>
+  void Fill(const std::vector<Box>& boxes, int along) {
     std::vector<SortKey> keys, spare;
     keys.reserve(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -153,7 +155,7 @@ class BoxSweep {
     for (const SortKey key : keys) {
       const auto i = static_cast<std::size_t>(key & 0xffffffffu);
       const float more = grown_[i];
-      const Vec2 &min = boxes[i].min, &max = boxes[i].max;
+      const Eigen::Vector2f &min = boxes[i].min, &max = boxes[i].max;
       Span span{
           min[along] - more, max[along] + more, min[1 - along] - more,        max[1 - along] + more,
           strips[i].first,   strips[i].first,   static_cast<std::uint32_t>(i)};
