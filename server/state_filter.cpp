@@ -151,8 +151,7 @@ const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& sta
     const Claim claim{states.peer,     states.tick,          states.revision,
                       states.epoch[i], Unpack(states, i, 0), false};
     if (!MayMove(body, claim)) continue;
-    accepted_[body] = {states.tick, states.epoch[i],
-                                                 claim.state.position};
+    accepted_[body] = {states.tick, states.epoch[i], claim.state.position};
     passed_.push_back(i);
   }
   KeepOf(states, passed_, &kept);
@@ -237,8 +236,7 @@ ExactStates StateFilter::KeepExact(int peer, const ExactStates& exact) {
   for (std::size_t i = 0; i < exact.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(exact.id[i]);
     if (!MayRelease(peer, body, exact, i)) continue;
-    accepted_[body] = {
-        exact.tick, exact.epoch[i], {exact.x[i], exact.y[i]}};
+    accepted_[body] = {exact.tick, exact.epoch[i], {exact.x[i], exact.y[i]}};
     AddPose(exact, i, &kept);
     AddMotion(exact, i, &kept);
   }

@@ -48,8 +48,7 @@ const BodyState* BodyMemory::ComparablePast(int body, std::int64_t tick) const {
 }
 
 bool BodyMemory::Coupled(int mechanism) const {
-  return mechanisms_[mechanism].last_coupled_tick >=
-         world_.tick() - config_.tick_hz / kCoupledPart;
+  return mechanisms_[mechanism].last_coupled_tick >= world_.tick() - config_.tick_hz / kCoupledPart;
 }
 
 bool BodyMemory::Struck(int body) const {

@@ -38,8 +38,9 @@ Vec2 ShiftGained(const Vec2& acceleration, float forward) {
 }
 
 Snapshots::Snapshots(const BodyTable& table)
-    : rings_(table,
-             [](int, const BodyOrigin& origin, Ring* before) { return AfterEdit(origin, before); }) {}
+    : rings_(table, [](int, const BodyOrigin& origin, Ring* before) {
+        return AfterEdit(origin, before);
+      }) {}
 
 void Snapshots::Ring::Push(const Stamped& stamped) {
   const bool needed = size_ == 0 || FromNewest(size_ - 1u).tick > stamped.tick - kKeptTicks;

@@ -48,8 +48,9 @@ AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config,
       at_rest_(replica.table(), BodyRule::kFresh),
       doubtful_(replica.table(), MechanismRule::kFresh, 1),
       restricted_(RestrictedParts(replica.world().scene())),
-      memory_(replica.table(),
-              [this](int m, const std::vector<const Memory*>& before) { return Merged(m, before); }),
+      memory_(
+          replica.table(),
+          [this](int m, const std::vector<const Memory*>& before) { return Merged(m, before); }),
       edited_(replica.table(), [this](const BodyRemap&) {
         open_.clear();
         restricted_ = RestrictedParts(replica_.world().scene());
@@ -255,8 +256,7 @@ AuthorityManager::Right AuthorityManager::RightToRelease(int peer, int body,
   const int m = replica_.world().mechanism(body);
   const AuthorityRecord& record = table().at(m);
   if (epoch <= record.epoch) return Right::kStale;
-  const bool asked = memory_[m].hand_over == HandOver::kRevoking &&
-                     record.authority == peer;
+  const bool asked = memory_[m].hand_over == HandOver::kRevoking && record.authority == peer;
   return asked && epoch == WithoutHolder(record).epoch ? Right::kYes : Right::kNo;
 }
 

@@ -11,8 +11,8 @@
 #include "common/sync/table/body_column.h"
 #include "common/sync/table/mechanism_column.h"
 #include "server/authority/capacity_watch.h"
-#include "server/authority/sleeping_index.h"
 #include "server/authority/plan.h"
+#include "server/authority/sleeping_index.h"
 
 namespace seam {
 

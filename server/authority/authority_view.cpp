@@ -60,8 +60,7 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
   if (boxes) LookAtBoxes(&view);
   view.left_out =
-      SeesAll() ? 0
-                : static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size();
+      SeesAll() ? 0 : static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size();
   // A player that may not push a part does not get its authority.
   const World& world = replica_.world();
   for (const int id : restricted_) {

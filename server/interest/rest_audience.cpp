@@ -26,7 +26,8 @@ void RestAudience::Take(const Rest& rest) {
 
 void RestAudience::MarkPending(int peer, int mechanism) {
   if (!owed_) {
-    owed_.emplace(replica_.table(), [](const PeerSet& before, PeerSet* into) { into->Add(before); });
+    owed_.emplace(replica_.table(),
+                  [](const PeerSet& before, PeerSet* into) { into->Add(before); });
   }
   (*owed_)[mechanism].Add(peer);
 }

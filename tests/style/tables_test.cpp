@@ -22,8 +22,9 @@ bool NumbersByItself(const std::string& path) {
 /// "FILE:LINE" of each member that is a container by body or mechanism, and is neither scratch nor
 /// rebuilt, a line each.
 std::string Uncolumned(const std::vector<Source>& sources) {
-  const Regex member(" *(mutable )?std::(vector|deque|map)<.*>.* [a-z_]+_;.*//.*by "
-                     "(moving )?(body|mechanism).*");
+  const Regex member(
+      " *(mutable )?std::(vector|deque|map)<.*>.* [a-z_]+_;.*//.*by "
+      "(moving )?(body|mechanism).*");
   const Regex passing(".*// (scratch|rebuilt)[ ,].*");
   std::string offenders;
   for (const Source& source : sources) {
@@ -43,8 +44,10 @@ TEST(Tables, ValuesThatSurviveAnEditAreColumns) {
 TEST(Tables, AVectorByBodyIsFoundUnlessItSaysThatItIsScratchOrRebuilt) {
   Source source;
   source.path = "server/a.h";
-  source.lines = {"  std::vector<int> a_;  // by body", "  BodyColumn<int> b_;  // its place",
-                  "  std::vector<int> c_;  // scratch, by body", "  std::vector<int> d_;  // bodies",
+  source.lines = {"  std::vector<int> a_;  // by body",
+                  "  BodyColumn<int> b_;  // its place",
+                  "  std::vector<int> c_;  // scratch, by body",
+                  "  std::vector<int> d_;  // bodies",
                   "  mutable std::map<int, bool> e_;  // rebuilt by Look, by mechanism",
                   "  std::map<int, bool> f_;  // true: seen; by mechanism"};
   EXPECT_EQ(Uncolumned({source}), "server/a.h:1\nserver/a.h:6\n");

@@ -13,6 +13,7 @@
 #include "common/measure/joint_drift.h"
 #include "common/sync/mode.h"
 #include "common/sync/smoother.h"
+#include "tests/support/own_table.h"
 #include "tests/support/small_world.h"
 
 namespace seam {
@@ -76,8 +77,7 @@ std::vector<BodyState> Turning(const World& world, float spin, const Vec2& veloc
 TEST(Reckoner, AMechanismMovesRigidlyAndItsWheelKeepsTurning) {
   World world(ParseScene(kRods, "test.toml"));
   ASSERT_EQ(world.body_count(), 3);
-  const BodyTable bodies(3, 0);
-  Snapshots snapshots(bodies);
+  OwnTable<Snapshots> snapshots(3);
   const std::vector<BodyState> states = Turning(world, 3, Vec2(5, -1));
   for (int body = 0; body < 3; ++body) {
     snapshots.Add(body, 0, states[static_cast<std::size_t>(body)]);
@@ -115,8 +115,7 @@ BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodySta
       "a = \"a\"\nb = \"b\"\nfrequency = 5\n" +
           joint,
       "sprung.toml"));
-  const BodyTable bodies(2, 0);
-  Snapshots snapshots(bodies);
+  OwnTable<Snapshots> snapshots(2);
   BodyState b = world.Read(1);
   b.velocity = moves.velocity;
   b.spin = moves.spin;
@@ -159,8 +158,7 @@ TEST(Reckoner, ASpringedBodySwingsAndTravelsNoFurther) {
 
 TEST(Reckoner, StatesOfDifferentTicksDoNotOpenItsJoints) {
   World world(ParseScene(kRods, "test.toml"));
-  const BodyTable bodies(3, 0);
-  Snapshots snapshots(bodies);
+  OwnTable<Snapshots> snapshots(3);
   const std::vector<BodyState> states = Turning(world, 1, Vec2(0, 0));
   snapshots.Add(0, 6, states[0]);
   snapshots.Add(1, 0, states[1]);
@@ -222,8 +220,7 @@ TEST(Reckoner, ClosingOpenJointsAddsNoMotion) {
   const JointCloser joints(world);
   float fastest = 0, jumped = 0;
   for (int draw = 0; draw < 400; ++draw) {
-    const BodyTable bodies(3, 0);
-    Snapshots snapshots(bodies);
+    OwnTable<Snapshots> snapshots(3);
     for (int body = 0; body < 3; ++body) {
       BodyState s = world.Read(body);
       s.position += Vec2(off(random), off(random));
@@ -276,8 +273,7 @@ spin = 1
 TEST(Reckoner, AFreelyFallingBodyBouncesOffAnchoredOnes) {
   World world(ParseScene(kThrown, "test.toml"));
   const JointCloser joints(world);
-  const BodyTable bodies(2, 0);
-  Snapshots falling(bodies), straight(bodies);
+  OwnTable<Snapshots> falling(2), straight(2);
   for (int body = 0; body < 2; ++body) {
     falling.Add(body, 0, world.Read(body), true);
     straight.Add(body, 0, world.Read(body));
@@ -309,8 +305,7 @@ TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
   World truth(ParseScene(kThrown, "test.toml"));
   world.SetMotion(0, Motion::kAbsent);
   const JointCloser joints(world);
-  const BodyTable bodies(2, 0);
-  Snapshots snapshots(bodies);
+  OwnTable<Snapshots> snapshots(2);
   snapshots.Add(0, 0, world.Read(0), true);
   Reckoner reckoner(world, snapshots, joints);
   for (int tick = 0; tick <= 24; tick += kAbsentEvery) {
@@ -325,8 +320,7 @@ TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
 
 TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   World world(ParseScene(kRods, "test.toml"));
-  const BodyTable bodies(3, 0);
-  Smoother smoother(bodies, kSmoothRate);
+  OwnTable<Smoother> smoother(3, kSmoothRate);
   for (int body = 0; body < 3; ++body) {
     // Offset of physics from the view: turned by 1 rad about a point, and moved.
     const BodyState s = world.Read(body);

@@ -65,8 +65,7 @@ Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const
       drivers_(drivers),
       memory_(memory),
       display_(display),
-      inputs_(inputs),
-      carry_shown_(memory.table(), [this](const BodyRemap& change) { CarryShown(change); }) {
+      inputs_(inputs) {
   RecordSeats();
 }
 

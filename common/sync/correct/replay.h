@@ -171,7 +171,7 @@ class Replay {
   bool edited_ = false;             // bodies were recreated since the last step
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;
-  EditHook carry_shown_;
+  EditHook carry_shown_{memory_.table(), [this](const BodyRemap& c) { CarryShown(c); }};
 };
 
 }  // namespace seam

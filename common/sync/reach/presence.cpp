@@ -201,9 +201,8 @@ void Presence::FindNeeded() {
                         });
   };
   for (const MovingBox& box : movers_) {
-    each(box, kRestSeconds + kRestKeep, [&](int m) {
-      return kRestSeconds + (idle_[m] == kNotIdle ? kRestKeep : 0);
-    });
+    each(box, kRestSeconds + kRestKeep,
+         [&](int m) { return kRestSeconds + (idle_[m] == kNotIdle ? kRestKeep : 0); });
   }
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     MovingBox box = resting_.at(needed_[i]);

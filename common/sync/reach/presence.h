@@ -98,9 +98,7 @@ class Presence {
   void Rest(int body, std::uint64_t still);
   void ForgetOthers();
   void Reach(int mechanism);
-  bool Needed(int mechanism) const {
-    return needed_in_[mechanism] == looks_;
-  }
+  bool Needed(int mechanism) const { return needed_in_[mechanism] == looks_; }
 
   MechanismColumn<char> near_;
   std::vector<char> unwatched_;  // see LeaveUnwatched; empty: none

@@ -50,7 +50,7 @@ class Reckoner {
  private:
   /// By body; those of bodies that are not done_ are old.
   struct Paths {
-    std::vector<BodyState> heard;        // of jointed mechanisms
+    std::vector<BodyState> heard;  // of jointed mechanisms
     std::vector<BodyState> here, there;
     std::vector<PathSpeed> speed;
   };
