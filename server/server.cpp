@@ -244,7 +244,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
     const Edit edit = replica_.next_queued();
     const bool hung = replica_.world().topology().hanging().has_value();
-    const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
+    replica_.ApplyNextEdit();
     bounds_.NoteApplied(edit);
     if (config_.sync.mode == Mode::kOracle) {
       broadcast_.Publish(edits_.RecordLocalEdit(edit, now_us));
@@ -252,11 +252,6 @@ void Server::ApplyQueued(std::int64_t now_us) {
       edits_.NoteApplied();
     }
     LetFall(edit, hung);
-    if (!change) continue;
-    authority_.Remap(change->mechanisms);
-    filter_.Remap(change->bodies);
-    broadcast_.Remap(*change);
-    if (rule_source_ != nullptr) rule_source_->Remap(change->bodies);
   }
 }
 

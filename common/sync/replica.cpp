@@ -17,9 +17,10 @@ constexpr std::size_t kImpactsSentMax = 64;
 Replica::Replica(const Topology& topology, const SyncConfig& config, int self, int own_player)
     : config_(config),
       world_(topology),
-      roles_(config_, self, own_player, world_),
+      table_(world_),
+      roles_(config_, self, own_player, world_, table_),
       drivers_(world_, roles_),
-      memory_(config_, world_),
+      memory_(config_, world_, table_),
       presence_(config_, world_, roles_, memory_),
       inputs_(topology.scene().players.size()),
       display_(config_, world_, memory_),

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,6 +35,7 @@
 #include "common/sync/roles.h"
 #include "common/sync/send_scheduler.h"
 #include "common/sync/show/strand_view.h"
+#include "common/sync/table/body_table.h"
 
 namespace seam {
 
@@ -65,6 +65,9 @@ class Replica {
   void Persist(StateArchive& a);
 
   const World& world() const { return world_; }
+  /// The table of the world's bodies and mechanisms, for columns of readers. They must not outlive
+  /// this.
+  const BodyTable& table() const { return table_; }
   const AuthorityTable& authority() const { return roles_.table(); }
   /// The server plans here; clients only apply grants.
   AuthorityTable& authority() { return roles_.table(); }
@@ -113,10 +116,10 @@ class Replica {
   const Edit& next_queued() const { return queued_.front().edit; }
   /// Applies all queued edits that are due.
   void ApplyEdits();
-  /// Applies the next queued edit. Returns the remap of bodies, or nullopt if they are unchanged.
-  /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
+  /// Applies the next queued edit; if it changes bodies, renumbers all columns of table(). Each
+  /// merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
   /// applied two at once would stay an epoch behind. Requires has_queued().
-  std::optional<BodyRemap> ApplyNextEdit();
+  void ApplyNextEdit();
   /// Returns the edits that this peer found as the authority of the affected bodies; in mode oracle
   /// all that physics finds.
   std::vector<FoundEdit> TakeProposals() { return proposals_.Take(); }
@@ -202,7 +205,6 @@ class Replica {
   bool IsComplete(const Edit& edit, std::int64_t found) const;
   /// Returns true if the edit was queued.
   bool Propose(Edit edit, std::int64_t found);
-  void Remap(const BodyRemap& change);
   /// Returns false, with an error in `a`, if the world cannot continue from `now`.
   bool LoadWorld(const WorldSnapshot& now, StateArchive& a);
   void PersistEdits(StateArchive& a);
@@ -216,6 +218,7 @@ class Replica {
   // Order matters: each uses members above it.
   SyncConfig config_;
   World world_;
+  BodyTable table_;
   Roles roles_;
   Drivers drivers_;
   BodyMemory memory_;

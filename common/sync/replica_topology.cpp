@@ -53,7 +53,7 @@ void Replica::ApplyEdits() {
   while (has_queued()) ApplyNextEdit();
 }
 
-std::optional<BodyRemap> Replica::ApplyNextEdit() {
+void Replica::ApplyNextEdit() {
   const QueuedEdit next = std::move(queued_.front());
   queued_.erase(queued_.begin());
   memory_.UnparkAll();  // the edit may reach any of them
@@ -62,17 +62,14 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
     world_.Settle();
   }
   replay_.GoBackTo(next.tick);
-  std::optional<BodyRemap> change = world_.Apply({next.edit});
+  const std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);
   rest_.MarkEdited();
-  if (change) {
-    Remap(*change);
-  } else {
-    FollowRoles();  // the player in a seat determines the predicted mechanisms
-  }
+  if (change) table_.Renumber(*change);
+  FollowRoles();  // also if only the player in a seat, and so the predicted mechanisms, changed
+  if (change && config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
   replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
-  return change;
 }
 
 void Replica::FindEdits() {
@@ -180,17 +177,6 @@ void Replica::GoOnFrom(const World& before) {
     memory_.snapshots().Add(body, tick(), state);
     if (BodyState* past = memory_.history().At(tick(), body)) *past = state;
   }
-}
-
-void Replica::Remap(const BodyRemap& change) {
-  memory_.Remap(change);
-  display_.Remap(change);
-  roles_.Remap(change.mechanisms);
-  presence_.Remap();
-  replay_.Remap(change);
-  rest_.Remap(change);
-  FollowRoles();
-  if (config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
 }
 
 }  // namespace seam

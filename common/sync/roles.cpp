@@ -8,13 +8,27 @@
 #include "common/sync/reach/driven.h"
 
 namespace seam {
+namespace {
 
-Roles::Roles(const SyncConfig& config, int self, int own_player, const World& world)
+/// Every peer simulates a new mechanism, such as pieces freed from bricks, until its grant arrives:
+/// a displayed body flies through walls, and its holder would begin behind them.
+AuthorityRecord FreshRecord(const SyncConfig& config, int self) {
+  AuthorityRecord fresh;
+  if (config.mode != Mode::kBuffer) return fresh;
+  fresh.secondaries.Add(0);
+  fresh.secondaries.Add(self);
+  return fresh;
+}
+
+}  // namespace
+
+Roles::Roles(const SyncConfig& config, int self, int own_player, const World& world,
+             const BodyTable& bodies)
     : config_(config),
       self_(self),
       own_player_(own_player),
       world_(world),
-      table_(world.composition()) {}
+      table_(world.composition(), bodies, FreshRecord(config, self)) {}
 
 std::int8_t Roles::RoleOf(int mechanism) const {
   const AuthorityRecord& h = table_.at(mechanism);
@@ -82,17 +96,6 @@ void Roles::ReleaseAll() {
     h.authority = 0;
     table_.Set(m, h);
   }
-}
-
-void Roles::Remap(const std::vector<std::vector<int>>& from) {
-  // Every peer simulates a new mechanism, such as pieces freed from bricks, until its grant
-  // arrives: a displayed body flies through walls, and its holder would begin behind them.
-  AuthorityRecord fresh;
-  if (config_.mode == Mode::kBuffer) {
-    fresh.secondaries.Add(0);
-    fresh.secondaries.Add(self_);
-  }
-  table_.Remap(world_.composition(), from, fresh);
 }
 
 }  // namespace seam

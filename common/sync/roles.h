@@ -20,8 +20,9 @@ struct GrantsApplied {
 class Roles {
  public:
   /// `self`: peer number. `own_player`: the player whose vehicle this peer predicts in mode
-  /// central, or -1. Config and world must outlive this.
-  Roles(const SyncConfig& config, int self, int own_player, const World& world);
+  /// central, or -1. Config, world and the table of its bodies must outlive this.
+  Roles(const SyncConfig& config, int self, int own_player, const World& world,
+        const BodyTable& bodies);
 
   int self() const { return self_; }
   int own_player() const { return own_player_; }
@@ -56,8 +57,6 @@ class Roles {
   GrantsApplied Apply(const Grants& grants);
   /// Returns all authority of this peer to the server.
   void ReleaseAll();
-  /// Carries the table over after an edit; `from` as in BodyRemap::mechanisms.
-  void Remap(const std::vector<std::vector<int>>& from);
 
  private:
   /// By mechanism: true if the own player drives it.
@@ -69,7 +68,7 @@ class Roles {
   const World& world_;
   AuthorityTable table_;
   PeerSet silent_;
-  mutable std::vector<bool> own_;  // for revision own_of_revision_
+  mutable std::vector<bool> own_;  // rebuilt for each revision, by mechanism
   mutable int own_of_revision_ = -1;
 };
 

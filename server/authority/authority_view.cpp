@@ -59,9 +59,8 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   LookAtMechanisms(situation, &view);
   const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
   if (boxes) LookAtBoxes(&view);
-  view.left_out = seen_.size() < memory_.size()
-                      ? static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size()
-                      : 0;
+  view.left_out =
+      SeesAll() ? 0 : static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size();
   // A player that may not push a part does not get its authority.
   const World& world = replica_.world();
   for (const int id : restricted_) {
@@ -125,7 +124,7 @@ void AuthorityManager::LookAtMechanisms(const PlannerInputs& situation, Authorit
 void AuthorityManager::LookAtMechanism(int m, const PlannerInputs& situation, AuthorityView* view) {
   const World& world = replica_.world();
   const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
-  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[m];
   MechanismView seen;
   const int root = world.BodyOfId(mechanism.id);
   const BodyState state = world.Read(root);
@@ -149,7 +148,7 @@ void AuthorityManager::LookAtMechanism(int m, const PlannerInputs& situation, Au
 }
 
 std::vector<char> AuthorityManager::Unwatched(const AuthorityView& view) const {
-  std::vector<char> unwatched(memory_.size(), 0);
+  std::vector<char> unwatched(memory_.values().size(), 0);
   if (!view.islands) return unwatched;
   if (view.left_out > 0) {
     std::fill(unwatched.begin(), unwatched.end(), char{1});  // all left-out mechanisms sleep

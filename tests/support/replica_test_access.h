@@ -11,6 +11,7 @@ namespace seam {
 
 struct ReplicaTestAccess {
   static World& world(Replica& replica) { return replica.world_; }
+  static BodyTable& table(Replica& replica) { return replica.table_; }
   /// True if the body is parked (Display::Leave) and `at` is outside the displayed area: its pose
   /// here is old, and nobody sees it.
   static bool OutOfSight(const Replica& replica, int body, const Vec2& at) {

@@ -72,8 +72,9 @@ repeat = {count = 2, step = [5, 0]}
 )",
                                                                     "test.toml"));
   SyncConfig config;
-  Roles roles{config, 0, -1, *world};
-  BodyMemory memory{config, *world};
+  BodyTable bodies{*world};
+  Roles roles{config, 0, -1, *world, bodies};
+  BodyMemory memory{config, *world, bodies};
   Display display{config, *world, memory};
   std::vector<InputTrack> inputs;
   Drivers drivers{*world, roles};

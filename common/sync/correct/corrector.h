@@ -114,7 +114,7 @@ class Corrector {
   std::vector<States> waited_;   // former entries of waiting_; their memory is reused
   /// Bodies that were placed but not yet closed: id, and true if extrapolated to now.
   std::vector<std::pair<int, bool>> placed_;
-  std::vector<BodyState> poses_;  // by body: poses of the mechanism being closed
+  std::vector<BodyState> poses_;  // scratch, by body: poses of the mechanism being closed
 };
 
 }  // namespace seam

@@ -72,13 +72,11 @@ class Replay {
   /// world's state.
   void Persist(StateArchive& a, const WorldSnapshot& barrier);
 
-  // Edits at their tick (replay_edits.cpp). For each, in their order: GoBackTo, World::Apply, Remap
-  // if the bodies have changed, Edited; after the last one GoOn.
+  // Edits at their tick (replay_edits.cpp). For each, in their order: GoBackTo, World::Apply,
+  // BodyTable::Renumber if the bodies have changed, Edited; after the last one GoOn.
   /// Rolls back to the state after `tick`, or as near to it as can be reached; never before an edit
   /// that changed bodies. The world stays at that tick until GoOn.
   void GoBackTo(std::int64_t tick);
-  /// Carries the displayed states over to the bodies after an edit.
-  void Remap(const BodyRemap& change);
   /// Records an edit. `changed`: bodies were recreated, and ticks before this edit can no longer be
   /// reached. Replays repeat the other edits at their ticks.
   void Edited(const Edit& edit, bool changed);
@@ -139,6 +137,8 @@ class Replay {
   void ForgetHeard();
   void UndoEdits();
   void RepeatEdits();
+  /// Carries the displayed states over to the bodies after an edit.
+  void CarryShown(const BodyRemap& change);
   bool SimulateFrom(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
@@ -167,7 +167,7 @@ class Replay {
   std::vector<int> sitters_;                          // by seat, as of the last edit
   std::deque<Action> actions_;                        // since the first barrier
   std::int64_t from_ = -1;                            // oldest requested tick; -1: none
-  std::vector<bool> pressed_;                         // by mechanism, for the running replay
+  std::vector<bool> pressed_;                         // scratch of a replay, by mechanism
   bool was_alone_ = false;                            // at the previous send tick
   double credit_ = 0;                                 // ticks that may still be stepped again
   std::function<void()> on_stepped_again_ = [] {};
@@ -176,6 +176,7 @@ class Replay {
   bool edited_ = false;             // bodies were recreated since the last step
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;
+  EditHook carry_shown_{memory_.table(), [this](const BodyRemap& c) { CarryShown(c); }};
 };
 
 }  // namespace seam

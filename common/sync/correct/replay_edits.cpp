@@ -34,7 +34,7 @@ void Replay::GoBackTo(std::int64_t tick) {
   StepTo(std::min(tick, journey_->now));
 }
 
-void Replay::Remap(const BodyRemap& change) {
+void Replay::CarryShown(const BodyRemap& change) {
   if (!journey_) return;
   std::map<int, const Shown*> before;
   for (const Shown& then : journey_->shown) before[then.body] = &then;

@@ -49,9 +49,10 @@ RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& role
       display_(display),
       inputs_(inputs),
       reach_(reach),
-      table_(world.body_count()),
-      watch_(world),
-      disturbed_(static_cast<std::size_t>(world.body_count())) {}
+      table_(memory.table()),
+      watch_(world, memory.table()),
+      disturbed_(memory.table(), BodyRule::kSame),
+      after_edit_(memory.table(), [this](const BodyRemap&) { FindHeld(); }) {}
 
 std::int64_t RestCommit::Ticks(double seconds) const {
   return static_cast<std::int64_t>(seconds * config_.tick_hz);
@@ -220,21 +221,12 @@ void RestCommit::AfterStep() {
   for (const Rest& rest : waiting) Receive(rest);
 }
 
-void RestCommit::Remap(const BodyRemap& change) {
-  table_.Remap(change.bodies);
-  std::vector<Disturbance> disturbed;
-  for (const BodyOrigin& origin : change.bodies) {
-    const bool same = origin.body >= 0 && origin.same;
-    disturbed.push_back(same ? disturbed_[static_cast<std::size_t>(origin.body)] : Disturbance{});
-  }
-  disturbed_ = std::move(disturbed);
-  for (int body = 0; body < world_.body_count(); ++body) {
-    memory_.track(body).at_rest =
-        table_.at(body).committed && this->disturbed(body).released_tick < 0;
-  }
+void RestCommit::FindHeld() {
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (this->disturbed(body).released_tick >= 0) freed_.push_back(body);
+    const bool released = disturbed(body).released_tick >= 0;
+    memory_.track(body).at_rest = table_.at(body).committed && !released;
+    if (released) freed_.push_back(body);
   }
   watch_.StartAnew();
   committed_.clear();
@@ -243,7 +235,7 @@ void RestCommit::Remap(const BodyRemap& change) {
 void RestCommit::StartAnew() {
   table_.Clear();
   watch_.StartAnew();
-  disturbed_.assign(disturbed_.size(), Disturbance{});
+  disturbed_.Reset();
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) memory_.track(body).at_rest = false;
   committed_.clear();

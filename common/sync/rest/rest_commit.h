@@ -51,7 +51,6 @@ class RestCommit {
   void PutBack();
   /// Call when an edit was applied: a body that is awake before the next step was woken by it.
   void MarkEdited() { edited_ = true; }
-  void Remap(const BodyRemap& change);
   /// Forgets all rest.
   void StartAnew();
   /// Call after BodyMemory::Persist. Messages of future ticks are not saved.
@@ -106,8 +105,10 @@ class RestCommit {
   }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   int AuthorityOf(int body) const { return roles_.table().at(world_.mechanism(body)).authority; }
-  Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
+  Disturbance& disturbed(int body) { return disturbed_[body]; }
   std::int64_t Ticks(double seconds) const;
+  /// Finds held and released bodies again after an edit.
+  void FindHeld();
   void EndOutdated(int body);
   void FindDue();
   void Hold(int body);
@@ -140,8 +141,8 @@ class RestCommit {
   const Reach& reach_;
   RestTable table_;
   RestWatch watch_;
-  std::vector<Disturbance> disturbed_;  // by body
-  std::vector<bool> driven_;            // by mechanism: an input of this step moves it
+  BodyColumn<Disturbance> disturbed_;
+  std::vector<bool> driven_;            // scratch, by mechanism: an input moves it
   std::vector<int> freed_;              // bodies released here, and some that no longer are
   std::vector<int> due_;                // bodies that this step has to check
   mutable int open_ = 0;                // a body that was not held at the last call of all()
@@ -149,6 +150,7 @@ class RestCommit {
   std::vector<int> committed_;  // bodies, since the last Take; some twice
   std::int64_t number_ = 0;     // of the next Rest
   std::vector<Rest> waiting_;   // messages of future ticks
+  EditHook after_edit_;
 };
 
 }  // namespace seam

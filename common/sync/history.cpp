@@ -1,4 +1,4 @@
-#include "common/physics/history.h"
+#include "common/sync/history.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,12 +7,14 @@
 
 namespace seam {
 
-History::History(int body_count, int capacity_ticks)
-    : bodies_(body_count),
+History::History(const BodyTable& table, int capacity_ticks, std::function<BodyState(int)> now)
+    : TableEntry(table),
+      now_(std::move(now)),
       capacity_(capacity_ticks),
       pieces_each_((capacity_ticks + kPiece - 1) / kPiece),
-      pieces_(static_cast<std::size_t>(body_count) * static_cast<std::size_t>(pieces_each_)) {
-  SEAM_ASSERT(body_count >= 0 && capacity_ticks > 0);
+      bodies_(table.bodies()),
+      pieces_(PieceOf(0, bodies_)) {
+  SEAM_ASSERT(capacity_ticks > 0);
 }
 
 void History::Begin(std::int64_t tick) {
@@ -61,19 +63,37 @@ std::int64_t History::newest() const { return count_ == 0 ? -1 : newest_; }
 std::int64_t History::oldest() const { return count_ == 0 ? -1 : newest_ - count_ + 1; }
 void History::Clear() { count_ = 0; }
 
-void History::Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now) {
-  SEAM_ASSERT(origins.size() == now.size());
-  History then(static_cast<int>(origins.size()), capacity_);
-  std::swap(*this, then);
-  count_ = then.count_;
-  newest_ = then.newest_;
-  piece_ = then.piece_;
-  in_piece_ = then.in_piece_;
-  for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick) {
-    for (int body = 0; body < bodies_; ++body) {
-      const BodyOrigin& origin = origins[static_cast<std::size_t>(body)];
-      *At(tick, body) = origin.body < 0 ? now[static_cast<std::size_t>(body)]
-                                        : Carried(origin, *then.At(tick, origin.body));
+void History::TakePast(Pieces* before, int from, int body) {
+  for (int slot = 0; slot < capacity_; slot += kPiece) {
+    pieces_[PieceOf(slot, body)] = std::move((*before)[PieceOf(slot, from)]);
+  }
+  for (int k = 1; k <= capacity_ - count_; ++k) {  // recorded before Clear
+    const int slot = static_cast<int>((newest_ + k) % capacity_);
+    const std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
+    if (piece != nullptr) (*piece)[static_cast<std::size_t>(slot % kPiece)] = BodyState();
+  }
+}
+
+void History::Renumber(const BodyRemap& change) {
+  static const BodyState kNothing;
+  Pieces before(change.bodies.size() * static_cast<std::size_t>(pieces_each_));
+  before.swap(pieces_);
+  bodies_ = static_cast<int>(change.bodies.size());
+  for (int body = 0; body < bodies_; ++body) {
+    const BodyOrigin& origin = change.bodies[static_cast<std::size_t>(body)];
+    if (origin.same) {
+      TakePast(&before, origin.body, body);
+      continue;
+    }
+    const BodyState now = origin.body < 0 ? now_(body) : BodyState();
+    for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick) {
+      BodyState& past = *At(tick, body);
+      past = now;
+      if (origin.body < 0) continue;
+      const int slot = static_cast<int>(tick % capacity_);
+      const std::unique_ptr<Piece>& piece = before[PieceOf(slot, origin.body)];
+      const auto in_piece = static_cast<std::size_t>(slot % kPiece);
+      past = Carried(origin, piece == nullptr ? kNothing : (*piece)[in_piece]);
     }
   }
 }

@@ -3,18 +3,22 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "common/scene/types.h"
-#include "common/topology/body_remap.h"
+#include "common/sync/table/body_table.h"
 
 namespace seam {
 
-/// A ring of the last `capacity` ticks. Ticks are recorded one after another.
-class History {
+/// A ring of the last `capacity` ticks. Ticks are recorded one after another. After an edit each
+/// body has the past of the body that it came from, moved rigidly; the past of a new body is filled
+/// with its state then.
+class History final : public TableEntry {
  public:
-  History(int body_count, int capacity_ticks);
+  /// `now` returns the current state of a body; called at edits.
+  History(const BodyTable& table, int capacity_ticks, std::function<BodyState(int)> now);
 
   /// Records all bodies' states after `tick`. Requires tick == newest() + 1, or empty and tick >=
   /// 0; use Clear before a jump.
@@ -30,9 +34,6 @@ class History {
   std::int64_t newest() const;  ///< -1 when empty
   std::int64_t oldest() const;  ///< -1 when empty
   void Clear();
-  /// Renumbers after an edit. Each body inherits the past of the body that it came from, moved
-  /// rigidly; the past of a new body is filled with `now`.
-  void Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now);
 
  private:
   // A body's ticks lie together, in pieces that are allocated at the first write: in a large room
@@ -46,13 +47,19 @@ class History {
     return static_cast<std::size_t>(body * pieces_each_ + slot / kPiece);
   }
 
+  using Pieces = std::vector<std::unique_ptr<Piece>>;
+  void Renumber(const BodyRemap& change) override;
+  /// Moves the past of an unchanged body to its new number.
+  void TakePast(Pieces* before, int from, int body);
+
+  const std::function<BodyState(int)> now_;
+  const int capacity_;
+  const int pieces_each_;  // per body
   int bodies_ = 0;
-  int capacity_ = 0;
-  int pieces_each_ = 0;  // of a body
   int count_ = 0;
   std::int64_t newest_ = -1;
   int piece_ = 0, in_piece_ = 0;  // position of the newest tick, of each body
-  std::vector<std::unique_ptr<Piece>> pieces_;
+  Pieces pieces_;
 };
 
 }  // namespace seam

@@ -1,6 +1,6 @@
 /// The ring of recent states.
 
-#include "common/physics/history.h"
+#include "common/sync/history.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,12 @@ std::vector<BodyState> StatesOf(std::int64_t tick) {
   return states;
 }
 
+/// State of a body that an edit makes.
+BodyState Now(int body) { return StatesOf(-1)[static_cast<std::size_t>(body)]; }
+
 TEST(History, RemembersTheLastTicksAndNoOthers) {
-  History history(2, 5);
+  const BodyTable bodies(2, 0);
+  History history(bodies, 5, Now);
   EXPECT_EQ(history.newest(), -1);
   EXPECT_EQ(history.oldest(), -1);
   EXPECT_EQ(history.At(0, 0), nullptr);
@@ -42,7 +46,8 @@ TEST(History, RemembersTheLastTicksAndNoOthers) {
 }
 
 TEST(History, CorrectionsStayAndClearForgets) {
-  History history(2, 5);
+  const BodyTable bodies(2, 0);
+  History history(bodies, 5, Now);
   history.Record(0, StatesOf(0));
   history.Record(1, StatesOf(1));
   history.At(0, 1)->spin = 3;
@@ -59,7 +64,8 @@ TEST(History, CorrectionsStayAndClearForgets) {
 
 TEST(HistoryDeathTest, AGapAborts) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  History history(2, 5);
+  const BodyTable bodies(2, 0);
+  History history(bodies, 5, Now);
   history.Record(3, StatesOf(3));
   EXPECT_DEATH(history.Record(5, StatesOf(5)), "assertion failed");
   EXPECT_DEATH(history.Record(3, StatesOf(3)), "assertion failed");
