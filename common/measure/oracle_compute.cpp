@@ -54,7 +54,7 @@ bool JudgedByBarriers(const Room& room) {
   if (mode == Mode::kCentral) return room.predict == "all";
   if (mode != Mode::kBuffer) return false;
   for (const NamedReconciler& rule : Reconcilers()) {
-    if (rule.name == room.reconcile) return rule.resimulates;
+    if (rule.name == room.reconcile) return rule.rolls_back;
   }
   return false;
 }

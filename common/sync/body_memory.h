@@ -21,8 +21,6 @@ constexpr std::int64_t kLongAgo = -1000000;
 /// State of a puller between two messages.
 struct PullTrack {
   std::int64_t arrived = -1;  ///< tick at which the newest message arrived; -1: none
-  BodyState arrival;          ///< our copy at that time
-  BodyState target_then;      ///< the authority's state, extrapolated to that time
   PullMemory memory;
 };
 

@@ -51,14 +51,13 @@ SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile)
       throw OperatorError("--reconcile belongs to --mode buffer, not to --mode " + mode);
     }
     // A client of mode central rolls back to the server's states; the server never rolls back.
-    if (config.mode == Mode::kCentral) config.reconcile = ReconcileResimulate;
+    if (config.mode == Mode::kCentral) config.reconcile = ReconcileRollback;
     return config;
   }
   config.reconcile_name = reconcile.empty() ? kDefaultReconciler : reconcile;
   const NamedReconciler& rule = FindReconciler(config.reconcile_name);
   config.reconcile = rule.rule;
   config.pull = rule.pull;
-  config.resimulates = rule.resimulates;
   config.rolls_back = rule.rolls_back;
   return config;
 }

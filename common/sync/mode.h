@@ -23,8 +23,7 @@ struct SyncConfig {
   Mode mode = Mode::kBuffer;
   Reconciler reconcile = nullptr;  ///< not null in modes kBuffer and kCentral
   Puller pull = nullptr;           ///< of the reconciler, if it acts in every tick
-  bool resimulates = false;        ///< the reconciler rolls back and steps again
-  bool rolls_back = false;         ///< ...also for late inputs: see NamedReconciler
+  bool rolls_back = false;         ///< of the reconciler: see NamedReconciler
   std::string reconcile_name;
   Predict predict = Predict::kAll;  ///< mode central
   int input_delay_ticks = 0;        ///< own inputs act this much later, at every peer; 0..12
@@ -37,17 +36,15 @@ struct SyncConfig {
   bool shows_far = true;
   std::int64_t seed = 0;  ///< of bots
 
-  /// True if the peer rolls back and steps again after an error.
-  bool GoesBack(int self) const { return resimulates || (mode == Mode::kCentral && self > 0); }
+  /// True if inputs take effect at their own tick at every peer that simulates their mechanisms,
+  /// and a late input or a state that differs starts a replay. Otherwise only the authority acts on
+  /// buttons, when they arrive.
+  bool GoesBack(int self) const { return rolls_back || (mode == Mode::kCentral && self > 0); }
   /// True if the peer's world is rebuilt at every send tick. The server of predicting clients never
   /// rolls back, but its clients can reproduce its bits only if all rebuild at the same ticks.
   bool TakesBarriers(int self) const {
     return GoesBack(self) || (mode == Mode::kCentral && predict == Predict::kAll);
   }
-  /// True if inputs take effect at their own tick at every peer that simulates their mechanisms,
-  /// and a late input starts a replay. Otherwise only the authority acts on buttons, when they
-  /// arrive.
-  bool StampsInputs(int self) const { return rolls_back || (mode == Mode::kCentral && self > 0); }
 
   /// Ticks between two States messages of a peer.
   int send_every() const { return tick_hz / send_hz > 0 ? tick_hz / send_hz : 1; }

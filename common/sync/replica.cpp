@@ -110,7 +110,7 @@ void Replica::RecordInputs(const Inputs& inputs) {
   }
   track.Note(inputs);
   heard_players_.push_back(inputs.player);
-  if (!config_.StampsInputs(roles_.self())) return;
+  if (!config_.GoesBack(roles_.self())) return;
   if (wrong >= 0 && drivers_.Concerns(inputs.player)) replay_.AskFrom(wrong - 1);
   for (const std::int64_t t : late) {
     if (t > replay_.oldest()) continue;
@@ -159,12 +159,11 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
   const auto p = static_cast<std::size_t>(player);
   const std::int16_t heard = inputs_[p].TakePresses(next);
   pressed_now_[p] |= heard;
-  const bool stamped = config_.StampsInputs(roles_.self());
+  const bool stamped = config_.GoesBack(roles_.self());
   EachAction(world_, player, stamped ? inputs_[p].PressedAt(next) : heard, [&](int a, int m) {
     const bool all = config_.mode == Mode::kOracle;
     if (stamped ? roles_.RoleOf(m) == kRoleRemote : !all && !roles_.IsAuthority(m)) return;
     world_.Act(player, a);
-    replay_.RecordAction(next, player, a);
   });
   if (pressed_missed_[p] != 0) NeedDriven(player);
   EachAction(world_, player, std::exchange(pressed_missed_[p], 0), [&](int a, int m) {

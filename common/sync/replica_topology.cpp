@@ -89,7 +89,7 @@ void Replica::FindEdits() {
 
 void Replica::ProposeFound() {
   if (found_.empty()) return;
-  const bool waits = config_.StampsInputs(roles_.self()) && config_.rolls_back;
+  const bool waits = config_.rolls_back;
   if (waits) reach_.Look();
   // In the order of ticks: an edit cannot be ordered for a tick before the previous order's.
   while (!found_.empty()) {

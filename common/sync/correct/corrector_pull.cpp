@@ -21,10 +21,7 @@ BodyState Corrector::PullTarget(int body, std::int64_t at) const {
 
 void Corrector::RecordArrival(int body) {
   if (config_.pull == nullptr) return;
-  PullTrack& pull = memory_.track(body).pull;
-  pull.arrived = world_.tick();
-  pull.arrival = world_.Read(body);
-  pull.target_then = PullTarget(body, world_.tick());
+  memory_.track(body).pull.arrived = world_.tick();
 }
 
 void Corrector::PullCopies() {
@@ -32,11 +29,7 @@ void Corrector::PullCopies() {
   const std::int64_t now = world_.tick();
   PullInput in;
   const float dt = world_.dt();
-  const auto n = static_cast<float>(world_.scene().solver.substeps);
   in.drift.velocity = dt * world_.scene().gravity;
-  in.drift.position =
-      dt * dt * (n + 1) / (2 * n) * world_.scene().gravity;  // velocity first, then position
-  in.interval = static_cast<float>(config_.send_every()) * dt;
   in.step = dt;
   for (const int body : world_.present()) {
     BodyTrack& track = memory_.track(body);
@@ -45,13 +38,8 @@ void Corrector::PullCopies() {
     if (pull.arrived < 0 || roles_.RoleOfBody(body) != kRoleSecondary) continue;
     // A state from before an impact would undo the impact.
     if (memory_.snapshots().newest_tick(body) <= track.last_impact_tick) continue;
-    in.coupled = memory_.Coupled(world_.mechanism(body));
     in.local = world_.Read(body);
-    in.arrival = pull.arrival;
     in.target = PullTarget(body, now);
-    in.target_next = PullTarget(body, now + 1);
-    in.target_then = pull.target_then;
-    in.since_arrival = static_cast<float>(now - pull.arrived) * dt;
     if (Negligible(Minus(in.target, in.local))) continue;
     const Correction c = config_.pull(in, &pull.memory);
     pull.memory.before = in.local.velocity;

@@ -7,7 +7,6 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/presses.h"
-#include "common/sync/rest/rest_disturbed.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -18,11 +17,6 @@ namespace {
 constexpr int kReplayMax = 2;
 /// A peer that is alone rolls back only for edits, which are rare: one barrier in 1/4 s.
 constexpr int kAlonePart = 4;
-/// Share of the difference that is corrected where bodies of several authorities press against each
-/// other. The whole would double the error of a shoved stack; much less would not correct.
-constexpr float kPressedShare = 0.3f;
-/// A body that is faster than this, m/s, or was struck, does not count as pressed.
-constexpr float kPressedSpeed = 2;
 /// Budget: ticks of replay per tick in the long run, and the most that may be saved up.
 constexpr double kAgainPerTick = 4, kAgainSaved = 240;
 /// With the same inputs both sides reach nearly the same result. Differences up to these are left:
@@ -41,8 +35,6 @@ BodyState Apart(const BodyState& now, const BodyState& then) {
 
 /// Call after going back to a barrier. Puts bodies that rested at that tick where their authority
 /// has committed them since; otherwise each replay would restore our old pose and end the rest.
-/// Only where inputs are stamped. The other rules put resting bodies back in every tick
-/// (FollowsHistory), after EndRest has checked whether they were struck, which this must not hide.
 void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyTrack& track = memory.track(body);
@@ -71,8 +63,7 @@ Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const
 
 bool Replay::Agrees(const BodyState& d) const {
   if (Negligible(d)) return true;
-  return config_.StampsInputs(roles_.self()) && d.position.norm() < kAgreesPosition &&
-         d.velocity.norm() < kAgreesVelocity && std::fabs(d.angle) < kAgreesAngle &&
+  return d.position.norm() < kAgreesPosition && d.velocity.norm() < kAgreesVelocity && std::fabs(d.angle) < kAgreesAngle &&
          std::fabs(d.spin) < kAgreesSpin;
 }
 
@@ -92,7 +83,6 @@ bool Replay::Ask(int body, std::int64_t tick) {
 /// Begins the simulation of a copy at a state from before it was simulated, so that its motion at
 /// that time is not lost.
 bool Replay::SimulateFrom(int body, std::int64_t tick) {
-  if (!config_.StampsInputs(roles_.self())) return false;
   const BodyState* known = memory_.snapshots().At(body, tick);
   BodyState* past = memory_.history().At(tick, body);
   if (known == nullptr || past == nullptr) return false;
@@ -131,36 +121,11 @@ void Replay::TakeBarrier() {
     edits_.pop_front();
     ++edits_before_;
   }
-  while (!actions_.empty() && actions_.front().tick < barriers_.front().world.tick)
-    actions_.pop_front();
-}
-
-void Replay::RecordAction(std::int64_t tick, int player, int action) {
-  const int self = roles_.self();
-  if (config_.GoesBack(self) && !config_.StampsInputs(self)) {
-    actions_.push_back({tick, player, action});
-  }
 }
 
 void Replay::Forget() {
   DropBarriers();
   from_ = -1;
-}
-
-/// Finds mechanisms that touch bodies of other authorities, with no impact since `from`.
-void Replay::FindPressed(std::int64_t from) {
-  pressed_.assign(world_.composition().mechanisms.size(), false);
-  if (config_.StampsInputs(roles_.self())) return;
-  for (std::size_t m = 0; m < pressed_.size(); ++m) {
-    pressed_[m] = memory_.Coupled(static_cast<int>(m));
-  }
-  for (const int body : world_.present()) {
-    if (memory_.track(body).last_impact_tick < from &&
-        world_.Read(body).velocity.norm() < kPressedSpeed) {
-      continue;
-    }
-    pressed_[static_cast<std::size_t>(world_.mechanism(body))] = false;
-  }
 }
 
 /// True if this own body's state of that tick or later was sent and no input can change it. If all
@@ -178,18 +143,11 @@ bool Replay::IsFact(int body, std::int64_t tick) const {
 /// already sent.
 bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (!roles_.Simulates(body)) return true;
-  if (memory_.track(body).at_rest && !config_.StampsInputs(roles_.self())) return true;
-  if (tick <= memory_.track(body).dynamic_since) return true;
-  if (IsFact(body, tick)) return true;
-  if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
-  if (config_.StampsInputs(roles_.self())) return false;
-  // The state sent of a body at rest is exact.
-  return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
+  return tick <= memory_.track(body).dynamic_since || IsFact(body, tick);
 }
 
-/// Ends a committed rest that a replay has changed. Where inputs are stamped, committed bodies are
-/// stepped again; the rest holds if the body came to rest at the same pose. Returns true if it
-/// holds.
+/// Ends a committed rest that a replay has changed. Committed bodies are stepped again; the rest
+/// holds if the body came to rest at the same pose. Returns true if it holds.
 bool Replay::KeepsRest(int body, const BodyState& pose) {
   BodyTrack& track = memory_.track(body);
   if (!track.at_rest) return false;
@@ -197,18 +155,8 @@ bool Replay::KeepsRest(int body, const BodyState& pose) {
   return track.at_rest;
 }
 
-/// Ends the rest of bodies that the replay found disturbed.
-void Replay::EndRest() {
-  if (config_.StampsInputs(roles_.self())) return;  // it is stepped again like anything else
-  for (const int body : DisturbedRest(world_, drivers_, memory_, inputs_)) {
-    const bool held = world_.tick() <= memory_.track(body).dynamic_since;
-    if (roles_.Simulates(body) && !held) memory_.track(body).at_rest = false;
-  }
-}
-
 /// Call after the step to the world's tick. Writes the states known of that tick.
 void Replay::WriteKnownStates() {
-  EndRest();
   for (const int body : world_.present()) WriteKnownStates(body);  // absent bodies wait for Arrive
 }
 
@@ -226,8 +174,6 @@ void Replay::WriteKnownStates(int body) {
     BodyState state = *heard;
     state.angle = UnwrapAngle(state.angle, local.angle);
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
-    const bool pressed = pressed_[static_cast<std::size_t>(world_.mechanism(body))];
-    state = PlusScaled(local, Minus(state, local), pressed ? kPressedShare : 1.0f);
     if (!Agrees(Minus(state, local))) {
       world_.Write(body, WithinLimits(state, world_.scene().speed_limit), moves);
     }
@@ -235,12 +181,8 @@ void Replay::WriteKnownStates(int body) {
   *past = world_.Read(body);
 }
 
-/// Repeats button actions: as stamped, or as this peer performed them.
+/// Repeats button actions at their ticks.
 void Replay::ActAgain(std::int64_t next) {
-  for (const Action& act : actions_) {
-    if (act.tick == next) world_.Act(act.player, act.action);
-  }
-  if (!config_.StampsInputs(roles_.self())) return;
   for (const int player : drivers_.concerned()) {
     const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
     EachAction(world_, player, track.PressedAt(next), [&](int action, int mechanism) {
@@ -290,7 +232,6 @@ bool Replay::Depart(std::int64_t from, bool all) {
   while (!barriers_.empty() && barriers_.back().world.tick > from) barriers_.pop_back();
   if (barriers_.empty()) return false;
   Journey journey;
-  journey.from = from;
   journey.now = world_.tick();
   std::vector<int> bodies = world_.MayDifferFrom(barriers_.back().world);
   if (all) {
@@ -300,7 +241,6 @@ bool Replay::Depart(std::int64_t from, bool all) {
   for (const int body : bodies) {
     journey.shown.push_back({body, world_.Read(body), world_.awake(body)});
   }
-  FindPressed(from);
   UndoEdits();
   if (!world_.Restore(barriers_.back().world).ok()) {  // edited since
     Forget();
@@ -309,7 +249,7 @@ bool Replay::Depart(std::int64_t from, bool all) {
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
   RestoreIdle();
-  if (config_.StampsInputs(roles_.self())) PutToRest(world_, roles_, memory_);
+  PutToRest(world_, roles_, memory_);
   WriteKnownStates();
   RepeatEdits();
   return true;

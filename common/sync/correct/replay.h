@@ -9,11 +9,8 @@
 /// still count. Own bodies are stepped again too: a collision that went differently did so for both
 /// bodies.
 ///
-/// Rules that only look at states (resimulate) need an exception: where bodies of several
-/// authorities press against each other without an impact, each peer would correct towards the
-/// other's correction. There own bodies follow their history and copies are corrected by a share.
-/// Rules that stamp inputs (rollback, and clients of mode central) need no exception: both sides
-/// reach the same result from the same inputs, and differences of a few quanta are left alone.
+/// Inputs act at their own ticks (rollback, and clients of mode central), so both sides of a contact
+/// reach the same result from the same inputs; differences of a few quanta are left alone.
 
 #include <cstdint>
 #include <deque>
@@ -61,9 +58,6 @@ class Replay {
   /// needed or not, because worlds that are to agree bit for bit must be rebuilt at the same ticks.
   /// A world that need not agree with another peer's is only copied, and less often.
   void TakeBarrier();
-  /// Records that this peer performed a player's action (index) before the step to `tick`; a replay
-  /// repeats it. Not for rules that stamp inputs.
-  void RecordAction(std::int64_t tick, int player, int action);
   /// Drops all barriers: a body is new, or the bodies have changed.
   void Forget();
 
@@ -90,11 +84,6 @@ class Replay {
   std::int64_t deferred() const { return deferred_; }
 
  private:
-  struct Action {
-    std::int64_t tick = 0;
-    int player = 0, action = 0;
-  };
-
   struct Barrier {
     WorldSnapshot world;
     std::int64_t edits = 0;  ///< number of edits before it that changed no bodies
@@ -114,7 +103,7 @@ class Replay {
     bool awake = true;
   };
   struct Journey {
-    std::int64_t from = 0, now = 0;
+    std::int64_t now = 0;
     std::vector<Shown> shown;  // ascending by body; of GoBackTo: all bodies of that moment
   };
 
@@ -135,12 +124,10 @@ class Replay {
   void UndoEdits();
   void RepeatEdits();
   bool SimulateFrom(int body, std::int64_t tick);
-  void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
   bool IsFact(int body, std::int64_t tick) const;
   /// True if a difference is too small to correct.
   bool Agrees(const BodyState& difference) const;
-  void EndRest();
   void WriteKnownStates();
   void WriteKnownStates(int body);
   void ReplayTick();
@@ -160,9 +147,7 @@ class Replay {
   std::int64_t edits_done_ = 0;                       // number of edits that the world has had
   std::deque<std::pair<int, std::int64_t>> applied_;  // revisions and ticks; both ascend
   std::vector<int> sitters_;                          // by seat, as of the last edit
-  std::deque<Action> actions_;                        // since the first barrier
   std::int64_t from_ = -1;                            // oldest requested tick; -1: none
-  std::vector<bool> pressed_;                         // by mechanism, for the running replay
   bool was_alone_ = false;                            // at the previous send tick
   double credit_ = 0;                                 // ticks that may still be stepped again
   std::function<void()> on_stepped_again_ = [] {};

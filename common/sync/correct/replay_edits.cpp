@@ -49,7 +49,6 @@ void Replay::Remap(const BodyRemap& change) {
     shown.back().state = PlusScaled(shown.back().state, change.jumps[body], 1);
   }
   journey_->shown = std::move(shown);
-  FindPressed(journey_->from);
 }
 
 void Replay::Edited(const Edit& edit, bool changed) {
@@ -86,7 +85,7 @@ void Replay::ForgetHeard() {
     BodyTrack& track = memory_.track(body);
     track.told_tick = std::min(track.told_tick, world_.tick());
   }
-  if (!config_.StampsInputs(roles_.self())) return;
+  if (!config_.GoesBack(roles_.self())) return;
   Snapshots& heard = memory_.snapshots();
   for (const int body : world_.present()) {
     if (!roles_.Simulates(body)) continue;

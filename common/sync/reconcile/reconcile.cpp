@@ -12,11 +12,8 @@ const std::vector<NamedReconciler>& Reconcilers() {
       {"compensated", ReconcileCompensated, "half ours, half the authority's moved on by v dt"},
       {"fade", ReconcileFade, "ours just after an impact, the authority's moved-on state later"},
       {"retrospect", ReconcileRetrospect, "add what our own past differed by at the same tick"},
-      {"resimulate", ReconcileResimulate, "go back to the authority's state and step again",
-       nullptr, true},
-      {"rollback", ReconcileResimulate, "the same on late inputs, from input-complete states",
-       nullptr, true, true},
-      {"pvb", ReconcilePvb, "blend velocities, and the paths that they lead to", PullPvb},
+      {"rollback", ReconcileRollback, "go back to a late state or input and step again", nullptr,
+       true},
       {"spring", ReconcileSpring, "a damped spring to the authority's moved-on state", PullSpring},
   };
   return all;

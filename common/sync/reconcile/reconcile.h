@@ -46,19 +46,13 @@ using Reconciler = Correction (*)(const ReconcileInput&);
 
 /// Inputs of a rule that acts in every tick between two messages. Times in s.
 ///
-///   authority   --o t1 ......................... target: moved on from there to now
-///   our copy         arrival o-------------o local, now     (since_arrival)
+///   authority   --o t1 ............... target: moved on from there to now
+///   our copy         -----------------o local
 struct PullInput {
-  BodyState local;          ///< our copy, before the step
-  BodyState arrival;        ///< authority's state, extrapolated to that arrival
-  BodyState target_then;    ///< authority's state, extrapolated to now
-  BodyState target;         ///< ...extrapolated to after the step
-  BodyState target_next;    ///< and to after the step
-  BodyState drift;          ///< change by the step of a free body that starts at rest
-  float since_arrival = 0;  ///< before the step
-  float interval = 0;       ///< expected between two messages
-  float step = 0;           ///< length of a tick
-  bool coupled = false;     ///< as in ReconcileInput
+  BodyState local;   ///< our copy, before the step
+  BodyState target;  ///< the authority's state, extrapolated to now
+  BodyState drift;   ///< change by the step of a free body that starts at rest
+  float step = 0;    ///< length of a tick
 };
 
 /// Memory of a puller for one body.
@@ -72,25 +66,22 @@ struct PullMemory {
 using Puller = Correction (*)(const PullInput&, PullMemory*);
 
 Correction PullSpring(const PullInput&, PullMemory*);
-Correction PullPvb(const PullInput&, PullMemory*);
 
 Correction ReconcileSnap(const ReconcileInput&);
 Correction ReconcileInterleave(const ReconcileInput&);
 Correction ReconcileCompensated(const ReconcileInput&);
 Correction ReconcileFade(const ReconcileInput&);
 Correction ReconcileRetrospect(const ReconcileInput&);
-Correction ReconcileResimulate(const ReconcileInput&);
-Correction ReconcilePvb(const ReconcileInput&);
+Correction ReconcileRollback(const ReconcileInput&);
 Correction ReconcileSpring(const ReconcileInput&);
 
 struct NamedReconciler {
   const char* name;
   Reconciler rule;
   const char* about;
-  Puller pull = nullptr;     ///< also acts in every tick
-  bool resimulates = false;  ///< the replica goes back and steps again (Replay)
-  /// Late inputs also start a replay, states are those of input-complete ticks, and differences of
-  /// a few quanta are left alone.
+  Puller pull = nullptr;  ///< also acts in every tick
+  /// A late state or input starts a replay (Replay), states are those of input-complete ticks, and
+  /// differences of a few quanta are left alone.
   bool rolls_back = false;
 };
 const std::vector<NamedReconciler>& Reconcilers();

@@ -5,7 +5,6 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/reconcile/reconcile.h"
-#include "common/sync/rest/rest_disturbed.h"
 #include "common/sync/rest/rest_islands.h"
 #include "common/sync/state_limits.h"
 
@@ -26,6 +25,19 @@ constexpr float kWakeImpactSpeed = 0.5f;
 /// than the round trip of a slow path. Where states are sent only for input-complete ticks, the
 /// input has to reach the authority first, and the state takes as long again.
 constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
+
+/// By mechanism: true if a player whose axes move it, or who owns it, gives any input in this tick.
+/// `inputs`: by player.
+std::vector<bool> DrivenIn(const World& world, const Drivers& drivers,
+                           const std::vector<InputTrack>& inputs, std::int64_t tick) {
+  std::vector<bool> driven(world.composition().mechanisms.size(), false);
+  for (std::size_t p = 0; p < inputs.size(); ++p) {
+    if (inputs[p].At(tick) == Input{}) continue;
+    for (const int m : drivers.MovedBy(static_cast<int>(p)))
+      driven[static_cast<std::size_t>(m)] = true;
+  }
+  return driven;
+}
 
 /// Rewrites our past of the body: it has rested since the commitment, whatever this peer assumed.
 void WriteHistory(const RestRecord& rest, std::int64_t now, int body, BodyMemory* memory) {

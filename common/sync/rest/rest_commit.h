@@ -100,7 +100,7 @@ class RestCommit {
   /// True if the physics alone decides about waking and sleeping, and no body is held against it:
   /// all peers come to the same result from the same inputs, or one peer simulates everything.
   bool Trusts() const {
-    return config_.StampsInputs(roles_.self()) || config_.mode == Mode::kCentral;
+    return config_.GoesBack(roles_.self()) || config_.mode == Mode::kCentral;
   }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   int AuthorityOf(int body) const { return roles_.table().at(world_.mechanism(body)).authority; }
