@@ -198,7 +198,7 @@ int Play(const Flags& f) {
   line.End();
   view.reset();
   if (client.fatal().empty() || client.peer() >= 0) client.Shutdown(SteadyClockUs());
-  LetThrough(udp, net);
+  DrainNetwork(udp, net);
   if (!client.fatal().empty()) throw OperatorError(client.fatal());
   sink.Flush();
   recording.Look(sink.trouble(), line);

@@ -1,12 +1,12 @@
-# Hardens a C++ header of lcm-gen 1.3: its stock decode() can be killed by 20 bytes, because it
-# believes array counts and string lengths. Usage: awk -f harden.awk hello_t.hpp > hardened.hpp
+# Hardens a C++ header of lcm-gen 1.3: 20 bytes can crash its stock decode(), which trusts array
+# counts and string lengths. Usage: awk -f harden.awk hello_t.hpp > hardened.hpp
 #
 #   arrays   count < 0 or beyond the bytes that are left: return -1 before the resize
 #   strings  length < 1 or beyond the bytes that are left, or no NUL at the end: return -1
 #   floats   copied through integers: the stock cast of float* to int32_t* breaks strict aliasing
 #
-# Exits with 1 and a line when it meets an allocation that it does not know how to guard, so that a
-# newer lcm-gen or a new kind of field cannot slip through. Works with mawk and gawk.
+# Exits with status 1 and one line on an allocation that it cannot guard, so that a newer lcm-gen
+# or a new kind of field cannot slip through. Works with mawk and gawk.
 
 function fail(why) {
   print FILENAME ":" FNR ": harden.awk: " why ": " $0 | "cat 1>&2"
@@ -14,13 +14,13 @@ function fail(why) {
   exit 1
 }
 
-# The text between the first `from` and the next `to` of the line.
+# Returns the text between the first `from` and the next `to` in the line.
 function between(from, to,    rest) {
   rest = substr($0, index($0, from) + length(from))
   return substr(rest, 1, index(rest, to) - 1)
 }
 
-# The stock check of a string: replaced, and the assign that must follow is armed.
+# Replaces the stock check of a string and remembers that an assign must follow.
 /^    if\(__[A-Za-z0-9_]*_len__ > maxlen - pos\) return -1;$/ {
   n = between("if(", " >")
   print "    if(" n " < 1 || " n " > maxlen - pos) return -1;"
@@ -44,7 +44,7 @@ function between(from, to,    rest) {
 
 /(reserve|malloc|calloc|new|alloc)[ (]/ && !/^ *[\/*]/ { fail("unknown allocation") }
 
-# One line of a float array: through a vector of the same bits.
+# Codes a float array through a vector of integers with the same bits.
 /__float_(de|en)code_array\(.*&this->[a-z0-9_]+\[0\], this->[a-z0-9_]+\);$/ {
   values = "this->" between("&this->", "[0]") ".data()"
   bits = "__bits__.data()"

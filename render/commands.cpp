@@ -54,7 +54,7 @@ int ThreadsOf(const RenderOptions& options) {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
 }
 
-constexpr double kBefore_s = 0.5, kAfter_s = 1;  ///< of --around
+constexpr double kBeforeMoment_s = 0.5, kAfterMoment_s = 1;  ///< of --around
 
 /// The moment that --around names, and what it is about.
 ShownMoment AroundWhat(const std::string& around, const std::vector<Playback>& playbacks) {
@@ -82,8 +82,8 @@ void ChooseTimes(const RenderOptions& options, const std::vector<Playback>& play
     if (moment.s < page->from_s || moment.s > page->to_s)
       throw OperatorError(fmt::format("--around {} is not in the recording, {:.2f} to {:.2f} s",
                                       options.around, page->from_s, page->to_s));
-    from_s = std::max(page->from_s, moment.s - kBefore_s);
-    to_s = std::min(page->to_s, moment.s + kAfter_s);
+    from_s = std::max(page->from_s, moment.s - kBeforeMoment_s);
+    to_s = std::min(page->to_s, moment.s + kAfterMoment_s);
     if (wish->kind == CameraWish::Kind::kFit) wish->bodies = moment.bodies;
   }
   if (from_s < page->from_s || from_s > to_s)

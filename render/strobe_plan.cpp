@@ -13,7 +13,7 @@
 namespace seam {
 namespace {
 
-constexpr double kBefore_s = 0.2, kAfter_s = 0.8;  ///< about the collision
+constexpr double kBeforeHit_s = 0.2, kAfterHit_s = 0.8;  ///< about the collision
 constexpr int kExposures = 8;                      ///< unless asked otherwise
 constexpr double kExposuresMax = 200;
 constexpr float kStill_m = 0.3f;  ///< what moves less does not widen the picture
@@ -114,9 +114,9 @@ StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeOption
   const double hit_s = CollisionTime(playbacks);
   StrobePlan plan;
   plan.from_s =
-      std::isnan(options.from_s) ? std::max(first.first_s(), hit_s - kBefore_s) : options.from_s;
+      std::isnan(options.from_s) ? std::max(first.first_s(), hit_s - kBeforeHit_s) : options.from_s;
   plan.to_s = std::isnan(options.to_s)
-                  ? std::min(first.last_s(), plan.from_s + kBefore_s + kAfter_s)
+                  ? std::min(first.last_s(), plan.from_s + kBeforeHit_s + kAfterHit_s)
                   : options.to_s;
   if (plan.from_s >= plan.to_s || plan.from_s > first.last_s() || plan.to_s < first.first_s())
     throw OperatorError("--from and --to leave nothing of the recording");

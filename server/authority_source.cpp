@@ -6,7 +6,8 @@
 namespace seam {
 namespace {
 
-/// Reports this far in the past or future are nonsense, ticks. A report is repeated until it comes.
+/// Reports farther in the past or future than this are dropped, ticks. The past is long because a
+/// report is retransmitted until it arrives.
 constexpr std::int64_t kReportPast = 120, kReportFuture = 30;
 
 }  // namespace
@@ -22,7 +23,7 @@ void AuthoritySource::NoteStates(const States& accepted) {
   for (std::size_t i = 0; i < accepted.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(accepted.id[i]);
     if (body < 0) continue;
-    // Of a turn too many or too few nobody here would know.
+    // Unwraps the angle towards the server's copy: it may be off by whole turns.
     trail_.Add(body, accepted.tick, Unpack(accepted, i, replica_.world().Read(body).angle));
   }
 }
@@ -34,7 +35,7 @@ void AuthoritySource::NoteTick() {
   }
   for (const Blow& blow : ImpactsOf(world)) {
     if (!Mine(blow.body)) continue;
-    // A copy that was corrected into what is ours strikes it as its authority never did.
+    // A correction may push a copy into one of our bodies: an impact that its authority never had.
     const bool all_ours = blow.by < 0 || Mine(blow.by);
     if (all_ours || Possible(world, trail_, blow, world.tick())) blows_.push_back(blow);
   }
@@ -89,7 +90,7 @@ void AuthoritySource::NoteReported(const ImpactReport& report, std::size_t i) {
 
 void AuthoritySource::Remap(const std::vector<BodyOrigin>& bodies) {
   trail_.Remap(bodies);
-  blows_.clear();  // of bodies that are others now
+  blows_.clear();  // their body indices are stale
 }
 
 BodyState AuthoritySource::Read(int body) const {

@@ -1,6 +1,6 @@
 #pragma once
-/// What the rules of a room go by: for each body its authority's word, checked. Where the server is
-/// the authority, that is its own world; its copies of what others simulate count for nothing.
+/// Body states and impacts for the rules of a room: for each body those of its authority, checked.
+/// For the server's own bodies that is its world; its copies of other peers' bodies do not count.
 
 #include <cstdint>
 #include <set>
@@ -17,17 +17,17 @@ namespace seam {
 
 class AuthoritySource : public RuleSource {
  public:
-  /// All must outlive it. Dropped things are counted in `stats`.
+  /// All must outlive this object. Dropped messages and entries are counted in `stats`.
   AuthoritySource(const Replica& replica, const AuthorityManager& authority, Stats& stats);
 
-  /// States of a peer that were accepted.
+  /// Takes states of a peer that the StateFilter accepted.
   void NoteStates(const States& accepted);
-  /// Impacts that a peer says it felt. Believed of a body that it has authority over, in that
-  /// epoch, of bodies that are what they were; when they are possible; and each once.
+  /// Takes impacts reported by a peer. An impact counts once, if it is possible, if the peer has
+  /// authority over the struck body in that epoch, and if no edit has changed the bodies since.
   void NoteReport(int peer, const ImpactReport& report);
-  /// After each step of the replica.
+  /// To be called after each step of the replica.
   void NoteTick();
-  /// The bodies have changed.
+  /// Renumbers bodies after an edit.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
   BodyState Read(int body) const override;
@@ -46,7 +46,7 @@ class AuthoritySource : public RuleSource {
   const AuthorityManager& authority_;
   Stats& stats_;
   StateTrail trail_;
-  std::vector<Blow> blows_;                                     // of this tick
+  std::vector<Blow> blows_;                                     // since the last TakeBlows
   std::set<std::tuple<std::int64_t, PartId, PartId>> counted_;  // tick, struck, by
 };
 

@@ -9,8 +9,8 @@
 namespace seam {
 namespace {
 
-/// A message is taken for lost when it is not acknowledged after so long, us: as reliable ones are,
-/// and a little more, since who has nothing to say acknowledges late.
+/// Returns the time without acknowledgement after which a message counts as lost, us: as for
+/// reliable messages, and a little more, since a client with nothing to send acknowledges late.
 std::int64_t LateUs(std::int64_t rtt_us) {
   constexpr std::int64_t kUnknownUs = 250000, kMoreUs = 50000;
   return (rtt_us < 0 ? kUnknownUs : rtt_us + rtt_us / 4) + kMoreUs;
@@ -20,7 +20,7 @@ std::int64_t LateUs(std::int64_t rtt_us) {
 
 bool Broadcast::Simulates(int peer, int mechanism) const {
   if (config_.mode == Mode::kOracle) return true;
-  if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Concern::kClose;
+  if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Relevance::kClose;
   const AuthorityRecord& record = replica_.authority().at(mechanism);
   return record.authority == peer || record.secondaries.Has(peer);
 }
@@ -35,20 +35,20 @@ void Broadcast::Send(std::int64_t now_us, Session& session, std::vector<Grants> 
 void Broadcast::Tell(const std::vector<Grants>& changes) {
   if (changes.empty()) return;
   for (const Grants& grants : changes) publisher_.Publish(grants);
-  grant_news_.Take(changes);
+  grant_audience_.Take(changes);
   NoteFollowers(changes);
   if (Plain() || interest_.small()) {
     for (const Grants& grants : changes) sessions_.SendUrgentToAll(Encode(grants));
     return;
   }
   const std::int64_t now_us = changes.back().utime;
-  sessions_.ForEachTold(
-      [&](Session& session) { Send(now_us, session, grant_news_.For(session.peer)); });
-  TellRestToFollowers(now_us, changes);
+  sessions_.ForEachSentRoom(
+      [&](Session& session) { Send(now_us, session, grant_audience_.For(session.peer)); });
+  SendRestToFollowers(now_us, changes);
 }
 
-/// Who begins to simulate something has to know how it lies.
-void Broadcast::TellRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes) {
+/// Sends pending rest commits to peers that begin to simulate a mechanism.
+void Broadcast::SendRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes) {
   const AuthorityTable& table = replica_.authority();
   for (const Grants& grants : changes) {
     for (const std::int32_t id : grants.mechanism) {
@@ -58,13 +58,13 @@ void Broadcast::TellRestToFollowers(std::int64_t now_us, const std::vector<Grant
       peers.push_back(table.at(m).authority);
       for (const int peer : peers) {
         Session* const session = sessions_.Find(peer);
-        if (session != nullptr) TellOwedRest(now_us, *session, {m});
+        if (session != nullptr) SendPendingRest(now_us, *session, {m});
       }
     }
   }
 }
 
-/// A question to a holder names it beside those who follow: that is no harm.
+/// Updates followers_. A request to release lists the holder as a follower, too: harmless.
 void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
   for (const Grants& grants : changes) {
     auto next = grants.follower.begin();
@@ -91,28 +91,29 @@ void Broadcast::FindFollowers() {
   }
 }
 
-void Broadcast::TellOwed(std::int64_t now_us) {
-  const std::int64_t every = GrantNews::kOwedS * config_.tick_hz;
-  const std::int64_t every_nothing = GrantNews::kOwedNothingS * config_.tick_hz;
-  sessions_.ForEachTold([&](Session& session) {
-    // Not all in the same tick.
+void Broadcast::SendPendingGrants(std::int64_t now_us) {
+  const std::int64_t every = GrantAudience::kGrantPendingS * config_.tick_hz;
+  const std::int64_t every_nothing = GrantAudience::kGrantPendingDistantS * config_.tick_hz;
+  sessions_.ForEachSentRoom([&](Session& session) {
+    // Spread over ticks by peer.
     if ((replica_.tick() + 7 * session.peer) % every != 0) return;
     const bool all = (replica_.tick() + 7 * session.peer) % every_nothing == 0;
-    const auto which = all ? GrantNews::Which::kAll : GrantNews::Which::kFar;
-    Send(now_us, session, grant_news_.Owed(session.peer, which));
+    const auto which = all ? GrantAudience::Which::kAll : GrantAudience::Which::kFar;
+    Send(now_us, session, grant_audience_.Owed(session.peer, which));
   });
 }
 
 void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency) {
   EachIdOf(replica_.world().composition(), mechanism, [&](PartId id) {
-    if (newest_.has(id)) session.outbox.Add(now_us, id, urgency);
+    if (newest_.has(id)) session.send_queue.Add(now_us, id, urgency);
   });
 }
 
-/// Who simulates it hears of it, too, wherever it is; and who is not ready yet of everything.
-bool Broadcast::HearsRest(const Session& session, int mechanism) const {
+/// True if a session is sent rest commits of the mechanism at once: if it is in interest, if the
+/// client simulates it, and always before the client is ready.
+bool Broadcast::NeedsRestNow(const Session& session, int mechanism) const {
   return session.stage != SessionStage::kReady || Simulates(session.peer, mechanism) ||
-         interest_.Of(session.peer, mechanism) != Concern::kNone;
+         interest_.Of(session.peer, mechanism) != Relevance::kNone;
 }
 
 void Broadcast::TellRest(const Rest& rest, int from_peer) {
@@ -120,51 +121,51 @@ void Broadcast::TellRest(const Rest& rest, int from_peer) {
     sessions_.SendToAll(Encode(rest), from_peer);
     return;
   }
-  rest_news_.Take(rest);
-  sessions_.ForEachTold([&](Session& session) {
+  rest_audience_.Take(rest);
+  sessions_.ForEachSentRoom([&](Session& session) {
     if (session.peer == from_peer) return;
-    const auto hears = [&](int mechanism) { return HearsRest(session, mechanism); };
-    const Rest told = rest_news_.For(session.peer, hears);
+    const auto hears = [&](int mechanism) { return NeedsRestNow(session, mechanism); };
+    const Rest told = rest_audience_.For(session.peer, hears);
     if (!told.id.empty()) sessions_.SendTo(session, Encode(told));
   });
 }
 
-void Broadcast::TellOwedRest(std::int64_t now_us, Session& session,
-                             const std::vector<int>& mechanisms) {
-  for (Rest& rest : rest_news_.Owed(session.peer, mechanisms)) {
+void Broadcast::SendPendingRest(std::int64_t now_us, Session& session,
+                                const std::vector<int>& mechanisms) {
+  for (Rest& rest : rest_audience_.Owed(session.peer, mechanisms)) {
     rest.utime = now_us;
     sessions_.SendTo(session, Encode(rest));
   }
 }
 
-void Broadcast::TellNothings(std::int64_t now_us) {
+void Broadcast::RefreshDistant(std::int64_t now_us) {
   if (Plain() || interest_.small()) return;
   const int every = ticks_per_look();
   sessions_.ForEachReady(0, [&](Session& session) {
-    // Not all in the same tick.
-    if ((replica_.tick() + session.peer) % every == 0) TellNothings(now_us, session);
+    // Spread over ticks by peer.
+    if ((replica_.tick() + session.peer) % every == 0) RefreshDistant(now_us, session);
   });
 }
 
-void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
+void Broadcast::RefreshDistant(std::int64_t now_us, Session& session) {
   if (session.player < 0) return;
-  constexpr int kEach = kNothingPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
+  constexpr int kEach = kDistantPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
   const Composition& made = replica_.world().composition();
   const int mechanisms = static_cast<int>(made.mechanisms.size());
-  int& next = session.outbox.nothing;
+  int& next = session.send_queue.nothing;
   int told = 0;
   std::vector<int> resting;
   for (int i = 0; i < std::min(kLookedAtMost, mechanisms) && told < kEach; ++i) {
     if (next + 1 >= mechanisms) {
-      if (now_us - session.outbox.nothings_us < kNothingEveryUs) break;
-      session.outbox.nothings_us = now_us;
+      if (now_us - session.send_queue.distant_round_us < kDistantEveryUs) break;
+      session.send_queue.distant_round_us = now_us;
       next = -1;
     }
     ++next;
-    const bool owed = rest_news_.Owes(session.peer, next);
+    const bool owed = rest_audience_.IsPendingFor(session.peer, next);
     if (owed) resting.push_back(next);
     told += owed ? 1 : 0;
-    if (interest_.Of(session.peer, next) != Concern::kNone) continue;
+    if (interest_.Of(session.peer, next) != Relevance::kNone) continue;
     if (Simulates(session.peer, next)) continue;
     const bool moves = AnyIdOf(made, next, [&](PartId id) {
       return newest_.has(id) && (newest_.at(id).flags & kStateAsleep) == 0;
@@ -173,34 +174,35 @@ void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
     AddNewest(now_us, session, next, Urgency::kFar);
     told += owed ? 0 : 1;
   }
-  TellOwedRest(now_us, session, resting);
+  SendPendingRest(now_us, session, resting);
 }
 
-/// Who is only shown a body hears of it when it is not as it would be guessed from what was told
-/// last: if that was lost, the guess is another one, and in the end stands still.
-void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
-  // Who says nothing acknowledges nothing either.
+/// Queues again lost states of displayed bodies. A client that only displays a body gets no new
+/// state while extrapolation of the last one is good; if that was lost, the client extrapolates an
+/// older state, and finally stops.
+void Broadcast::RequeueLost(std::int64_t now_us, Session& session) {
+  // A silent client acknowledges nothing either.
   if (now_us - session.link.last_receive_us() > kSilentUs) return;
   const auto shown = [&](std::int32_t id) {
     const int body = newest_.has(id) ? replica_.world().BodyOfId(id) : -1;
     if (body < 0) return false;
     const int mechanism = replica_.world().mechanism(body);
     return !Simulates(session.peer, mechanism) &&
-           interest_.Of(session.peer, mechanism) != Concern::kNone;
+           interest_.Of(session.peer, mechanism) != Relevance::kNone;
   };
   const std::int64_t late_us = LateUs(session.link.rtt_us());
   for (const std::int32_t id : session.packer.TakeLost(now_us, late_us, shown)) {
-    session.outbox.Add(now_us, id, Urgency::kNear);
+    session.send_queue.Add(now_us, id, Urgency::kNear);
   }
 }
 
-void Broadcast::NotePressing(const Session& session) {
+void Broadcast::MarkForSending(const Session& session) {
   const auto p = static_cast<std::size_t>(session.peer);
   if (presses_.size() <= p) presses_.resize(p + 1, 0);
   if (std::exchange(presses_[p], 1) == 0) pressing_.push_back(session.peer);
 }
 
-/// A room of many is called with every datagram: only who has waited for one is looked at.
+/// Called with every datagram: between steps only sessions marked by MarkForSending are checked.
 void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
   const std::vector<int> pressing = std::exchange(pressing_, {});
   for (const int peer : pressing) presses_[static_cast<std::size_t>(peer)] = 0;
@@ -216,54 +218,54 @@ void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
 }
 
 void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool stepped) {
-  if (stepped) TellLostAgain(now_us, session);
-  const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
-  if (now && !session.outbox.empty()) {
-    for (const Outbox::Message& message : session.outbox.Compose(now_us, newest_)) {
+  if (stepped) RequeueLost(now_us, session);
+  const bool now = stepped || session.send_queue.pressing() || !session.packer.empty();
+  if (now && !session.send_queue.empty()) {
+    for (const SendQueue::Message& message : session.send_queue.Compose(now_us, newest_)) {
       session.packer.Add(message.header, message.begin, message.end);
     }
   }
   for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
     const Bytes bytes = Encode(message.packed);
-    session.outbox.NoteCost(bytes.size(), message.bodies);
+    session.send_queue.NoteCost(bytes.size(), message.bodies);
     session.link.SendUnreliable(bytes, {{kListedSlot, message.number}});
   }
-  if (session.outbox.pressing()) NotePressing(session);  // beyond its budget
+  if (session.send_queue.pressing()) MarkForSending(session);  // beyond its budget
 }
 
 void Broadcast::LookAround(std::int64_t now_us) {
   const bool anew = std::exchange(stale_, false);
   if (Plain()) return;
-  if (anew || std::exchange(come_, false) || followers_.empty()) FindFollowers();
+  if (anew || std::exchange(peer_became_ready_, false) || followers_.empty()) FindFollowers();
   std::vector<Interest::Receiver> receivers;
   sessions_.ForEachReady(0, [&](const Session& session) {
     receivers.push_back({session.peer, session.player});
   });
-  std::vector<int> near;  // of one receiver: they come one after the other
+  std::vector<int> near;  // mechanisms of one receiver: receivers come one after the other
   const std::vector<Interest::Risen> all = interest_.Look(receivers);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Interest::Risen& risen = all[i];
     Session* session = sessions_.Find(risen.peer);
     near.push_back(risen.mechanism);
     if (i + 1 == all.size() || all[i + 1].peer != risen.peer) {
-      Send(now_us, *session, grant_news_.Owed(risen.peer, near));
-      TellOwedRest(now_us, *session, near);
+      Send(now_us, *session, grant_audience_.Owed(risen.peer, near));
+      SendPendingRest(now_us, *session, near);
       near.clear();
     }
     AddNewest(now_us, *session, risen.mechanism, Urgency::kNear);
   }
   if (!anew) return;
-  // Edits have made others of them: what came near is not known, and what was merged is urgent.
-  sessions_.ForEachTold([&](Session& session) {
-    Send(now_us, session, grant_news_.Owed(session.peer, GrantNews::Which::kNear));
+  // After an edit the mechanisms that came near are not known, and merged ones are urgent.
+  sessions_.ForEachSentRoom([&](Session& session) {
+    Send(now_us, session, grant_audience_.Owed(session.peer, GrantAudience::Which::kNear));
   });
 }
 
 void Broadcast::Remap(const BodyRemap& change) {
   newest_.Remap(change.bodies);
   interest_.Remap();
-  grant_news_.Remap(change.mechanisms);
-  rest_news_.Remap(change.mechanisms);
+  grant_audience_.Remap(change.mechanisms);
+  rest_audience_.Remap(change.mechanisms);
   stale_ = true;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What everyone is told: numbered on the bus, and to the sessions that it concerns.
+/// Sends the room's messages: publishes each on the bus with a sequence number and forwards it to
+/// the sessions that need it.
 
 #include <algorithm>
 #include <cstdint>
@@ -11,17 +12,17 @@
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
-#include "server/interest/grant_news.h"
+#include "server/interest/grant_audience.h"
 #include "server/interest/interest.h"
 #include "server/interest/newest_states.h"
-#include "server/interest/rest_news.h"
+#include "server/interest/rest_audience.h"
 #include "server/sessions/session_table.h"
 
 namespace seam {
 
 class Broadcast {
  public:
-  /// All must outlive it.
+  /// All must outlive this object.
   Broadcast(Recorder& recorder, const std::string& room, bool views, const SyncConfig& config,
             const Scene& scene, const Replica& replica, SessionTable& sessions)
       : publisher_(recorder, room),
@@ -31,62 +32,67 @@ class Broadcast {
         sessions_(sessions),
         newest_(replica.world(), config.tick_hz),
         interest_(scene, config_, replica),
-        grant_news_(replica, interest_),
-        rest_news_(replica) {}
+        grant_audience_(replica, interest_),
+        rest_audience_(replica) {}
 
-  /// Whether anybody can see what this server shows of bodies.
+  /// True if views are published and something listens to the bus.
   bool ShowsViews() const { return views_ && publisher_.listening(); }
-  /// Whether nothing but gravity moves the body of an assembly, as was last heard of it.
+  /// True if, by its latest state, only gravity moves the body of an assembly.
   bool Falls(PartId id) const {
     return newest_.has(id) && (newest_.at(id).flags & kStateFalls) != 0;
   }
-  /// On the bus only.
+  /// Publishes on the bus only.
   template <class Message>
   void Publish(const Message& message) {
     if (publisher_.listening()) publisher_.Publish(message);
   }
-  /// On the bus and, reliably, to everyone who has proved its address.
+  /// Publishes on the bus and sends reliably to every session that was sent the room.
   template <class Message>
   void ToAll(const Message& message) {
     Publish(message);
     sessions_.SendToAll(Encode(message));
   }
-  /// Changes of authority: on the bus, and at once to those whom they concern; the others hear of
-  /// them later (GrantNews). In a small room all of it goes to everyone at once.
+  /// Sends changes of authority: on the bus, and at once to the clients that need them now; to the
+  /// rest later (GrantAudience). In a small room everyone gets all changes at once.
   void Tell(const std::vector<Grants>& changes);
-  /// What peers are owed of such changes by now. Every tick.
-  void TellOwed(std::int64_t now_us);
-  /// A peer is ready: LookAround is due.
-  void NoteCome() { come_ = true; }
-  /// A peer was told of all authorities.
+  /// Sends pending changes of authority that are due by now. To be called every tick.
+  void SendPendingGrants(std::int64_t now_us);
+  /// To be called when a peer becomes ready. LookAround is due then.
+  void NotePeerReady() { peer_became_ready_ = true; }
+  /// To be called when a peer was sent the whole authority table and everything at rest.
   void NoteTold(int peer) {
-    grant_news_.NoteTold(peer);
-    rest_news_.NoteTold(peer);
+    grant_audience_.NoteTold(peer);
+    rest_audience_.NoteTold(peer);
   }
-  /// Bodies have come to rest: at once to those to whom they are at least far, reliably; to the
-  /// others as their turn comes (TellNothings), or when they come to concern them.
+  /// Sends a rest commit reliably: at once to clients to which the bodies are at least kFar; to the
+  /// rest in turn (RefreshDistant), or when the bodies come into interest.
   void TellRest(const Rest& rest, int from_peer);
-  /// Whether a peer was not told yet of all that rests in a block.
-  bool OwesRest(int peer, const RestBlock& at) const { return rest_news_.Owes(peer, at); }
-  /// To each of the other peers what concerns it: all of the bodies that it follows, of the others
-  /// what is news to it (NewestStates). What is not sent at once waits for SendWaiting. Not on the
-  /// bus.
+  /// True if a rest commit in the block is pending for the peer.
+  bool RestIsPendingFor(int peer, const RestBlock& at) const {
+    return rest_audience_.IsPendingFor(peer, at);
+  }
+  /// Forwards states to the other peers: to each all states of bodies that it follows, and of the
+  /// rest the states that it needs (NewestStates). States not sent at once are queued for
+  /// SendWaiting. Does not publish on the bus.
   void Relay(std::int64_t now_us, const States& states, int from_peer);
-  /// What waits for the receivers, as far as their budgets go. Before a flush. What is only shown
-  /// waits for the call in which the room has stepped, or goes along with what is followed: states
-  /// come from each client at another time, and a datagram for each would be mostly headers.
+  /// Sends queued states, as far as the receivers' budgets go. To be called before a flush. States
+  /// of displayed bodies wait until the room has stepped, or go along with those of followed ones:
+  /// states come from each client at another time, and a datagram for each would be mostly headers.
   void SendWaiting(std::int64_t now_us, bool stepped);
-  /// Looks anew at what concerns whom, and tells what concerns somebody more than before.
+  /// Recomputes relevance, and sends to each client the mechanisms that became more relevant to it.
   void LookAround(std::int64_t now_us);
-  /// Tells everyone a little of what is nothing to them: to each in another tick. Every tick.
-  void TellNothings(std::int64_t now_us);
+  /// Sends each client a few mechanisms outside its interest area; clients take turns by tick. To
+  /// be called every tick.
+  void RefreshDistant(std::int64_t now_us);
   int ticks_per_look() const { return std::max(1, config_.tick_hz / kLooksPerSecond); }
-  /// The bodies have changed; LookAround is due.
+  /// Renumbers after an edit; LookAround is due then.
   void Remap(const BodyRemap& change);
+  /// True if there was no LookAround since the last Remap.
   bool stale() const { return stale_; }
-  /// Whether a peer simulates a mechanism, or predicts it: whose inputs move it concern that peer.
+  /// True if a peer simulates or predicts a mechanism: it then needs the inputs that move it.
   bool Simulates(int peer, int mechanism) const;
-  /// Calls `visit(Session&)` for each ready client that does, maybe more than once.
+  /// Calls `visit(Session&)` for each ready client that simulates the mechanism, maybe more than
+  /// once.
   template <class Visit>
   void EachSimulating(int mechanism, const Visit& visit) const {
     const bool central = config_.mode == Mode::kCentral;
@@ -99,7 +105,7 @@ class Broadcast {
     };
     if (central) {
       if (interest_.unknown()) return;
-      for (const int peer : interest_.Hearing(mechanism)) {
+      for (const int peer : interest_.ReceiversFar(mechanism)) {
         if (Simulates(peer, mechanism)) visit_peer(peer);
       }
       return;
@@ -108,23 +114,23 @@ class Broadcast {
     visit_peer(record.authority);
     record.secondaries.Each(visit_peer);
   }
-  /// Something a person wants to read; on the bus only.
+  /// Publishes a line for people; on the bus only.
   void Say(std::int64_t now_us, const std::string& text);
 
-  /// Looks a second.
+  /// Calls of LookAround a second.
   static constexpr int kLooksPerSecond = 10;
-  /// Mechanisms a second, of all that is nothing to a receiver together, of which it is told where
-  /// they are, in turn, each at most every kNothingEveryUs: so what that costs does not grow with
-  /// the room. Some 20 bytes for each: with 40, and each every 10 s, the error of all that is shown
-  /// doubles in a room of 9 players, for 2 kB/s less in one of 32.
-  static constexpr int kNothingPerSecond = 240;
-  static constexpr std::int64_t kNothingEveryUs = 1000000;
+  /// Mechanisms out of interest that a receiver is sent per second, in turn, each at most every
+  /// kDistantEveryUs: so the cost does not grow with the room. Some 20 bytes for each. With 40 a
+  /// second, and each every 10 s, the error of all displayed bodies doubles in a room of 9 players,
+  /// for 2 kB/s less in one of 32.
+  static constexpr int kDistantPerSecond = 240;
+  static constexpr std::int64_t kDistantEveryUs = 1000000;
 
-  /// How much a mechanism concerns a peer.
-  Concern ConcernOf(int peer, int mechanism) const { return interest_.Of(peer, mechanism); }
+  /// Returns the relevance of a mechanism to a peer.
+  Relevance RelevanceOf(int peer, int mechanism) const { return interest_.Of(peer, mechanism); }
 
  private:
-  /// An entry of a message, and whom it concerns.
+  /// An entry of a States message, and the receivers that need it.
   struct Entry {
     PartId id = 0;
     int mechanism = 0;
@@ -132,49 +138,50 @@ class Broadcast {
     bool to_followers = true;
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
-  void TellLostAgain(std::int64_t now_us, Session& session);
-  /// Something is for it that does not wait for the next step.
-  void NotePressing(const Session& session);
+  void RequeueLost(std::int64_t now_us, Session& session);
+  /// Marks a session for the next SendWaiting: it has states that do not wait for the next step.
+  void MarkForSending(const Session& session);
   void SendWaitingTo(std::int64_t now_us, Session& session, bool stepped);
   void NoteFollowers(const std::vector<Grants>& changes);
   void FindFollowers();
-  void TellNothings(std::int64_t now_us, Session& session);
+  void RefreshDistant(std::int64_t now_us, Session& session);
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
-  bool HearsRest(const Session& session, int mechanism) const;
-  /// What a session is owed of the rest of these mechanisms.
-  void TellOwedRest(std::int64_t now_us, Session& session, const std::vector<int>& mechanisms);
-  void TellRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes);
-  /// Of the entries of a message what is due to a peer.
+  bool NeedsRestNow(const Session& session, int mechanism) const;
+  /// Sends the pending rest commits of these mechanisms to a session.
+  void SendPendingRest(std::int64_t now_us, Session& session, const std::vector<int>& mechanisms);
+  void SendRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes);
+  /// Entries of a message that are due to one peer.
   using Due = std::vector<std::pair<PartId, Urgency>>;
-  /// How urgently an entry is due to a peer, if it is.
+  /// Returns the urgency of an entry for a peer; nullopt: not due to it.
   std::optional<Urgency> DueTo(int peer, const Entry& entry) const;
   void AddDue(int peer, const Entry& entry, Urgency urgency);
-  /// By peer, what is due of what `entries_` has.
+  /// Fills due_ from entries_, for all peers but one.
   void FindDue(int but_peer);
   void FindDueOfAny(int but_peer);
-  void FindDueByConcern(int but_peer);
+  void FindDueByRelevance(int but_peer);
   void RelayDue(std::int64_t now_us, const States& states, const Due& due, Session& session);
-  /// Whether who simulates it itself is told where it is in its silent holder's name.
-  bool TellsFollowers(std::int64_t now_us, int holder, int body);
-  /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.
+  /// True if the body's followers, too, are sent the server's states of it in the name of its
+  /// silent holder.
+  bool SendsToFollowers(std::int64_t now_us, int holder, int body);
+  /// True if every client is sent everything: the mode does not use relevance.
   bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
 
   Publisher publisher_;
-  const bool views_;  // what it shows of bodies is published
+  const bool views_;  // views of bodies are published
   const SyncConfig config_;
   const Replica& replica_;
   SessionTable& sessions_;
   bool stale_ = false;
   NewestStates newest_;
   Interest interest_;
-  GrantNews grant_news_;
-  RestNews rest_news_;
-  std::vector<Entry> entries_;               // of the message that is relayed
-  std::vector<Due> due_;                     // by peer, of it; else empty
-  std::vector<int> hearing_;                 // peers to whom anything of it is due
-  bool come_ = false;                        // a peer has: whom it follows is not in followers_
-  std::vector<std::vector<int>> followers_;  // by mechanism: peers; of a large room
-  std::vector<int> pressing_;                // peers for whom something does not wait
+  GrantAudience grant_audience_;
+  RestAudience rest_audience_;
+  std::vector<Entry> entries_;               // in Relay: entries of the message
+  std::vector<Due> due_;                     // in Relay, by peer; else empty
+  std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
+  bool peer_became_ready_ = false;           // a peer became ready: followers_ is out of date
+  std::vector<std::vector<int>> followers_;  // by mechanism: peers; large rooms only
+  std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_
 };
 

@@ -1,4 +1,4 @@
-/// Broadcast, who is told of which states: to whom each entry of a message is due.
+/// Broadcast, relay of states: finds the receivers of each entry of a message.
 
 #include <utility>
 
@@ -10,12 +10,12 @@ namespace seam {
 
 std::optional<Urgency> Broadcast::DueTo(int peer, const Entry& entry) const {
   const bool has = Simulates(peer, entry.mechanism);
-  const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
-  if (concern == Concern::kClose) {
+  const Relevance relevance = has ? Relevance::kClose : interest_.Of(peer, entry.mechanism);
+  if (relevance == Relevance::kClose) {
     if (entry.to_followers) return Urgency::kFollowed;
-  } else if (concern == Concern::kNear && entry.news >= News::kNear) {
+  } else if (relevance == Relevance::kNear && entry.news >= News::kNear) {
     return Urgency::kNear;
-  } else if (concern == Concern::kFar && entry.news == News::kAll) {
+  } else if (relevance == Relevance::kFar && entry.news == News::kAll) {
     return Urgency::kFar;
   }
   return std::nullopt;
@@ -28,7 +28,7 @@ void Broadcast::AddDue(int peer, const Entry& entry, Urgency urgency) {
   due_[p].emplace_back(entry.id, urgency);
 }
 
-/// In a small room, or where nobody has looked yet, anything may be due to anybody.
+/// Checks every entry for every peer: in a small room, or before the first Look.
 void Broadcast::FindDueOfAny(int but_peer) {
   sessions_.ForEachReady(but_peer, [&](const Session& session) {
     for (const Entry& entry : entries_) {
@@ -37,7 +37,7 @@ void Broadcast::FindDueOfAny(int but_peer) {
   });
 }
 
-/// Most of what is told is no news: it goes to who simulates it, and nobody else is looked at.
+/// Most entries are due only to peers that simulate the body; no other peer is checked for them.
 void Broadcast::FindDue(int but_peer) {
   for (const Entry& entry : entries_) {
     const AuthorityRecord& record = replica_.authority().at(entry.mechanism);
@@ -53,30 +53,30 @@ void Broadcast::FindDue(int but_peer) {
     if (entry.news == News::kNobody) continue;
     const bool far = entry.news == News::kAll;
     const std::vector<int>& hearing =
-        far ? interest_.Hearing(entry.mechanism) : interest_.HearingNear(entry.mechanism);
+        far ? interest_.ReceiversFar(entry.mechanism) : interest_.ReceiversNear(entry.mechanism);
     for (const int peer : hearing) {
       if (peer == but_peer || peer == record.authority || record.secondaries.Has(peer)) continue;
-      const bool near = !far || interest_.Of(peer, entry.mechanism) >= Concern::kNear;
+      const bool near = !far || interest_.Of(peer, entry.mechanism) >= Relevance::kNear;
       AddDue(peer, entry, near ? Urgency::kNear : Urgency::kFar);
     }
   }
 }
 
-/// Mode central: what concerns whom is all that tells who predicts it.
-void Broadcast::FindDueByConcern(int but_peer) {
+/// Mode central: relevance alone decides which clients predict a mechanism.
+void Broadcast::FindDueByRelevance(int but_peer) {
   for (const Entry& entry : entries_) {
-    for (const int peer : interest_.Hearing(entry.mechanism)) {
+    for (const int peer : interest_.ReceiversFar(entry.mechanism)) {
       if (peer == but_peer) continue;
       if (const auto urgency = DueTo(peer, entry)) AddDue(peer, entry, *urgency);
     }
   }
 }
 
-/// Who simulates what a silent holder has knows as much of it as the server: the last state that
-/// was heard, and the same inputs. A server that began to simulate it only then knows less: not how
-/// a character stood to its next step, nor what a suspension or a contact bore. Its word counts
-/// once the driver is taken to have let go, which followers hear of from the server alone.
-bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
+/// A follower of a silent holder's body knows as much of the body as the server: the last received
+/// state, and the same inputs. A server that began to simulate the body only then knows less: not
+/// the phase of a character's step, nor the load on a suspension or a contact. Its states count
+/// once the driver's controls are released, which followers learn from the server alone.
+bool Broadcast::SendsToFollowers(std::int64_t now_us, int holder, int body) {
   const World& world = replica_.world();
   const bool small = world.body_count() <= world.scene().server_follow && ShowsViews();
   const bool all_along = small || ProposesEdits(world.scene());
@@ -93,20 +93,20 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     return;
   }
   const bool for_silent = from_peer == 0 && states.peer != 0;
-  const double repeat_s = for_silent ? kNewsRepeatSilent : kNewsRepeat;
+  const double repeat_s = for_silent ? kStateRepeatSilentS : kStateRepeatS;
   const std::vector<NewestStates::Told>& told = newest_.Take(states, repeat_s);
   entries_.clear();
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = told[i].body;
-    if (body < 0) continue;  // it has left meanwhile
-    const bool to_followers = !for_silent || TellsFollowers(now_us, states.peer, body);
+    if (body < 0) continue;  // the body is gone
+    const bool to_followers = !for_silent || SendsToFollowers(now_us, states.peer, body);
     entries_.push_back({states.id[i], told[i].mechanism, told[i].news, to_followers});
   }
   hearing_.clear();
   if (interest_.small() || interest_.unknown()) {
     FindDueOfAny(from_peer);
   } else if (config_.mode == Mode::kCentral) {
-    FindDueByConcern(from_peer);
+    FindDueByRelevance(from_peer);
   } else {
     FindDue(from_peer);
   }
@@ -122,14 +122,14 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
 
 void Broadcast::RelayDue(std::int64_t now_us, const States& states, const Due& due,
                          Session& session) {
-  if (due.size() == states.id.size() && session.outbox.empty() &&
-      session.outbox.Affords(now_us, due.size())) {
+  if (due.size() == states.id.size() && session.send_queue.empty() &&
+      session.send_queue.Affords(now_us, due.size())) {
     session.packer.Add(states);
-    NotePressing(session);
+    MarkForSending(session);
     return;
   }
-  for (const auto& [id, urgency] : due) session.outbox.Add(now_us, id, urgency);
-  if (session.outbox.pressing()) NotePressing(session);
+  for (const auto& [id, urgency] : due) session.send_queue.Add(now_us, id, urgency);
+  if (session.send_queue.pressing()) MarkForSending(session);
 }
 
 }  // namespace seam

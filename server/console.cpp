@@ -7,7 +7,7 @@
 namespace seam {
 namespace {
 
-/// "950 B", "12.3 kB", "4.5 MB".
+/// Formats bytes as "950 B", "12.3 kB", "4.5 MB".
 std::string Amount(std::int64_t bytes) {
   const auto amount = static_cast<double>(bytes);
   if (bytes < 1000) return fmt::format("{} B", bytes);
@@ -23,7 +23,7 @@ std::string Percent(std::int64_t ppm) {
   return ppm < 0 ? "-" : fmt::format("{:.1f} %", static_cast<double>(ppm) * 1e-4);
 }
 
-/// "12 of 30 s", "12 s" without an end.
+/// Formats session time as "12 of 30 s", or "12 s" without an end.
 std::string Time(std::int64_t tick, std::int64_t last_tick, int tick_hz) {
   const double now = static_cast<double>(std::max<std::int64_t>(0, tick)) / tick_hz;
   if (last_tick == 0) return fmt::format("{:.0f} s", now);

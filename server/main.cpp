@@ -24,7 +24,7 @@ namespace {
 using namespace seam;
 
 constexpr int kRoomsMax = 4096;
-/// From one look at who asks for the page of metrics to the next, us.
+/// Time between two polls for requests of the metrics page, us.
 constexpr std::int64_t kPageUs = 5000;
 
 struct Flags {
@@ -54,7 +54,7 @@ struct Flags {
   int metrics_port = 0;
 };
 
-/// "64kB/s", "64000": bytes a second. Throws OperatorError.
+/// Parses bytes a second: "64kB/s", "64000". Throws OperatorError.
 double ParseBudget(const std::string& text) {
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
@@ -129,7 +129,7 @@ void CheckRoomName(const std::string& room, int rooms) {
   if (!good) throw OperatorError("--room takes 1 to 32 letters, digits, - or _");
 }
 
-/// The tick to stop after; 0: none. However short the duration, it is one.
+/// Returns the tick to stop after; 0: none. At least one tick for any positive duration.
 std::int64_t LastTick(double duration_s, int tick_hz) {
   if (std::isnan(duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (duration_s <= 0) return 0;
@@ -140,7 +140,7 @@ double DurationOf(const Flags& f, const Scene& scene) {
   return f.duration_s < 0 ? scene.duration_s : f.duration_s;
 }
 
-/// How the session ends, for people.
+/// Describes the end of the session for people.
 std::string Ending(double duration_s) {
   if (duration_s <= 0) return "; Ctrl-C ends it";
   char text[80];
@@ -148,7 +148,7 @@ std::string Ending(double duration_s) {
   return text;
 }
 
-/// How many players tick 0 waits for.
+/// Returns the number of players that tick 0 waits for.
 int PlayersToWaitFor(const Flags& f, const std::string& name, const Scene& scene) {
   const int players = static_cast<int>(scene.players.size());
   if (f.wait > players) {
@@ -158,7 +158,7 @@ int PlayersToWaitFor(const Flags& f, const std::string& name, const Scene& scene
   return f.wait >= 0 ? f.wait : players;
 }
 
-/// "which scene? ..." with the names that would do.
+/// Returns "which scene? ..." with the names of known scenes.
 std::string WhichScene() {
   std::string line = "which scene? for example: seam-server scenes/crossing.toml";
   const char* before = "; by name: ";
@@ -169,7 +169,7 @@ std::string WhichScene() {
   return line;
 }
 
-/// "out/log.lcm" of one room; of several "out/log.main-1.lcm".
+/// Returns the name of a room's log: "out/log.lcm" for one room, "out/log.main-1.lcm" for several.
 std::string LogOf(const std::string& record, const std::string& room, int rooms) {
   if (record.empty() || rooms == 1) return record;
   const std::string ending = ".lcm";

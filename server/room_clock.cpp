@@ -5,13 +5,13 @@
 namespace seam {
 namespace {
 
-/// A server that catches up does at least so many of a hundred ticks that come due.
+/// Achieved speed, in percent of the clock's, from which on a late server counts as catching up.
 constexpr std::int64_t kCatchesUpPercent = 105;
-/// Of what the server achieved, percent: what is left is for what it does besides.
+/// New speed after a slowdown, in percent of the achieved one: the rest is a margin for other work.
 constexpr std::int64_t kKeepPercent = 95;
-/// How much faster the clock is tried again, percent.
+/// Next speed to try when the server is in time, in percent of the current one.
 constexpr std::int64_t kFasterPercent = 110;
-/// A further loss of this much is told, per million.
+/// Further loss of speed that is reported, ppm.
 constexpr std::int32_t kSayPpm = 100000;
 
 }  // namespace
@@ -49,7 +49,7 @@ void RoomClock::SetSpeed(std::int64_t now_us, std::int64_t room_us, std::int64_t
 bool RoomClock::Note(std::int64_t now_us, std::int64_t tick) {
   if (!started_ || now_us - window_us_ < kWindowUs) return false;
   const std::int64_t late_us = now_us - DueUs(tick + 1);
-  // Of real time, per million: what the ticks done in this window were worth.
+  // Time of the ticks done in this window, ppm of real time.
   const std::int64_t achieved_ppm = PeriodUs(tick - window_tick_) * 1000000 / (now_us - window_us_);
   window_us_ = now_us;
   window_tick_ = tick;
@@ -57,7 +57,7 @@ bool RoomClock::Note(std::int64_t now_us, std::int64_t tick) {
   bad_windows_ = late_us > kLateUs && !catches_up ? bad_windows_ + 1 : 0;
   good_windows_ = late_us < PeriodUs(1) ? good_windows_ + 1 : 0;
   if (bad_windows_ >= kBadWindows) {
-    // What it is behind is given up: the next tick is due now.
+    // Gives up the backlog: the next tick is due now.
     bad_windows_ = 0;
     SetSpeed(now_us, PeriodUs(tick + 1),
              std::min<std::int64_t>(achieved_ppm, speed_ppm_) * kKeepPercent / 100);
@@ -65,11 +65,11 @@ bool RoomClock::Note(std::int64_t now_us, std::int64_t tick) {
     good_windows_ = 0;
     SetSpeed(now_us, RoomUs(now_us), speed_ppm_ * kFasterPercent / 100);
   }
-  return WorthSaying();
+  return ShouldReport();
 }
 
-bool RoomClock::WorthSaying() {
-  if (speed_ppm_ > said_ppm_) {  // it gets better: only that it is over is worth a word
+bool RoomClock::ShouldReport() {
+  if (speed_ppm_ > said_ppm_) {  // speeding up: only full speed is reported
     said_ppm_ = speed_ppm_;
     return speed_ppm_ == kFullSpeedPpm;
   }

@@ -13,12 +13,12 @@
 namespace seam {
 namespace {
 
-/// Most ticks stepped in one call: one that catches up answers its clients in between.
+/// Most ticks stepped in one call: a server that catches up answers its clients in between.
 constexpr int kStepsMax = 2;
-/// m, about where bricks are left in the air.
+/// Radius of the blast that lets hanging bricks fall, m.
 constexpr float kLetFallRadius = 0.5f;
-/// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,
-/// s, at every peer in the same tick. Longer than an order is under way, or that peer is behind.
+/// Mode oracle: delay of edits decided outside the physics (a seat, a rule, a script), s; all peers
+/// apply them in the same tick. Must exceed an order's latency: else a peer applies it late.
 constexpr double kAppointSeconds = 0.25;
 
 Room MakeRoom(const Scene& scene, const ServerConfig& config) {
@@ -38,7 +38,7 @@ Room MakeRoom(const Scene& scene, const ServerConfig& config) {
   return room;
 }
 
-/// Of the server's world: where nobody gets its views, it hides no corrections in them.
+/// Settings of the server's own world: without receivers of its views there is no smoothing.
 SyncConfig OwnSync(const ServerConfig& config, const Recorder& recorder) {
   SyncConfig sync = config.sync;
   if (config.publish == Publish::kNone || !recorder.listening()) sync.smooth_rate = 0;
@@ -51,7 +51,7 @@ Message At(std::int64_t now_us, Message message) {
   return message;
 }
 
-/// Mode oracle: what the scene's scripts do with a player in a tick, `delay` ticks after they say.
+/// Mode oracle: returns a player's scripted inputs for a tick, delayed by `delay` ticks.
 Inputs Scripted(const Scene& scene, int player, std::int64_t tick, int delay) {
   const Input in = ScriptedInput(scene, player, tick - delay);
   Inputs inputs;
@@ -97,11 +97,11 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   FollowSessions(now_us);
   sessions_.Advance(now_us);
   FollowSessions(now_us);
-  if (std::exchange(look_soon_, false)) {  // once for all who came
+  if (std::exchange(look_soon_, false)) {  // once for all clients that became ready
     broadcast_.LookAround(now_us);
-    FindHeardPlayers();
+    FindRelevantPlayers();
   }
-  LetSilentGo(now_us);
+  ReleaseSilentDrivers(now_us);
   StartIfReady(now_us);
   if (now_us - last_room_us_ >= 1000000) {
     last_room_us_ = now_us;
@@ -138,7 +138,7 @@ void Server::WatchClock(std::int64_t now_us) {
 }
 
 void Server::SendWorld(std::int64_t now_us, Session& session) {
-  // Half a world would be another one: who cannot be sent all of it has to leave.
+  // Half a world would be another world: a client that cannot be sent all of it has to leave.
   bool sent = true;
   const auto send = [&](const auto& message) {
     sent = sent && session.link.SendReliable(Encode(message));
@@ -183,7 +183,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
   if (ready < config_.wait_players) return;
   clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
-  // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
+  // Clients that are ready at the start have their mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);
   PublishShown(now_us);
   broadcast_.Say(now_us, "the room starts with " + std::to_string(ready) + " players");
@@ -225,14 +225,14 @@ void Server::PublishShown(std::int64_t now_us) {
   if (!impacts.id_a.empty()) broadcast_.Publish(At(now_us, impacts));
 }
 
-/// Mode oracle: every peer applies them alone, after the same tick.
+/// Mode oracle: sends edits that every peer applies by itself, after the same tick.
 void Server::AppointEdits(std::int64_t now_us) {
   const auto ahead = static_cast<std::int64_t>(kAppointSeconds * config_.sync.tick_hz);
   for (const Edit& edit : edits_.TakePending()) {
     EditOrder order = ToOrder(edit);
     order.utime = now_us;
     order.tick = std::max<std::int64_t>(0, replica_.tick()) + ahead;
-    order.number = 0;  // that it is no new beginning; they are counted as they are applied
+    order.number = 0;  // no repair (BeginAnew); edits are counted as they are applied
     sessions_.SendToAll(Encode(order));
     replica_.Queue(order);
   }
@@ -253,11 +253,11 @@ void Server::ApplyEdits(std::int64_t now_us) {
   ApplyQueued(now_us);
 }
 
-/// A blast lets fall only so much of what it has left in the air, and what a part held hangs when
-/// that goes: it comes down by more edits.
+/// Adds another blast while something hangs in the air. One blast frees only so many of the hanging
+/// bricks, and removing a part may leave bricks without support.
 void Server::LetFall(const Edit& applied, bool hung) {
   const std::optional<Vec2>& hanging = replica_.world().topology().hanging();
-  // While something hangs, each blast asks for the next one.
+  // While something hangs, each blast adds the next one.
   if (!hanging || (hung && applied.As<BlastEdit>() == nullptr)) return;
   edits_.Add(Edit(BlastEdit{*hanging, kLetFallRadius, 0, 0}, EditCause::kOutside));
 }
@@ -307,17 +307,17 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   }
   broadcast_.Tell(grants);
   UpdateInterest(now_us, !grants.empty());
-  broadcast_.TellOwed(now_us);
+  broadcast_.SendPendingGrants(now_us);
   EndLeases(now_us);
 }
 
 void Server::UpdateInterest(std::int64_t now_us, bool changed) {
-  // A tick after the plan, which is as much work.
+  // One tick after the plan, which takes as much time.
   const int every = broadcast_.ticks_per_look();
   const bool due = replica_.tick() % every == std::min(1, every - 1) || broadcast_.stale();
   if (due) broadcast_.LookAround(now_us);
-  if (due || changed) FindHeardPlayers();
-  broadcast_.TellNothings(now_us);
+  if (due || changed) FindRelevantPlayers();
+  broadcast_.RefreshDistant(now_us);
 }
 
 void Server::RunRules(std::int64_t now_us) {

@@ -1,7 +1,7 @@
 #pragma once
-/// The room's loop: receives, steps the ticks that are due, sends. What follows from a tick, a
-/// message or a join is decided by its members, one question each. A function of the time
-/// and the datagrams it is given: the same Server runs over UDP and in virtual time.
+/// The room's loop: receives, steps the ticks that are due, sends. Each member decides one question
+/// about the effects of a tick, a message or a join. A function of the time and the datagrams that
+/// it is given: the same Server runs over UDP and in virtual time.
 
 #include <cstdint>
 #include <memory>
@@ -36,60 +36,60 @@ struct ServerConfig {
   std::string impair = "perfect";  ///< for the record only
   std::int64_t seed = 1;
   int wait_players = 0;  ///< tick 0 comes when this many players are ready
-  /// Of UDP payload to each client, at most; 0: no limit.
+  /// Limit for UDP payload to each client; 0: none.
   double client_bytes_per_s = kClientBytesPerS;
   Publish publish = Publish::kAll;
 };
 
 class Server {
  public:
-  /// `net`, `recorder` and `entropy` must outlive the server. Who can guess what `entropy` gives
-  /// can take any player's place.
+  /// `net`, `recorder` and `entropy` must outlive the server. `entropy` must not be predictable:
+  /// otherwise an attacker can take any player's place.
   Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder,
          Entropy& entropy);
   ~Server();
 
   /// Receives, steps the ticks that are due, sends. `now_us`: any clock that never runs backwards;
-  /// `cpu_us`: CPU time used so far, for the record (0 when unknown); read where stats_due.
+  /// `cpu_us`: CPU time used so far, for the record (0: unknown); used only if stats_due.
   void Tick(std::int64_t now_us, std::int64_t cpu_us);
   bool stats_due(std::int64_t now_us) const { return stats_.Due(now_us); }
-  /// When the next tick is due on the clock of Tick; INT64_MAX before the room starts.
+  /// Time at which the next tick is due, on the clock of Tick; INT64_MAX before the room starts.
   std::int64_t next_tick_us() const;
-  /// Says goodbye to everyone; call Tick no more.
+  /// Says goodbye to everyone. Tick must not be called afterwards.
   void Shutdown(std::int64_t now_us, const std::string& reason);
 
   bool started() const { return clock_.started(); }
   std::int64_t tick() const { return replica_.tick(); }
   int client_count() const { return sessions_.count(); }
-  /// Players of the scene who are in the room.
+  /// Number of the scene's players with a ready client.
   int player_count() const { return sessions_.player_count(); }
   const Stats& stats() const { return stats_.counters; }
   /// Parts that were removed because they had left the scene's bounds, since the start.
   std::int64_t left_bounds() const { return bounds_.left(); }
-  /// Messages of sessions that were decoded, since the start.
+  /// Decoded messages of sessions, since the start.
   std::int64_t decoded() const { return stats_.decoded; }
-  /// Hand-overs at which our copy was visibly off, since the start.
+  /// Hand-overs at which the server's copy was visibly off, since the start.
   std::int64_t jumps() const { return stats_.jumps; }
-  /// Of the room's clock, per million of real time: below kFullSpeedPpm we are overloaded.
+  /// Speed of the room's clock, ppm of real time: below kFullSpeedPpm the server is overloaded.
   std::int32_t speed_ppm() const { return clock_.speed_ppm(); }
   const Replica& replica() const { return replica_; }
-  /// An edit from outside; see EditLog::Add.
+  /// Adds an edit from outside; see EditLog::Add.
   bool Order(const Edit& edit) { return edits_.Add(edit); }
-  /// What the operator should read since the last call: a script was stopped. One line each.
+  /// Returns the operator's warnings since the last call, such as a stopped script. One line each.
   std::vector<std::string> TakeWarnings();
-  /// Who came and went since the last call, for people, one line each; the first 256.
+  /// Returns lines for people about clients that came and went, since the last call; the first 256.
   std::vector<std::string> TakeReports() { return std::exchange(news_, {}); }
-  /// The scene's players who are not in the room.
+  /// Names of the scene's players without a ready client.
   std::vector<std::string> missing() const;
   const Scene& scene() const { return scene_; }
-  /// What each client's sessions have come to so far.
+  /// Statistics of each client's sessions so far.
   std::vector<ClientAccount> accounts() const { return sessions_.accounts().List(); }
-  /// What it decides of health, scores and scripts; nullptr when the scene has nothing of it.
+  /// The room's rules (health, scores, scripts); nullptr if the scene has none.
   const Rules* rules() const { return rules_.get(); }
 
-  /// From the last player's readiness to tick 0, us: time for the answer to reach everyone.
+  /// Time from the last player's readiness to tick 0, us: the start has to reach everyone in it.
   static constexpr std::int64_t kLeadInUs = 1000000;
-  /// A peer whose composition differs is repaired at most this often, us.
+  /// Shortest time between two repairs of a peer with another composition, us.
   static constexpr std::int64_t kRepairAgainUs = 3000000;
 
  private:
@@ -97,16 +97,16 @@ class Server {
 
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
-  /// OnMessage; what it drops goes to the session's account.
+  /// Calls OnMessage; adds the messages that it drops to the session's account.
   void Deliver(std::int64_t now_us, Session& session, ByteView bytes);
   void OnMessage(std::int64_t now_us, Session& session, ByteView bytes);
-  /// A client whose name is no player's asks which are free.
+  /// Sends the free names to a client; a client asks for them when its name is no player's.
   void OnHello(std::int64_t now_us, Session& session);
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
   void RelayInputs(std::int64_t now_us);
   void RelayInputs(std::int64_t now_us, const std::vector<int>& players, Session& session);
-  void FindHeardPlayers();
+  void FindRelevantPlayers();
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
@@ -116,18 +116,18 @@ class Server {
   void OnProposal(Session& session, const EditOrder& proposal);
 
   // server.cpp
-  /// Acts on who joined, became ready and left.
+  /// Acts on the events of sessions: joined, ready, left.
   void FollowSessions(std::int64_t now_us);
-  /// Edits, grants, states and values: all that a peer needs to have our world. One that cannot be
-  /// sent all of it is leaving.
+  /// Sends edits, grants, states and values: all that a peer needs to rebuild the server's world. A
+  /// peer that cannot be sent all of it has to leave.
   void SendWorld(std::int64_t now_us, Session& session);
-  /// Where all bodies are, once more: since it was sent the world, while its clock settled, a
-  /// client has heard of none of them.
+  /// Sends all bodies' states once more: the client was sent none since SendWorld, while its clock
+  /// settled.
   void SendBodies(std::int64_t now_us, Session& session);
-  /// What rests of the block that a ping looks at: said again where the client has lost it; and
-  /// what of its own the server knows of, for its answer.
+  /// Compares the block of resting bodies in a ping. Sends it again if the client has lost it; puts
+  /// into `pong` the server's hash of the client's own bodies in the block.
   void LookAtRest(std::int64_t now_us, Session& session, const Ping& ping, Pong* pong);
-  /// What came to rest in the last step, and whether the room is quiet.
+  /// Sends the bodies that came to rest in the last step; tells the links if the room is quiet.
   void TellRest(std::int64_t now_us);
   void StartIfReady(std::int64_t now_us);
   void WatchClock(std::int64_t now_us);
@@ -137,14 +137,14 @@ class Server {
   void LetFall(const Edit& applied, bool hung);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
-  /// Looks anew at what concerns whom, when that is due or has changed.
+  /// Recomputes relevance when that is due; `changed`: authority has changed.
   void UpdateInterest(std::int64_t now_us, bool changed);
   void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RunSeats();
   void EndLeases(std::int64_t now_us);
   void LetGo(std::int64_t now_us, int player, std::int16_t buttons);
-  void LetSilentGo(std::int64_t now_us);
+  void ReleaseSilentDrivers(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
   void NoteCorrected(int body);
@@ -164,16 +164,16 @@ class Server {
   Broadcast broadcast_;
   std::unique_ptr<ServerCommands> commands_;
   std::unique_ptr<AuthoritySource> rule_source_;
-  std::unique_ptr<Rules> rules_;   // null: the scene has nothing to decide
+  std::unique_ptr<Rules> rules_;   // null: the scene has none
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
-  bool look_soon_ = false;             // somebody has come: what concerns whom is not known
-  std::int64_t drivers_heard_us_ = 0;  // until then no driver has been silent for too long
-  std::vector<int> inputs_due_;        // players of whom some have come
-  std::int64_t inputs_due_tick_ = -1;  // when they were relayed last
+  bool look_soon_ = false;             // a client became ready: its relevances are not known
+  std::int64_t drivers_heard_us_ = 0;  // time of the next check for silent drivers
+  std::vector<int> inputs_due_;        // players with new inputs
+  std::int64_t inputs_due_tick_ = -1;  // tick of the last RelayInputs
   std::vector<Inputs> newest_inputs_;  // by player, to be relayed; without ticks: not looked up
-  // Of what is relayed of inputs to one session at a time.
+  // Used while inputs are relayed to one session.
   InputsPacker inputs_packer_;
   std::vector<Receipt> input_receipts_;
   std::vector<int> input_candidates_;

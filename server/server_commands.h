@@ -1,6 +1,6 @@
 #pragma once
-/// What a room's rules may do. It becomes edits in the server's order, with an outside cause, since
-/// an oracle cannot find them by itself.
+/// Commands of a room's rules. Each becomes an edit in the server's order, with an outside cause,
+/// since an oracle cannot find it by itself.
 
 #include <string>
 #include <utility>
@@ -15,7 +15,7 @@ namespace seam {
 
 class ServerCommands : public RoomCommands {
  public:
-  /// All must outlive it.
+  /// All must outlive this object.
   ServerCommands(Replica& replica, EditLog& edits, const SessionTable& sessions)
       : replica_(replica), edits_(edits), sessions_(sessions) {}
 
@@ -31,7 +31,7 @@ class ServerCommands : public RoomCommands {
   bool Present(int player) const override;
   Input ReadInput(int player) const override;
 
-  /// What was said since the last call, warnings included.
+  /// Returns the lines said since the last call, warnings included.
   std::vector<std::string> TakeSaid() { return std::exchange(said_, {}); }
   std::vector<std::string> TakeWarnings() { return std::exchange(warnings_, {}); }
 

@@ -1,4 +1,4 @@
-/// Server, incoming: every byte is distrusted; what fails is dropped and counted by reason.
+/// Server, incoming messages: every byte is distrusted; bad ones are dropped and counted by reason.
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@
 namespace seam {
 namespace {
 
-/// Inputs this far from now are nonsense, ticks.
+/// Inputs farther from now than this are dropped, ticks.
 constexpr std::int64_t kInputTicksMax = 600;
-/// Datagrams taken in one call: a flood must not keep the room from stepping.
+/// Most datagrams taken in one call: a flood must not keep the room from stepping.
 constexpr int kDatagramsMax = 4096;
 
 }  // namespace
@@ -95,7 +95,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   const bool more = session.link.reliable_pending();
   if (config_.sync.mode == Mode::kOracle) return;  // each peer edits by its own clock
   if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping, more)) return;
-  // Once for each time it was repaired: what is under way must arrive first.
+  // Not again too soon: the messages of the last repair must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;
   session.repaired_us = now_us;
   broadcast_.Say(now_us, session.name + " (peer " + std::to_string(session.peer) +
@@ -118,7 +118,7 @@ void Server::LookAtRest(std::int64_t now_us, Session& session, const Ping& ping,
   pong->rest_blocks = ping.rest_blocks;
   pong->rest_block = ping.rest_block;
   pong->rest_own = static_cast<std::int32_t>(rest.HashOf(at, session.peer));
-  if (broadcast_.OwesRest(session.peer, at)) {
+  if (broadcast_.RestIsPendingFor(session.peer, at)) {
     session.rest.Skip(at);
   } else if (session.rest.Lost(now_us, at, rest.HashOf(at, -1),
                                static_cast<std::uint32_t>(ping.rest_part))) {
@@ -129,7 +129,8 @@ void Server::LookAtRest(std::int64_t now_us, Session& session, const Ping& ping,
   }
 }
 
-/// From the first to the last tick of a message that was not known yet, noted, as it is known now.
+/// Stores the inputs of a message. Returns those from its first to its last tick that was not known
+/// before, with the values known now.
 Inputs Server::TakeFresh(std::int64_t now_us, const Inputs& inputs) {
   const InputTrack& track = replica_.inputs(inputs.player);
   std::int64_t from = inputs.first_tick;
@@ -166,8 +167,9 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
   broadcast_.Publish(fresh);
 }
 
-/// In the same call as they came, since everything is flushed at its end. All that anybody hears is
-/// looked at once a tick; between, what has come, and what waits for others with which to go.
+/// Relays inputs in the call in which they came, before the flush at its end. Once a tick checks
+/// all players that each client hears; between ticks only players with new inputs, or with inputs
+/// that wait to go along with another message.
 void Server::RelayInputs(std::int64_t now_us) {
   const bool stepped = std::exchange(inputs_due_tick_, replica_.tick()) != replica_.tick();
   std::sort(inputs_due_.begin(), inputs_due_.end());
@@ -177,10 +179,10 @@ void Server::RelayInputs(std::int64_t now_us) {
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(scene_.players.size());
     if (stepped) {
-      RelayInputs(now_us, session.heard_players, session);
+      RelayInputs(now_us, session.relevant_players, session);
       return;
     }
-    const std::vector<int>& heard = session.heard_players;
+    const std::vector<int>& heard = session.relevant_players;
     input_candidates_.clear();
     std::set_intersection(inputs_due_.begin(), inputs_due_.end(), heard.begin(), heard.end(),
                           std::back_inserter(input_candidates_));
@@ -198,7 +200,7 @@ void Server::RelayInputs(std::int64_t now_us) {
   inputs_due_.clear();
 }
 
-/// Of these players, ascending, to one that hears them.
+/// Relays the inputs of these players, ascending, to one session.
 void Server::RelayInputs(std::int64_t now_us, const std::vector<int>& players, Session& session) {
   const auto send = [&] {
     if (!inputs_packer_.empty()) {
@@ -229,16 +231,17 @@ void Server::RelayInputs(std::int64_t now_us, const std::vector<int>& players, S
   send();
 }
 
-/// After authority, or what concerns whom, has changed: whose inputs each client hears.
-void Server::FindHeardPlayers() {
+/// Computes the players with inputs relevant to each client. To be called after authority or
+/// relevance has changed.
+void Server::FindRelevantPlayers() {
   sessions_.ForEachReady(0, [](Session& session) {
-    session.heard_players.clear();
-    session.unsent_players.clear();  // the next tick looks at all
+    session.relevant_players.clear();
+    session.unsent_players.clear();  // the next tick checks all
   });
   const Drivers& drivers = replica_.drivers();
   for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
     const auto hears = [&](Session& session) {
-      std::vector<int>& heard = session.heard_players;
+      std::vector<int>& heard = session.relevant_players;
       if (session.player != p && (heard.empty() || heard.back() != p)) heard.push_back(p);
     };
     if (drivers.MovesBelt(p)) {

@@ -1,4 +1,4 @@
-/// Server: who gets into a seat and out of it, and when a bond follows.
+/// Server: players that enter or leave seats, and the bonds that follow.
 
 #include <algorithm>
 #include <set>
@@ -17,9 +17,9 @@ void Server::RunSeats() {
     for (const Edit& edit : SeatEdits(world, p, pressed, &taken)) edits_.Add(edit);
   }
   int heard = replica_.revision();
-  if (config_.sync.mode != Mode::kOracle) {  // there all act at one tick
-    // Whoever is just coming in is waited for, too.
-    sessions_.ForEachTold([&](const Session& s) { heard = std::min(heard, s.revision); });
+  if (config_.sync.mode != Mode::kOracle) {  // in mode oracle all peers act at the same tick
+    // Waits for joining clients, too.
+    sessions_.ForEachSentRoom([&](const Session& s) { heard = std::min(heard, s.revision); });
   }
   for (const Edit& edit : seat_bonds_.Next(world, heard)) edits_.Add(edit);
 }

@@ -1,4 +1,4 @@
-/// Server, who comes and goes: what follows from it, and what people are told of it.
+/// Server: effects of sessions that come and go, and the lines for people about them.
 
 #include <algorithm>
 
@@ -10,10 +10,10 @@
 namespace seam {
 namespace {
 
-/// Lines of news that wait to be taken.
+/// Most lines of news kept until TakeNews.
 constexpr std::size_t kNewsMax = 256;
 
-/// A bit field: by which of its buttons the player pushes something, from a seat too.
+/// Returns a bit field of the player's buttons that drive a thrust, also from a seat.
 int PushingButtons(const Scene& scene, int player) {
   const auto players = scene.players.size();
   int buttons = 0;
@@ -46,7 +46,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
         authority_.PlanSoon();
         look_soon_ = true;
-        broadcast_.NoteCome();
+        broadcast_.NotePeerReady();
         broadcast_.Say(now_us, event.name + " is ready as " + peer);
         Tell(event.name + " is here as " + peer + ", " + ToString(event.address));
         break;
@@ -63,9 +63,9 @@ void Server::FollowSessions(std::int64_t now_us) {
   }
 }
 
-/// Of who does not let go. It may not have heard the question while its pings were answered, and
-/// goes on until its lease ends: so it is answered no more, and loses what it has when it is
-/// dropped, by when it must have let go of all by itself.
+/// Ends the leases of clients that do not release a mechanism. Such a client may not have received
+/// the request, and goes on as long as its pings are answered. So the server stops answering and
+/// drops the client after kEndingUs; by then its lease has ended and it has released everything.
 void Server::EndLeases(std::int64_t now_us) {
   const PeerSet withholding = authority_.OverdueHolders(now_us);
   sessions_.ForEachReady(0, [&](Session& session) {
@@ -78,9 +78,9 @@ void Server::EndLeases(std::int64_t now_us) {
   });
 }
 
-/// A driver that is not heard has let go of its controls until it is; what else its buttons do
-/// stays, or going on would be a new press.
-void Server::LetSilentGo(std::int64_t now_us) {
+/// Releases the controls of drivers that are silent for kDriverSilentUs, until they are heard
+/// again. Buttons that drive nothing stay pressed: otherwise going on would count as a new press.
+void Server::ReleaseSilentDrivers(std::int64_t now_us) {
   if (now_us < drivers_heard_us_) return;
   drivers_heard_us_ = now_us + kDriverSilentUs;
   const std::vector<int>& peers = sessions_.PeerOfPlayer();
@@ -99,7 +99,7 @@ void Server::LetSilentGo(std::int64_t now_us) {
   }
 }
 
-/// Its last input would drive on for ever.
+/// Adds an input without drive and lift: otherwise the player's last input would drive on for ever.
 void Server::LetGo(std::int64_t now_us, int player, std::int16_t buttons) {
   const InputTrack& track = replica_.inputs(player);
   if (config_.sync.mode == Mode::kOracle || track.newest() < 0) return;
@@ -113,7 +113,7 @@ void Server::LetGo(std::int64_t now_us, int player, std::int16_t buttons) {
   broadcast_.Publish(TakeFresh(now_us, nothing));
 }
 
-/// "bob is gone: left; 1 of 2 players, missing: bob".
+/// Adds a line of news: "bob is gone: left; 1 of 2 players, missing: bob".
 void Server::Tell(const std::string& line) {
   if (news_.size() >= kNewsMax) return;
   std::string all = line + "; " + std::to_string(player_count()) + " of " +
@@ -135,8 +135,8 @@ std::vector<std::string> Server::missing() const {
   return names;
 }
 
-/// Our copy of a client's body was wrong: of what the client has authority over, or, where the
-/// server has it, of what its player owns.
+/// Counts a correction of the server's copy of a body: for the client with authority over the body,
+/// or, if the server has it, for the client of the player that owns the body.
 void Server::NoteCorrected(int body) {
   const int mechanism = replica_.world().mechanism(body);
   const int peer = replica_.authority().at(mechanism).authority;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the server counts, and how late it was.
+/// The server's counters, and the lateness of its ticks.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// All that was dropped, for whatever reason.
+/// Returns the number of dropped messages, for all reasons together.
 inline std::int64_t Dropped(const Stats& stats) {
   return stats.dropped_malformed + stats.dropped_stale + stats.dropped_right +
          stats.dropped_implausible + stats.dropped_budget;
@@ -18,18 +18,18 @@ struct ServerStats {
   Stats counters;                  ///< since the start
   std::int64_t decoded = 0;        ///< messages, since the start
   std::int64_t jumps = 0;          ///< since the start
-  std::int64_t worst_late_us = 0;  ///< of a tick, since the last report
-  std::int64_t discarded = 0;      ///< by the net, as far as counted
+  std::int64_t worst_late_us = 0;  ///< latest tick since the last report
+  std::int64_t discarded = 0;      ///< by the net, as last noted
   std::int64_t reported_us = -1000000000;
 
   bool Due(std::int64_t now_us) const { return now_us - reported_us >= 1000000; }
   void NoteLate(std::int64_t late_us) { worst_late_us = std::max(worst_late_us, late_us); }
-  /// `total`: what the net has discarded since the start.
+  /// Counts datagrams that the net has discarded as malformed. `total`: since the start.
   void NoteDiscarded(std::int64_t total) {
     counters.dropped_malformed += total - discarded;
     discarded = total;
   }
-  /// The counters with what is known only now, for a report; begins the next one.
+  /// Returns the counters for a report, completed by the arguments; begins the next report.
   const Stats& Report(std::int64_t now_us, std::int64_t tick, std::int64_t cpu_us,
                       std::int64_t rtt_us, std::int64_t loss_ppm) {
     reported_us = now_us;

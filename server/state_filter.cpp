@@ -10,13 +10,13 @@
 namespace seam {
 namespace {
 
-/// States this far in the past or future are nonsense, s.
+/// States farther in the past or future than this are dropped, s.
 constexpr double kStatesPast = 2.0;
 constexpr double kStatesFuture = 0.5;
-/// A body may move this much more than its speed explains between two states, m: a hard correction.
+/// Distance that a body may move between two states beyond the speed limit, m: a hard correction.
 constexpr float kJumpSlack = 5.0f;
 
-/// Each of a message's arrays with only the entries `kept`, ascending; all of them as a rule.
+/// Copies the entries `kept` (ascending) of an array of a message. Mostly all entries are kept.
 template <class T>
 void KeepOf(const std::vector<T>& from, const std::vector<std::size_t>& kept, std::vector<T>* to) {
   if (kept.size() == from.size()) {
@@ -39,7 +39,7 @@ void KeepOf(const States& from, const std::vector<std::size_t>& kept, States* to
   KeepOf(from.spin, kept, &to->spin);
 }
 
-/// And how it moves.
+/// Appends velocity and spin of the i-th body of `from` to `to`.
 template <class Message>
 void AddMotion(const Message& from, std::size_t i, Message* to) {
   to->vx.push_back(from.vx[i]);
@@ -55,7 +55,7 @@ StateFilter::StateFilter(const Scene& scene, const Replica& replica,
   accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
 }
 
-bool StateFilter::MayLookAt(int peer, const States& states) {
+bool StateFilter::HeaderAcceptable(int peer, const States& states) {
   const double hz = scene_.solver.tick_hz;
   const auto age = static_cast<double>(replica_.tick() - states.tick);
   if (states.peer != peer) {
@@ -68,7 +68,7 @@ bool StateFilter::MayLookAt(int peer, const States& states) {
   }
   if (edits_.Differs(states.revision, states.composition) ||
       states.revision > replica_.revision()) {
-    ++stats_.dropped_implausible;  // its next ping has it repaired
+    ++stats_.dropped_implausible;  // the peer's next ping triggers a repair
     return false;
   }
   return true;
@@ -89,8 +89,9 @@ bool StateFilter::Reachable(int body, std::int64_t tick, const Vec2& position, f
   return (position - last.position).norm() <= way;
 }
 
-/// A state waits for the next one. A commitment to rest is said once: it counts although another,
-/// whose clock was ahead, had the body before; and when it is said again, because it was lost.
+/// A state must be newer than the last accepted one: a dropped state is replaced by the next. A
+/// rest commit is sent once. So it counts in a newer epoch even if its tick is older, since the
+/// clock of the holder before may have been ahead; and it may be repeated for the same tick.
 bool StateFilter::Outdated(int body, const Claim& claim) const {
   const LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
   if (!claim.rests) return claim.tick <= last.tick;
@@ -115,7 +116,7 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
   }
-  // What rests does so in an epoch; its holder says it anew in the next.
+  // A rest commit is valid in one epoch; the holder commits again in the next.
   if (claim.rests && claim.epoch != EpochOf(body)) {
     ++stats_.dropped_stale;
     return false;
@@ -126,7 +127,7 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
   }
   if (!Plausible(body, claim.tick, claim.state)) {
     const Vec2& at = claim.state.position;
-    // What falls for long is faster than the limit, which no message of it passes.
+    // A body in long free fall exceeds the speed limit, so none of its states is accepted.
     if (OutsideBounds(scene_, at) && Reachable(body, claim.tick, at, 2)) outside_.push_back(body);
     ++stats_.dropped_implausible;
     return false;
@@ -137,7 +138,7 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
 const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
   States& kept = kept_;
   passed_.clear();
-  const bool any = MayLookAt(peer, states);
+  const bool any = HeaderAcceptable(peer, states);
   for (std::size_t i = 0; any && i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     const Claim claim{states.peer,     states.tick,          states.revision,
@@ -156,11 +157,11 @@ const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& sta
   kept.composition = states.composition;
   kept.origin_x = states.origin_x;
   kept.origin_y = states.origin_y;
-  // Who had it all the time may not know the last one yet.
+  // A holder that keeps its mechanism may not know the newest epoch yet.
   for (std::size_t i = 0; i < kept.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(kept.id[i]);
     kept.epoch[i] = EpochOf(body);
-    // What hangs on others does not fall freely, whoever says so: an edit may just have joined it.
+    // A jointed body does not fall freely: an edit may just have joined it, unknown to its holder.
     const bool falls = (kept.flags[i] & kStateFalls) != 0;
     if (falls && replica_.world().Joined(body)) kept.flags[i] ^= kStateFalls;
   }

@@ -1,7 +1,7 @@
 #pragma once
-/// What of a peer's states is believed: said by who may say it, of now, newer than all that was
-/// believed of that body, and likely. The rest is dropped and counted by reason, before anybody
-/// else hears of it.
+/// Decides which of a peer's states are accepted: the peer has the right, the tick is near now and
+/// newer than the body's last accepted one, and the state is plausible. The rest is dropped and
+/// counted by reason, before any other peer receives it.
 
 #include <cstdint>
 #include <utility>
@@ -16,30 +16,30 @@ namespace seam {
 
 class StateFilter {
  public:
-  /// All must outlive it. Dropped things are counted in `stats`.
+  /// All must outlive this object. Dropped messages and entries are counted in `stats`.
   StateFilter(const Scene& scene, const Replica& replica, const AuthorityManager& authority,
               const EditLog& edits, Stats& stats);
 
-  /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing. It
-  /// holds until the next call.
+  /// Returns the accepted entries of a message of `peer`, without bodies if there is none. Requires
+  /// that the peer is ready. The result is valid until the next call.
   const States& Keep(std::int64_t now_us, int peer, const States& states);
-  /// The same of a commitment to rest; it may be old, as reliable messages are under loss.
+  /// Like above, for a rest commit; it may be old, as reliable messages are under loss.
   Rest Keep(std::int64_t now_us, int peer, const Rest& rest);
-  /// What is kept of what a peer, which is ready, says of bodies that it has let go of.
+  /// Like above, for the exact states of bodies that the peer has released.
   ExactStates KeepExact(int peer, const ExactStates& exact);
-  /// Bodies that their authority, since the last call, has said to be outside the scene's bounds:
-  /// dropped, but no further away than twice the speed limit explains.
+  /// Returns the bodies with a state, since the last call, that was dropped because it was outside
+  /// the scene's bounds, but no farther away than twice the speed limit explains.
   std::vector<int> TakeOutside() { return std::exchange(outside_, {}); }
-  /// The bodies have changed.
+  /// Renumbers bodies after an edit.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
  private:
-  /// Whether the message as a whole may be looked at.
-  bool MayLookAt(int peer, const States& states);
-  /// Whether what a peer says of the i-th body, which it has let go of, counts.
+  /// True if the message's header is acceptable.
+  bool HeaderAcceptable(int peer, const States& states);
+  /// True if the i-th exact state, of a body that the peer has released, is acceptable.
   bool MayRelease(int peer, int body, const ExactStates& exact, std::size_t i);
   std::int32_t EpochOf(int body) const;
-  /// Whether a body may be where a message of that peer, tick, revision and epoch says, in `state`.
+  /// A body's state by a message of that peer, tick, revision and epoch.
   struct Claim {
     int peer = 0;
     std::int64_t tick = 0;
@@ -47,11 +47,12 @@ class StateFilter {
     BodyState state;
     bool rests = false;
   };
+  /// True if the claim is acceptable; otherwise counts it as dropped.
   bool MayMove(int body, const Claim& claim);
-  /// Whether what was believed of it is newer.
+  /// True if the last accepted state of the body is newer.
   bool Outdated(int body, const Claim& claim) const;
   bool Plausible(int body, std::int64_t tick, const BodyState& state) const;
-  /// Whether it could have moved there since it was last believed at `times` the speed limit.
+  /// True if the body can have moved there from its last accepted state at `times` the speed limit.
   bool Reachable(int body, std::int64_t tick, const Vec2& position, float times) const;
 
   struct LastAccepted {
@@ -67,9 +68,9 @@ class StateFilter {
   Stats& stats_;
   std::vector<LastAccepted> accepted_;  // by body
   std::vector<int> outside_;
-  // Of the last message: their memory is used again.
+  // Results for the last message; members so that their memory is reused.
   States kept_;
-  std::vector<std::size_t> passed_;  // its entries that are kept
+  std::vector<std::size_t> passed_;  // indices of the accepted entries
 };
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// How long ticks took, as a histogram: percentiles of a session of any length.
+/// Histogram of tick durations: percentiles over a session of any length.
 
 #include <algorithm>
 #include <array>
@@ -13,15 +13,15 @@ class TickTimes {
   /// Width of a bin, and so the resolution, us.
   static constexpr std::int64_t kBinUs = 20;
 
-  /// `ticks` ticks took `us` in all. Does nothing without a tick.
+  /// Adds `ticks` ticks that took `us` together. Does nothing if `ticks` is 0.
   void Note(std::int64_t us, std::int64_t ticks) {
     if (ticks <= 0) return;
     const std::int64_t bin = std::max<std::int64_t>(0, us) / ticks / kBinUs;
     bins_[std::min(static_cast<std::size_t>(bin), kBins - 1)] += ticks;
     count_ += ticks;
   }
-  /// The time that `percent` of the ticks did not exceed, us, rounded up to a bin; 0 without ticks.
-  /// Ticks above 100 ms count as 100 ms.
+  /// Returns the time that `percent` of the ticks did not exceed, us, rounded up to a bin; 0
+  /// without ticks. Ticks above 100 ms count as 100 ms.
   std::int64_t Percentile(int percent) const {
     std::int64_t rest = (count_ * percent + 99) / 100;
     for (std::size_t bin = 0; bin < kBins && count_ > 0; ++bin) {

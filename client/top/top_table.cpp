@@ -12,7 +12,7 @@ constexpr std::int64_t kSilentUs = 5000000;
 double Ms(std::int32_t us) { return us * 1e-3; }
 
 /// Returns the bytes of a kind of traffic; 0 if the kind is missing.
-std::int64_t Bytes(const Load& load, const std::vector<std::int64_t>& bytes, int kind) {
+std::int64_t BytesOf(const Load& load, const std::vector<std::int64_t>& bytes, int kind) {
   for (std::size_t i = 0; i < load.kind.size(); ++i) {
     if (load.kind[i] == kind) return bytes[i];
   }
@@ -43,8 +43,8 @@ std::string TopTable::Row(const std::string& room, const Heard& heard) {
   double out = 0, in = 0;
   for (int kind = 0; kind <= kTrafficOther; ++kind) {
     out +=
-        rate(Bytes(load, load.bytes_out, kind), Bytes(heard.before, heard.before.bytes_out, kind));
-    in += rate(Bytes(load, load.bytes_in, kind), Bytes(heard.before, heard.before.bytes_in, kind));
+        rate(BytesOf(load, load.bytes_out, kind), BytesOf(heard.before, heard.before.bytes_out, kind));
+    in += rate(BytesOf(load, load.bytes_in, kind), BytesOf(heard.before, heard.before.bytes_in, kind));
   }
   char text[256];
   std::snprintf(
@@ -73,8 +73,8 @@ std::string TopTable::Text(std::int64_t now_us) const {
     if (now_us - heard.now_us > kSilentUs) continue;
     text += Row(room, heard);
     for (int kind = 0; heard.seconds() > 0 && kind <= kTrafficOther; ++kind) {
-      const std::int64_t more = Bytes(heard.now, heard.now.bytes_out, kind) -
-                                Bytes(heard.before, heard.before.bytes_out, kind);
+      const std::int64_t more = BytesOf(heard.now, heard.now.bytes_out, kind) -
+                                BytesOf(heard.before, heard.before.bytes_out, kind);
       out[kind] += static_cast<double>(more) / heard.seconds() * 1e-3;
     }
   }

@@ -1,13 +1,13 @@
 #pragma once
-/// What to do about errors: assert our own bugs in every build, throw an operator's mistakes.
-/// Wrong bytes from the network or a log are neither: they are dropped and counted where read.
+/// Error handling: our own bugs are asserted in every build, an operator's mistakes are thrown.
+/// Wrong bytes from the network or a log are neither: the reader drops and counts them.
 
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
-/// Our own bug: prints file and line and aborts, in every build.
+/// Prints file and line and aborts if `condition` is false, in every build. For our own bugs.
 #define SEAM_ASSERT(condition)                                                               \
   do {                                                                                       \
     if (!(condition)) {                                                                      \
@@ -18,7 +18,7 @@
 
 namespace seam {
 
-/// An operator's mistake (a flag, a scene, a port). `what()` is one line that says what to change;
+/// An operator's mistake (a flag, a scene, a port). Its message is one line that names the remedy;
 /// every main prints it and exits with status 2.
 class OperatorError : public std::runtime_error {
  public:

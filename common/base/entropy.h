@@ -1,6 +1,6 @@
 #pragma once
-/// Where secrets and session numbers come from: the operating system for programs, a seed for
-/// tests and the lab, so that a run repeats.
+/// The source of secrets and session numbers: the operating system in programs, a seed in tests
+/// and the lab, so that a run repeats.
 
 #include <cstdint>
 
@@ -11,17 +11,17 @@ namespace seam {
 class Entropy {
  public:
   virtual ~Entropy() = default;
-  /// 64 random bits.
+  /// Returns 64 random bits.
   virtual std::uint64_t Next() = 0;
 };
 
-/// Nobody can guess it. The process ends (asserted) where the system has no random numbers.
+/// Unpredictable random numbers from the system. Asserts that the system has them.
 class OsEntropy : public Entropy {
  public:
   std::uint64_t Next() override;
 };
 
-/// The same numbers for the same seed: no secret.
+/// The same numbers for the same seed; not secret.
 class SeededEntropy : public Entropy {
  public:
   explicit SeededEntropy(std::uint64_t seed) : random_(seed) {}

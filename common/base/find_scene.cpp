@@ -19,7 +19,7 @@ bool IsFile(const fs::path& path) {
   return fs::exists(status) && !fs::is_directory(status);
 }
 
-/// Names of the scenes in SceneFolders(), in order; of those in `hard` and `exact` if `all`.
+/// Returns the sorted names of the scenes in SceneFolders(); `all` includes `hard` and `exact`.
 std::vector<std::string> Names(bool all) {
   std::set<std::string> names;
   for (const std::string& folder : SceneFolders()) {

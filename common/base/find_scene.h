@@ -6,17 +6,18 @@
 
 namespace seam {
 
-/// The file that a command line's word means. A path (with '/' or ending in ".toml"), the name of
-/// an existing file and "" come back as they are; any other word NAME means the first file
-/// NAME.toml in SceneFolders(). Throws OperatorError, one line that says where it looked, when
-/// there is none.
+/// Returns the scene file for a word of the command line. A path (with '/' or ending in ".toml"),
+/// the name of an existing file and "" are returned unchanged. Any other word NAME means the first
+/// file NAME.toml in SceneFolders(); if there is none, throws OperatorError with the places
+/// searched.
 std::string FindScene(const std::string& word);
 
-/// Where scenes are looked for by name, in this order: scenes, scenes/hard and scenes/exact of the
-/// current folder, then those installed beside the running program, in ../share/seam2d.
+/// Returns the folders that are searched for scene names, in order: scenes, scenes/hard and
+/// scenes/exact of the current folder, then the same three in ../share/seam2d relative to the
+/// running program's folder.
 std::vector<std::string> SceneFolders();
 
-/// The names that FindScene would find, in order, without those in a folder `hard` or `exact`.
+/// Returns the names that FindScene would find, sorted, except those in folders `hard` and `exact`.
 std::vector<std::string> SceneNames();
 
 }  // namespace seam

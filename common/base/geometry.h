@@ -1,6 +1,6 @@
 #pragma once
-/// Angles, rotations and rigid motions of the plane. Everything is computed in the scalar type it
-/// is given and in one fixed order, so that all peers get the same bits.
+/// Angles, rotations and rigid motions of the plane. All arithmetic is in the given scalar type and
+/// in one fixed order, so that all peers get the same bits.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -10,8 +10,7 @@ namespace seam {
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kPiFloat = static_cast<float>(kPi);
 
-/// The angle less whole turns: the one nearest to 0, in -pi..pi, rad. NaN for one that is not
-/// finite.
+/// Returns the angle without whole turns, in -pi..pi, rad. NaN for an angle that is not finite.
 inline double WrapAngle(double angle) {
   return std::fabs(angle) <= kPi ? angle : std::remainder(angle, 2 * kPi);
 }
@@ -19,12 +18,12 @@ inline float WrapAngle(float angle) {
   return std::fabs(angle) <= kPiFloat ? angle : std::remainder(angle, 2 * kPiFloat);
 }
 
-/// `angle` plus the whole turns that bring it nearest to `near`, rad.
+/// Returns `angle` plus the whole turns that bring it nearest to `near`, rad.
 inline double UnwrapAngle(double angle, double near) { return near + WrapAngle(angle - near); }
 inline float UnwrapAngle(float angle, float near) { return near + WrapAngle(angle - near); }
 
-/// A rotation about the origin, counter-clockwise, for more than one vector: its cosine and sine
-/// are computed once.
+/// A counter-clockwise rotation about the origin. Cosine and sine are computed once, for use on
+/// several vectors.
 template <class Scalar>
 struct Rotation {
   using Vector = Eigen::Matrix<Scalar, 2, 1>;
@@ -32,20 +31,20 @@ struct Rotation {
   Scalar cosine = 1, sine = 0;
 
   Rotation() = default;
-  /// From its cosine and sine, which somebody else has computed.
+  /// Takes a cosine and sine computed elsewhere.
   Rotation(Scalar c, Scalar s) : cosine(c), sine(s) {}
   explicit Rotation(Scalar angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
 
   Vector operator()(const Vector& v) const {
     return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
   }
-  /// By the same angle clockwise.
+  /// Returns `v` rotated by the same angle clockwise.
   Vector Back(const Vector& v) const {
     return {cosine * v.x() + sine * v.y(), cosine * v.y() - sine * v.x()};
   }
 };
 
-/// `v` turned by `angle` counter-clockwise, rad.
+/// Returns `v` rotated counter-clockwise by `angle`, rad.
 inline Eigen::Vector2d Turned(const Eigen::Vector2d& v, double angle) {
   return Rotation<double>(angle)(v);
 }
@@ -53,23 +52,24 @@ inline Eigen::Vector2f Turned(const Eigen::Vector2f& v, float angle) {
   return Rotation<float>(angle)(v);
 }
 
-/// A rigid motion of the plane: p -> p turned by `angle`, then moved by `shift`. It is also the
-/// pose of a frame: the motion from the frame's coordinates to those around it.
+/// A rigid motion of the plane: p -> p rotated by `angle`, then moved by `shift`. Also the pose of
+/// a frame: it maps the frame's coordinates to its parent's.
 struct Transform2 {
   Eigen::Vector2d shift{0, 0};  ///< m
   double angle = 0;             ///< rad, not wrapped
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& p) const { return shift + Turned(p); }
-  /// A direction: turned, not moved.
+  /// Maps a direction: rotates it without moving it.
   Eigen::Vector2d Turned(const Eigen::Vector2d& v) const { return seam::Turned(v, angle); }
-  /// First `inner`, then this.
+  /// Returns the composition: first `inner`, then this.
   Transform2 Then(const Transform2& inner) const {
     return {(*this)(inner.shift), angle + inner.angle};
   }
   Transform2 Inverse() const { return {-seam::Turned(shift, -angle), -angle}; }
 };
 
-/// The third component of a x b: twice the area of the triangle 0 a b, positive counter-clockwise.
+/// Returns the third component of a x b: twice the area of the triangle 0 a b, positive if it is
+/// counter-clockwise.
 template <class A, class B>
 typename A::Scalar Cross(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   return a.x() * b.y() - a.y() * b.x();

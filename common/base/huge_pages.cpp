@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-bool GivenToWhoAsks() {
+bool HugePagesOnRequest() {
   std::FILE* const file = std::fopen("/sys/kernel/mm/transparent_hugepage/enabled", "re");
   if (file == nullptr) return false;
   std::array<char, 128> text{};
@@ -19,8 +19,8 @@ bool GivenToWhoAsks() {
   return std::string(text.data(), bytes).find("[madvise]") != std::string::npos;
 }
 
-/// Of the running program: by it, not by /proc/self/exe, it keeps its name among the processes. "":
-/// not known.
+/// Returns the running program's path, "" if unknown. Started by this path instead of
+/// /proc/self/exe, the process keeps its name in process lists.
 std::string OwnPath() {
   std::array<char, 4096> path{};
   const ssize_t bytes = readlink("/proc/self/exe", path.data(), path.size());
@@ -31,13 +31,13 @@ std::string OwnPath() {
 }  // namespace
 
 void UseHugePages(char** argv) {
-  if (std::getenv("GLIBC_TUNABLES") != nullptr || !GivenToWhoAsks()) return;
+  if (std::getenv("GLIBC_TUNABLES") != nullptr || !HugePagesOnRequest()) return;
   const std::string path = OwnPath();
   if (path.empty()) return;
   const char* const tunables = "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=1";
   if (setenv("GLIBC_TUNABLES", tunables, 0) != 0) return;
   execv(path.c_str(), argv);
-  // It could not be started (its file was replaced meanwhile): this one runs on as it is.
+  // The restart failed (the program's file was replaced meanwhile): this process just goes on.
 }
 
 }  // namespace seam

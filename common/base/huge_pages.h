@@ -1,17 +1,16 @@
 #pragma once
-/// Memory on huge pages for a program that goes through much of it in every tick: what a thousand
-/// bodies and hundreds of clients are is spread over more small pages than a processor remembers
-/// where they are.
+/// Huge pages for a program that reads much memory in every tick. The data of a thousand bodies
+/// and hundreds of clients is spread over more small pages than the processor's TLB holds.
 
 namespace seam {
 
-/// Starts this program anew, with the same arguments, and one heap for all threads that asks the
-/// system for huge pages: GLIBC_TUNABLES glibc.malloc.hugetlb=1 and arena_max=1, which glibc (2.35
-/// or later) reads at start only. Before threads, files and sockets; for who has one thread that
-/// works: several were slower with one heap, and heaps of their own are on small pages.
-/// Does nothing where GLIBC_TUNABLES is set, as it is when started anew, and where the system does
-/// not give them to who asks (/sys/kernel/mm/transparent_hugepage/enabled is not "[madvise]").
-/// `argv`: of main.
+/// Restarts this program with the same arguments and one heap that asks the system for huge pages:
+/// GLIBC_TUNABLES glibc.malloc.hugetlb=1 and arena_max=1, which glibc (2.35 or later) reads at
+/// start only. Call it before threads, files and sockets exist, and only in a program with one busy
+/// thread: several were slower with one heap, and heaps per thread are on small pages.
+/// Does nothing if GLIBC_TUNABLES is set (it is after the restart), or if the system has no huge
+/// pages on request (/sys/kernel/mm/transparent_hugepage/enabled is not "[madvise]").
+/// `argv`: main's.
 void UseHugePages(char** argv);
 
 }  // namespace seam

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kReplacement = 0xfffd;
 
-/// The character at text[*i], and *i behind it.
+/// Returns the character at text[*i] and moves *i past it.
 std::uint32_t NextCharacter(const std::string& text, std::size_t* i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const std::uint32_t first = byte((*i)++);
@@ -73,7 +73,7 @@ std::string JsonNumber(const std::optional<double>& value) {
 }
 
 std::int64_t Thousandths(double value) {
-  constexpr double kMost = 1e12;  // far beyond any world, and whole
+  constexpr double kMost = 1e12;  // far beyond any world, and an exact integer
   return std::isfinite(value) ? std::llround(std::clamp(value * 1000, -kMost, kMost)) : 0;
 }
 

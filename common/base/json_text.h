@@ -1,5 +1,5 @@
 #pragma once
-/// Values as JSON (RFC 8259): what any name in a log cannot break.
+/// Values as JSON (RFC 8259) that no name in a log can break.
 
 #include <cstdint>
 #include <optional>
@@ -8,18 +8,19 @@
 
 namespace seam {
 
-/// A JSON string in plain ASCII: all that is not is escaped, and so are < > & and quotes, so that
-/// no text can end the element it stands in. Bytes that are no UTF-8 become U+FFFD.
+/// Returns `text` as a JSON string in plain ASCII. Everything else is escaped, also < > & and
+/// quotes, so that no text can close the HTML element around it. Invalid UTF-8 becomes U+FFFD.
 std::string JsonText(const std::string& text);
-/// A number with at most `digits` after the point and no zeros at its end; null unless finite.
+/// Returns a number with at most `digits` after the point and no trailing zeros; null unless
+/// finite.
 std::string JsonNumber(double value, int digits);
-/// Nine digits, which give a float back bit for bit; null for what is not finite.
+/// Returns a number with nine digits, enough to restore a float bit for bit; null unless finite.
 std::string JsonNumber(double value);
-/// null for nothing.
+/// As above; null for nullopt.
 std::string JsonNumber(const std::optional<double>& value);
-/// Whole millimetres (or milliradians) of metres (radians).
+/// Rounds metres (radians) to whole millimetres (milliradians); 0 unless finite.
 std::int64_t Thousandths(double value);
-/// "[a,b,c]" of what is JSON already.
+/// Returns "[a,b,c]". The items must be JSON already.
 std::string JsonList(const std::vector<std::string>& items);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers that rooms which do not know each other must agree on.
+/// Limits that parts of the code must agree on without including each other.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,15 +8,15 @@ namespace seam {
 
 /// Peers are 0..kPeersMax - 1; 0 is the server. With more of them each session's tables grow.
 constexpr std::int32_t kPeersMax = 1024;
-/// Players of a scene. Their peers have places of their own: spectators take the others'.
+/// Most players of a scene. Peer numbers are reserved for players; spectators take the rest.
 constexpr std::int32_t kPlayersMax = 256;
 static_assert(kPlayersMax < kPeersMax);
 
-/// Ticks per second that a scene may ask for. With fewer, bodies tunnel; more gain nothing.
+/// Range of a scene's ticks per second. With fewer, bodies tunnel; more gain nothing.
 constexpr int kTickHzMin = 10, kTickHzMax = 960;
-/// Most States per second that a peer may be asked for.
+/// Highest rate at which a peer may be asked to send States, per second.
 constexpr int kSendHzMax = 240;
-/// Longest delay between reading an input and its tick: 0.2 s at 60 Hz, with more nobody can drive.
+/// Longest delay from reading an input to its tick: 0.2 s at 60 Hz. With more, driving fails.
 constexpr int kInputDelayTicksMax = 12;
 /// Longest session, s.
 constexpr double kDurationMax = 1e6;

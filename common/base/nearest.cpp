@@ -5,8 +5,8 @@
 namespace seam {
 namespace {
 
-/// Edit distance: insertions, deletions, changes, and swaps of two neighbours (Damerau 1964, no
-/// part edited twice).
+/// Returns the edit distance: insertions, deletions, changes, and swaps of two neighbours (Damerau
+/// 1964, no part edited twice).
 std::size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1), above, above_that;
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -24,7 +24,8 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// Of a short word most others are near: it may have one mistake.
+/// Returns the most edits that still count as near. A short word is near to most others, so that
+/// only one is allowed.
 std::size_t MistakesMax(const std::string& typed) {
   return typed.size() <= 3 ? 1 : std::max<std::size_t>(2, typed.size() / 3);
 }

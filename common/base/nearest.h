@@ -1,21 +1,21 @@
 #pragma once
-/// "did you mean ...?": the known name that is nearest to one that was typed.
+/// "did you mean ...?": finds the known name nearest to the typed one.
 
 #include <string>
 #include <vector>
 
 namespace seam {
 
-/// The name of `known` with the least edit distance (insertions, deletions, changes, swaps of two
-/// neighbours) to `typed`, if that is at most a third of the typed characters, or two (one of a
-/// word of up to three characters); else "". The first of several.
+/// Returns the name in `known` with the least edit distance (insertions, deletions, changes, swaps
+/// of two neighbours) to `typed`, the first of several. "" if the distance is over the limit: one
+/// for up to three typed characters, else a third of them but at least two.
 std::string NearestName(const std::string& typed, const std::vector<std::string>& known);
 
-/// "did you mean 'x'?", or what there is, "known are a b c" (of many, the first `shown_max`).
+/// Returns "did you mean 'x'?" or else the choices, "known are a b c" (the first `shown_max`).
 std::string Suggestion(const std::string& typed, const std::vector<std::string>& known,
                        std::size_t shown_max = 20);
 
-/// " (did you mean 'x'?)", to follow a mistake; "" when no name is near.
+/// Returns " (did you mean 'x'?)" to append to an error line; "" when no name is near.
 std::string DidYouMean(const std::string& typed, const std::vector<std::string>& known);
 
 }  // namespace seam

@@ -13,7 +13,7 @@
 namespace seam {
 namespace {
 
-/// Read at once, bytes.
+/// Bytes per read.
 constexpr std::size_t kReadBytes = 65536;
 
 void RequirePlain(const std::string& path, mode_t mode) {
@@ -29,7 +29,7 @@ int FlagsOf(FileUse use) {
   switch (use) {
     case FileUse::kRead: return O_RDONLY;
     case FileUse::kReplace:
-      return O_WRONLY | O_CREAT;  // emptied when it is known to be a regular file
+      return O_WRONLY | O_CREAT;  // emptied once it is known to be a regular file
     case FileUse::kCreate: return O_WRONLY | O_CREAT | O_EXCL;
     case FileUse::kAppend: return O_WRONLY | O_CREAT | O_APPEND;
   }
@@ -41,7 +41,7 @@ const char* ModeOf(FileUse use) {
   return use == FileUse::kRead ? "rb" : use == FileUse::kAppend ? "ab" : "wb";
 }
 
-/// Closes the descriptor unless it was let go.
+/// Owns a file descriptor; set fd to -1 to release it. Keeps errno.
 struct Descriptor {
   explicit Descriptor(int number) : fd(number) {}
   ~Descriptor() {
@@ -62,10 +62,10 @@ void RequirePlainFile(const std::string& path) {
 }
 
 std::FILE* OpenPlainFile(const std::string& path, FileUse use) {
-  // Before it is opened: opening a device may do something.
+  // Check before opening: opening a device may have an effect.
   if (use != FileUse::kCreate) RequirePlainFile(path);
-  // And after: it may have become another. With O_NONBLOCK a FIFO does not wait for its other end;
-  // regular files do not look at it.
+  // Check again after opening: the path may name another file by now. O_NONBLOCK keeps a FIFO from
+  // waiting for its other end; regular files ignore it.
   Descriptor opened(open(path.c_str(), FlagsOf(use) | O_NONBLOCK | O_CLOEXEC, 0666));
   if (opened.fd < 0) return nullptr;
   struct stat status {};

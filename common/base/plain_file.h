@@ -1,6 +1,6 @@
 #pragma once
-/// Files that are named by an operator: regular files only. A FIFO waits for ever, a device has no
-/// end or takes everything, a folder and a socket are no files: each is refused in one line.
+/// Files named by an operator: regular files only. A FIFO blocks for ever, a device has no end or
+/// swallows everything, folders and sockets are no files. Each is refused with one line.
 
 #include <cstddef>
 #include <cstdio>
@@ -8,27 +8,27 @@
 
 namespace seam {
 
-/// What a file is opened for.
+/// The purpose for which a file is opened.
 enum class FileUse {
   kRead,
-  kReplace,  ///< made, or emptied if it is there
-  kCreate,   ///< made; refused if it is there
-  kAppend,   ///< made if it is not there
+  kReplace,  ///< created, or emptied if it exists
+  kCreate,   ///< created; refused if it exists
+  kAppend,   ///< created if it does not exist
 };
 
-/// Throws OperatorError "PATH: is a FIFO, not a regular file" if there is something at `path` that
-/// is no regular file. Does not open it. What is not there, or cannot be asked, passes.
+/// Throws OperatorError "PATH: is a FIFO, not a regular file" if `path` exists but is no regular
+/// file. Does not open it. A path that does not exist or cannot be queried passes.
 void RequirePlainFile(const std::string& path);
 
-/// Opens a regular file; never waits. nullptr, with errno set, when that is not possible; throws
-/// OperatorError, as RequirePlainFile, for what is no regular file. The caller closes it.
+/// Opens a regular file without ever blocking; the caller closes it. Returns nullptr with errno set
+/// on failure. Throws OperatorError like RequirePlainFile if it is no regular file.
 std::FILE* OpenPlainFile(const std::string& path, FileUse use);
 
-/// Most that is read of a table or page, normal 1 MB; what is longer comes out cut.
+/// Most bytes read of a table or page, normal 1 MB; a longer one is cut off.
 constexpr std::size_t kTableBytesMax = 1 << 30;
 
-/// The first `bytes_max` bytes of a regular file. Throws OperatorError "PATH: cannot be read: ...",
-/// with "`absent`" instead of the reason if there is no such file and `absent` is not null.
+/// Returns the first `bytes_max` bytes of a regular file. Throws OperatorError "PATH: cannot be
+/// read: ...", or "PATH: `absent`" if there is no such file and `absent` is not null.
 std::string ReadPlainFile(const std::string& path, std::size_t bytes_max,
                           const char* absent = nullptr);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the mains share: the clock, CPU time, stop signals and the exit status of an error.
+/// Process services of the mains: clocks, CPU time, stop signals and exit status.
 
 #include <sched.h>
 #include <sys/resource.h>
@@ -15,14 +15,14 @@
 
 namespace seam {
 
-/// Wall clock, us since 1970, as LCM's utime; made monotonic by its caller's use of differences.
+/// Wall clock, us since 1970, as LCM's utime. May jump when the system's clock is set.
 inline std::int64_t WallClockUs() {
   timespec t{};
   clock_gettime(CLOCK_REALTIME, &t);
   return static_cast<std::int64_t>(t.tv_sec) * 1000000 + t.tv_nsec / 1000;
 }
 
-/// Clock that never runs backwards, in us, starting at the wall clock's reading of the first call.
+/// Clock that never runs backwards, us. Starts at the wall clock's reading at the first call.
 inline std::int64_t SteadyClockUs() {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -39,14 +39,15 @@ inline std::int64_t CpuUs() {
          usage.ru_utime.tv_usec + usage.ru_stime.tv_usec;
 }
 
-/// Cores that this process may use, at least 1.
+/// Number of cores this process may use, at least 1.
 inline int CoreCount() {
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
   return CPU_COUNT(&set) > 0 ? CPU_COUNT(&set) : 1;
 }
 
-/// Sleeps for so long, us, or until a signal; not at all if it is not above 0. Below 1 s.
+/// Sleeps `us` microseconds, capped just below 1 s; a signal ends it early. Returns at once for
+/// `us` <= 0.
 inline void SleepUs(std::int64_t us) {
   if (us <= 0) return;
   timespec t{};
@@ -63,8 +64,8 @@ inline std::int64_t ThreadCpuUs() {
 
 inline volatile std::sig_atomic_t g_stop = 0;
 
-/// SIGINT, SIGTERM and SIGHUP (a closed terminal, unless nohup said to ignore it) set g_stop; a
-/// second one kills. poll() is interrupted.
+/// Makes SIGINT, SIGTERM and SIGHUP (a closed terminal, unless nohup ignores it) set g_stop and
+/// interrupt poll(). The same signal a second time kills the process.
 inline void StopOnSignals() {
   struct sigaction action {};
   action.sa_handler = [](int) { g_stop = 1; };
@@ -78,8 +79,8 @@ inline void StopOnSignals() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file at `ulimit -f`: the write fails, as on a full disk
 }
 
-/// Writes "program: text" to stderr as one line, whatever is in the text: a file's name may hold
-/// line ends and what else a terminal obeys.
+/// Writes "program: text" to stderr as one line. Control characters become '?': a file's name may
+/// contain line ends and terminal commands.
 inline void PrintError(const char* program, std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
@@ -87,8 +88,8 @@ inline void PrintError(const char* program, std::string text) {
   std::fprintf(stderr, "%s: %s\n", program, text.c_str());
 }
 
-/// Runs a main's body: an operator's mistake is one line and status 2, anything else that was
-/// thrown is one line and status 1.
+/// Runs a main's body and returns its exit status. An OperatorError gives one line and status 2,
+/// any other exception one line and status 1.
 template <typename Body>
 int RunMain(const char* program, Body body) {
   try {

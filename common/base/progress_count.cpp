@@ -11,12 +11,12 @@
 namespace seam {
 namespace {
 
-/// The line renews itself this often, us.
+/// Time between two updates of the line, us.
 constexpr std::int64_t kEveryUs = 200000;
-/// A rate of a shorter time says nothing, s.
+/// Shortest time from which a rate is meaningful, s.
 constexpr double kRateFrom_s = 0.2;
 
-/// "3.2", "120": as many digits as tell something.
+/// Formats a rate with its significant digits: "3.2", "120".
 std::string Rate(double per_s) {
   return per_s < 10 ? fmt::format("{:.1f}", per_s) : fmt::format("{:.0f}", per_s);
 }

@@ -11,8 +11,8 @@
 namespace seam {
 namespace {
 
-/// A line that is wrapped cannot be renewed: one column stays free. No limit when the terminal does
-/// not say how wide it is.
+/// Returns the usable columns of the terminal; no limit if its width is unknown. One column stays
+/// free, because a wrapped line cannot be rewritten in place.
 std::size_t ColumnsOfTerminal() {
   winsize size{};
   if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return std::string::npos;

@@ -1,6 +1,6 @@
 #pragma once
-/// A seeded generator that gives the same numbers on every machine.
-/// std:: distributions differ between libraries, so the few we need are here.
+/// A seeded random generator that gives the same numbers on every machine. The few distributions we
+/// need are here too, because those of std:: differ between libraries.
 
 #include <cmath>
 #include <cstdint>
@@ -31,7 +31,7 @@ class Random {
   /// Exponential with the given mean.
   double Exponential(double mean) { return -mean * std::log1p(-Uniform()); }
 
-  /// A generator for another purpose, independent of this one's further numbers.
+  /// Returns an independent generator for another purpose; does not advance this one.
   Random Fork(std::uint64_t purpose) const {
     Random child(state_ ^ (purpose * 0xd1342543de82ef95ULL + 0x2545f4914f6cdd1dULL));
     child.Next();

@@ -1,5 +1,5 @@
 #pragma once
-/// Sorting by a number, digit by digit: n, not n log n, for the thousands of boxes of a plan.
+/// Radix sort by a 32-bit key: O(n), not O(n log n), for the thousands of boxes of a plan.
 
 #include <array>
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace seam {
 
-/// A number that orders like the float; of zeros the negative one comes first.
+/// Returns an integer that orders like the float; -0 comes before +0.
 inline std::uint32_t OrderedBits(float value) {
   std::uint32_t bits;
   std::memcpy(&bits, &value, sizeof bits);
   return (bits >> 31) != 0 ? ~bits : bits | 0x80000000u;
 }
 
-/// A key in the high 32 bits, what it belongs to in the low.
+/// A sort key in the high 32 bits, the index of its owner in the low 32 bits.
 using SortKey = std::uint64_t;
 
-/// Sorts by key; of equal keys those first that came first. `spare` is only for its memory.
+/// Sorts by key and keeps the order of equal keys (stable). `spare` is scratch memory.
 inline void SortByKey(std::vector<SortKey>* keys, std::vector<SortKey>* spare) {
   constexpr int kDigits = 3, kBits = 11;
   constexpr std::uint32_t kMask = (1u << kBits) - 1;

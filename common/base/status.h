@@ -1,5 +1,5 @@
 #pragma once
-/// Whether something is as it must be, and if not, why not: one line of text.
+/// The result of a check: ok, or one line of text with the reason for failure.
 
 #include <string>
 #include <utility>
@@ -8,7 +8,7 @@ namespace seam {
 
 class [[nodiscard]] Status {
  public:
-  Status() = default;  ///< good
+  Status() = default;  ///< ok
   static Status Ok() { return {}; }
   /// `why`: one line, not empty, for people.
   static Status Error(std::string why) {

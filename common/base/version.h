@@ -1,10 +1,10 @@
 #pragma once
-/// The version of Seam2D: what `--version` says, what is installed, what the lab's rows carry.
+/// The version of Seam2D, printed by `--version`, installed, and stored in the lab's rows.
 
 namespace seam {
 
-/// Raised with every release, and with a commit that changes what a session does or how it is
-/// measured: the lab's tables hold only rows of one version (docs/lab.md).
+/// Raised with every release and with each commit that changes a session's behaviour or its
+/// measures: the lab's tables hold only rows of one version (docs/lab.md).
 constexpr const char* kVersion = "0.22.2";
 
 }  // namespace seam

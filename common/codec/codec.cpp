@@ -11,8 +11,8 @@
 namespace seam {
 namespace {
 
-/// The generated type of a message. Both have the fields of the list under one name, so assigning
-/// one tuple of references to the other converts in either direction.
+/// The generated LCM type of a message. Both have the listed fields under the same names, so that
+/// assigning one tuple of references to the other converts in either direction.
 template <class Message>
 struct Wire;
 
@@ -24,7 +24,7 @@ struct Wire;
 SEAM_MESSAGES(SEAM_MESSAGE_WIRE)
 #undef SEAM_MESSAGE_WIRE
 
-/// Elements of a field that is an array; -1 of any other.
+/// Returns the number of elements of an array field; -1 for any other field.
 template <class T>
 int Elements(const std::vector<T>& values) {
   return static_cast<int>(values.size());
@@ -34,7 +34,7 @@ int Elements(const T&) {
   return -1;
 }
 
-/// How many elements the first (or the last) of a message's arrays has.
+/// Returns the number of elements of a message's first (or last) array.
 template <class Message>
 std::int16_t ArrayLength(const Message& message, bool last) {
   int length = 0;
@@ -52,8 +52,8 @@ std::int16_t ArrayLength(const Message& message, bool last) {
   return static_cast<std::int16_t>(length);
 }
 
-/// Sets the counts of a generated type that has them: all arrays of a message have `count`
-/// elements, but for the last one where there is a `total`. 0 prefers the first where both fit.
+/// Sets the counts of a generated type that has any: all arrays of a message have `count` elements,
+/// except the last one if there is a `total`. The argument 0 prefers the first overload.
 template <class Message, class Generated>
 auto SetCount(const Message& message, Generated& wire, int) -> decltype(wire.count, void()) {
   wire.count = ArrayLength(message, false);
@@ -70,7 +70,7 @@ void SetTotal(const Message&, Generated&, long) {}
 template <class Message>
 Bytes EncodeAs(const Message& message) {
   SEAM_ASSERT(Valid(message));
-  thread_local typename Wire<Message>::Type wire{};  // keeps its memory: all fields are set
+  thread_local typename Wire<Message>::Type wire{};  // reuses memory: every field is set below
   MessageTraits<Message>::Fields(wire) = MessageTraits<Message>::Fields(message);
   SetCount(message, wire, 0);
   SetTotal(message, wire, 0);
@@ -81,7 +81,7 @@ Bytes EncodeAs(const Message& message) {
   return bytes;
 }
 
-/// Each element of one tuple of references becomes the other's, arrays with their memory.
+/// Moves each element of one tuple of references into the other; arrays keep their memory.
 template <class To, class From, std::size_t... i>
 void MoveFields(To to, From from, std::index_sequence<i...>) {
   ((std::get<i>(to) = std::move(std::get<i>(from))), ...);
@@ -89,7 +89,7 @@ void MoveFields(To to, From from, std::index_sequence<i...>) {
 
 template <class Message>
 AnyMessage DecodeAs(ByteView bytes) {
-  // Anew each time: what has no elements is not read, and would keep those of the message before.
+  // Not reused: an empty array is not read and would keep the previous message's elements.
   typename Wire<Message>::Type wire{};
   const int size = static_cast<int>(bytes.size);
   if (wire.decode(bytes.data, 0, size) != size) return {};
@@ -106,7 +106,7 @@ std::uint64_t WireHash() {
   return static_cast<std::uint64_t>(Wire<Message>::Type::getHash());
 }
 
-/// The first 8 bytes. Requires as many.
+/// Returns the type hash, the first 8 bytes. Requires at least 8.
 std::uint64_t HashOf(ByteView bytes) {
   std::uint64_t hash = 0;
   for (std::size_t i = 0; i < 8; ++i) hash = hash << 8 | bytes.data[i];
@@ -136,7 +136,7 @@ AnyMessage Decode(ByteView bytes) {
   if (decoder == Decoders().end()) return {};
   try {
     return decoder->second(bytes);
-  } catch (...) {  // nothing is known to throw; a hostile byte must not end the process
+  } catch (...) {  // nothing is known to throw, but hostile bytes must not end the process
     return {};
   }
 }
@@ -148,8 +148,8 @@ const std::vector<MessageType>& MessageTypes() {
   return types;
 }
 
-std::int32_t ForeignProtocol(ByteView bytes) {
-  // The type's hash, utime (8 bytes), sequence (4 in protocols 1 and 2, then 8), protocol (4).
+std::int32_t OldRoomProtocol(ByteView bytes) {
+  // Type hash (8 bytes), utime (8), sequence (4 in protocols 1 and 2, then 8), protocol (4).
   constexpr std::uint64_t kRoomHashBefore3 = 0xfc29582c30d1354e;
   constexpr std::uint64_t kRoomHashOf3 = 0xc7e41b86538767b7;
   const std::uint64_t hash = bytes.size < 8 ? 0 : HashOf(bytes);

@@ -1,5 +1,5 @@
 #pragma once
-/// Turns messages into LCM bytes and back; distrusts every byte it reads.
+/// Encodes messages as LCM bytes and decodes them; validates every byte it reads.
 
 #include <string>
 #include <variant>
@@ -11,33 +11,33 @@
 
 namespace seam {
 
-/// What Decode found. std::monostate: malformed, foreign, or breaking a bound of its type.
+/// The result of Decode. std::monostate: malformed, foreign, or outside the bounds of its type.
 #define SEAM_MESSAGE_TYPE(Struct, ...) , Struct
 using AnyMessage = std::variant<std::monostate SEAM_MESSAGES(SEAM_MESSAGE_TYPE)>;
 #undef SEAM_MESSAGE_TYPE
 
-/// LCM encoding (8 bytes of type hash, then big-endian fields). Requires vectors of equal length
-/// within the bounds of messages.h (asserted: a violation is our bug).
+/// Encodes as LCM does: 8 bytes of type hash, then big-endian fields. Requires vectors of equal
+/// length within the bounds of messages.h (asserted: a violation is our bug).
 #define SEAM_MESSAGE_ENCODE(Struct, ...) Bytes Encode(const Struct&);
 SEAM_MESSAGES(SEAM_MESSAGE_ENCODE)
 #undef SEAM_MESSAGE_ENCODE
 
-/// Chooses the type by the hash in the first 8 bytes. Never throws, never allocates more than
-/// a small multiple of `bytes.size`; demands that the message fills `bytes` exactly, that every
-/// float is finite, ids ascend where messages.h says so, and strings are printable UTF-8 free
-/// of control characters (scene_text may have newlines and tabs).
+/// Decodes a message; the first 8 bytes select the type. Never throws, never allocates more than a
+/// small multiple of `bytes.size`. Requires that the message fills `bytes` exactly, every float is
+/// finite, ids ascend where messages.h says so, and strings are printable UTF-8 without control
+/// characters (scene_text may have newlines and tabs).
 AnyMessage Decode(ByteView bytes);
 
-/// A message's LCM type, by its name ("hello_t") and the hash that its bytes begin with.
+/// A message's LCM type: its name ("hello_t") and the hash at the start of its bytes.
 struct MessageType {
   const char* name;
   std::uint64_t hash;
 };
-/// All that Decode knows.
+/// Returns all types that Decode knows.
 const std::vector<MessageType>& MessageTypes();
 
-/// The protocol of a Room that Decode does not accept because another version wrote it; 0 when it
-/// is no Room of a version that this one knows.
-std::int32_t ForeignProtocol(ByteView bytes);
+/// Returns the protocol version of a Room that Decode rejects because an older version wrote it. 0
+/// unless the bytes are a Room of a recognised old version (1 to 3).
+std::int32_t OldRoomProtocol(ByteView bytes);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// What the server tells of a room's cost: a message of the bus, and the kinds of traffic in it.
+/// The load report of a room, a message of the bus, and its kinds of traffic.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,22 +9,22 @@
 
 namespace seam {
 
-/// Bus only, from the server, once a second: what the room costs, and whether its server keeps up.
-/// Counters are since the room was opened; times are of the ticks of the last second.
+/// Bus only, from the server, once a second: the cost of the room and the lateness of its ticks.
+/// Counters run since the room was opened; times cover the ticks of the last second.
 struct Load {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
   std::int64_t tick = 0;
-  std::int32_t speed_ppm = kFullSpeedPpm;  ///< of the room's clock, per million of real time
+  std::int32_t speed_ppm = kFullSpeedPpm;  ///< speed of the room's clock, per million of real time
   std::int32_t ticks = 0;                  ///< in the last second
   std::int32_t tick_p50_us = 0, tick_p99_us = 0, tick_max_us = 0;  ///< wall time of a tick
-  std::int32_t late_p50_us = 0, late_p99_us = 0, late_max_us = 0;  ///< how late a tick began
+  std::int32_t late_p50_us = 0, late_p99_us = 0, late_max_us = 0;  ///< lateness of ticks
   std::int64_t cpu_us = 0;                                         ///< spent on this room
   std::int32_t clients = 0, players = 0;
-  std::int32_t bodies = 0, moving = 0, moving_held = 0;  ///< held: by a client
-  std::int32_t islands = 0;     ///< groups of awake bodies that touch or are joined
-  std::int64_t hand_overs = 0;  ///< changes of a mechanism's authority
-  std::int64_t jumps = 0;       ///< hand-overs with a visible difference
+  std::int32_t bodies = 0, moving = 0, moving_held = 0;  ///< held: a client has authority
+  std::int32_t islands = 0;                              ///< awake contact islands
+  std::int64_t hand_overs = 0;                           ///< changes of a mechanism's authority
+  std::int64_t jumps = 0;                                ///< hand-overs with a visible correction
   std::int64_t dropped_malformed = 0, dropped_stale = 0, dropped_right = 0;  ///< as in Stats
   std::int64_t dropped_implausible = 0, dropped_budget = 0;
   std::vector<std::int8_t> kind;  ///< kTraffic...

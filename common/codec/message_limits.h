@@ -1,6 +1,6 @@
 #pragma once
-/// Bounds of what messages hold: every list fits a datagram, or a message of the bus, with room to
-/// spare; sums of what they say cannot overflow.
+/// Bounds of message contents. Every list fits a datagram, or a message of the bus, with room to
+/// spare; sums of ticks and times cannot overflow.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace seam {
 
 /// Largest encoded message on the bus; larger ones overflow stock lcm-logger's socket buffer.
 constexpr std::size_t kBusMessageBytesMax = 60000;
-/// Parts, and what is named by one of its parts, have ids below this: 0..kIdsMax - 1.
+/// Ids of parts, and of assemblies and mechanisms (named after one of their parts), are below this:
+/// 0..kIdsMax - 1.
 constexpr std::int32_t kIdsMax = 1 << 18;
 /// Most bodies in one States message: 58 + 21 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kStatesBodiesMax = 48;
@@ -34,7 +35,7 @@ constexpr std::size_t kReleasesMax = 80;
 static_assert(26 + 8 * kReleasesMax <= kMessageBytesMax);
 /// Most bodies in one Rest message: 50 + 20 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kRestBodiesMax = 54;
-/// Blocks of which a ping looks at one: RestBlock.
+/// Most blocks of bodies; a ping compares one of the blocks (RestBlock).
 constexpr int kRestBlocksMax = 64;
 static_assert(50 + 20 * kRestBodiesMax <= kMessageBytesMax);
 /// Most values in one Meta message: 34 + 10 bytes each must fit kMessageBytesMax.
@@ -58,16 +59,16 @@ static_assert(kChunkBytesMax < kMessageBytesMax);
 /// Longest scene file that a Room can carry; a longer one cannot be played.
 constexpr std::size_t kSceneTextBytesMax = 51200;
 static_assert(kSceneTextBytesMax < kBusMessageBytesMax);
-/// Longest names of modes, reconcilers, scenes; longest network profile; longest event or reason.
+/// Longest name of a mode, reconciler or scene; longest network profile; longest event or reason.
 constexpr std::size_t kLabelBytesMax = 64, kImpairBytesMax = 200, kTextBytesMax = 1000;
-/// Ticks are below this (580 years at 60 Hz), times below kTimeMaxUs (285 years) either side of 0:
-/// sums and differences of what a message says cannot overflow.
+/// Ticks are below this (580 years at 60 Hz), times within kTimeMaxUs (285 years) of 0, so that
+/// sums and differences of message fields cannot overflow.
 constexpr std::int64_t kTickMax = std::int64_t{1} << 40;
 constexpr std::int64_t kTimeMaxUs = std::int64_t{1} << 53;
 /// Largest coordinate of a States origin, m: beyond it single precision is coarser than 1/16 m.
 constexpr std::int32_t kOriginMax = 1 << 20;
 
-/// Speed of a room's clock that is real time, and the slowest there is, per million.
+/// Speed of a room's clock per million of real time: real time, and the slowest allowed.
 constexpr std::int32_t kFullSpeedPpm = 1000000, kLeastSpeedPpm = 10000;
 
 }  // namespace seam

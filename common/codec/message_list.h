@@ -1,6 +1,6 @@
 #pragma once
-/// The one list of messages. Encode, Decode, the numbering on the bus and the recording's table
-/// follow from it: a new message is its .lcm file, its struct in messages.h with a Valid in
+/// The one list of messages. It generates Encode, Decode, the numbering on the bus and the
+/// recording's table. A new message needs a .lcm file, a struct in messages.h, a Valid in
 /// validate.cpp, and a line here.
 
 #include <tuple>
@@ -9,9 +9,9 @@
 #include "common/codec/packed/packed_inputs.h"
 #include "common/codec/packed/packed_states.h"
 
-/// X(struct, LCM type, where it travels, kind in the channel, fields of `m` in the .lcm's order)
+/// X(struct, LCM type, route, kind in the channel, fields of `m` in the .lcm's order)
 ///
-///   kEdge       between server and client alone; on the bus it is foreign
+///   kEdge       between server and client only; foreign on the bus
 ///   kBusRoom    on the bus too, channel SEAM.<room>.<kind>
 ///   kBusPeer    on the bus too, channel SEAM.<room>.<kind>.<peer>
 ///   kBusPlayer  on the bus too, channel SEAM.<room>.<kind>.<player>
@@ -70,13 +70,13 @@
 
 namespace seam {
 
-/// Where a message travels.
+/// The route of a message.
 enum class Travels { kEdge, kBusRoom, kBusPeer, kBusPlayer };
 
 template <class Message>
 struct MessageTraits;
 
-// What the list says of each message: kTravels, kKind, and Fields(m): its fields, tied.
+// Traits of each message from the list: kTravels, kKind, and Fields(m), its fields as a tuple.
 #define SEAM_MESSAGE_TRAITS(Struct, lcm_type, travels, kind, ...) \
   template <>                                                     \
   struct MessageTraits<Struct> {                                  \

@@ -13,58 +13,59 @@
 
 namespace seam {
 
-/// Bumped when any message changes: peers of different versions do not talk.
+/// Raised when any message changes: peers of different versions do not talk.
 constexpr std::int32_t kProtocolVersion = 12;
-/// The oldest whose messages on the bus are those of today: what was recorded since can be read.
-constexpr std::int32_t kOldestRecorded = 8;
+/// Oldest version with today's messages on the bus: recordings since that version can be read.
+constexpr std::int32_t kOldestReadableProtocol = 8;
 
-/// Client -> server, until answered: is there a room, of which protocol? No version may change its
-/// fields, so that peers of any two can tell each other theirs.
+/// Client -> server, repeated until answered: asks for a room and its protocol version. No version
+/// may change these fields, so that peers of any two versions can exchange theirs.
 struct Hello {
   std::int64_t utime = 0;
   std::int32_t protocol = kProtocolVersion;
   std::string name;  ///< player or spectator name, 1..32 characters of [A-Za-z0-9_-]
 };
 
-/// Server -> client, the answer to a Hello of an unknown address. The server remembers nothing of
-/// it: a peer that repeats the token does receive at this address.
+/// Server -> client: the answer to a Hello from an unknown address. The server keeps no state for
+/// it; a client that returns the token proves that it receives at its address.
 struct Challenge {
   std::int64_t utime = 0;
   std::int64_t token = 0;
 };
 
-/// Client -> server, until welcomed: wants to join.
+/// Client -> server, repeated until welcomed: asks to join.
 struct Join {
   std::int64_t utime = 0;
   std::int32_t protocol = kProtocolVersion;
-  std::int64_t token = 0;  ///< of the Challenge
-  std::int64_t key = 0;    ///< of an earlier Welcome, to play the same player again; 0: none
+  std::int64_t token = 0;  ///< from the Challenge
+  std::int64_t key = 0;    ///< from an earlier Welcome, to get the same player again; 0: none
   std::string name;        ///< 1..32 characters of [A-Za-z0-9_-]
-  std::string room;        ///< the same, or "": the server's first room
+  std::string room;        ///< name of the room, or "": the server's first
 };
 
 /// Server -> client, reliable: admitted. The Room follows in Chunks.
 struct Welcome {
   std::int64_t utime = 0;
   std::int32_t peer = 0;        ///< this client's peer number, >= 1
-  std::int32_t player = -1;     ///< index of the scene's player it drives, -1 for a spectator
+  std::int32_t player = -1;     ///< index of its player in the scene, -1 for a spectator
   std::int32_t room_bytes = 0;  ///< size of the encoded Room that follows
   std::int64_t key = 0;         ///< secret of this player; see Join
 };
 
-/// Client -> server, reliable: has loaded the room, and its clock has settled.
+/// Client -> server, reliable: the client has loaded the room and its clock has settled.
 struct Ready {
   std::int64_t utime = 0;
 };
 
-/// A piece of a message too large for a datagram; pieces come reliably and in order.
+/// A piece of a message too large for a datagram; pieces are sent reliably and in order.
 struct Chunk {
   std::int64_t utime = 0;
   std::int32_t offset_bytes = 0;
   std::vector<std::uint8_t> data;  ///< 1..1000 bytes
 };
 
-/// What the room is: enough to simulate it. First message of every recording, repeated each second.
+/// Description of the room, enough to simulate it. First message of every recording, repeated each
+/// second.
 struct Room {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
@@ -79,7 +80,7 @@ struct Room {
   std::int64_t seed = 0;
   std::int32_t tick_hz = 60;
   std::int32_t send_hz = 30;           ///< rate of States from each peer
-  std::int32_t input_delay_ticks = 0;  ///< from reading an input to its tick, everywhere
+  std::int32_t input_delay_ticks = 0;  ///< from reading an input to its tick, on every peer
 };
 
 /// Client -> server: asks for the server's time.
@@ -88,22 +89,22 @@ struct Ping {
   std::int32_t revision = -1;    ///< edits applied so far, -1 before there is a world
   std::int64_t composition = 0;  ///< hash of the composition after them
   std::int64_t rest = 0;         ///< hash of the bodies at rest, 0 for none
-  std::int16_t rest_blocks = 0;  ///< a block of them (RestBlock); 0: none
-  std::int16_t rest_block = 0;
-  std::int32_t rest_part = 0;  ///< its hash
-  std::int16_t load = -1;      ///< 1/1000 of its time that it needs for its ticks; -1: not known
+  std::int16_t rest_blocks = 0;  ///< number of blocks of bodies (RestBlock); 0: none
+  std::int16_t rest_block = 0;   ///< index of one block
+  std::int32_t rest_part = 0;    ///< hash of that block's bodies at rest
+  std::int16_t load = -1;        ///< share of time spent on ticks, 1/1000; -1: unknown
 };
 
-/// Server -> client: the answer.
+/// Server -> client: the answer to a Ping.
 struct Pong {
   std::int64_t utime = 0;        ///< server's clock when it answers
   std::int64_t client_us = 0;    ///< Ping::utime, returned
-  std::int64_t tick0_us = -1;    ///< the room's clock shows utime - tick0_us; -1: waits for players
+  std::int64_t tick0_us = -1;    ///< the room's clock shows utime - tick0_us; -1: not started
   std::int64_t rest = 0;         ///< hash of the bodies at rest, 0 for none
   std::int16_t rest_blocks = 0;  ///< Ping::rest_blocks and rest_block, returned; 0: none
   std::int16_t rest_block = 0;
-  std::int32_t rest_own = 0;               ///< of the block's bodies that are the client's
-  std::int32_t speed_ppm = kFullSpeedPpm;  ///< of the room's clock, per million of real time
+  std::int32_t rest_own = 0;               ///< like rest_part, over the client's own bodies
+  std::int32_t speed_ppm = kFullSpeedPpm;  ///< speed of the room's clock, per million of real time
 };
 
 /// A player's inputs for successive ticks.
@@ -111,13 +112,13 @@ struct Inputs {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
   std::int32_t player = 0;
-  std::int64_t first_tick = 0;        ///< tick that inputs[0] is applied *in* (state after it)
+  std::int64_t first_tick = 0;        ///< tick *in* which element 0 acts: the state after shows it
   std::vector<std::int8_t> drive;     ///< -127..127: throttle, backwards to forwards
   std::vector<std::int8_t> lift;      ///< -127..127: second axis
   std::vector<std::int16_t> buttons;  ///< bit field
 };
 
-/// States of bodies after `tick`, from the peer that has authority over them. Quantised:
+/// States of bodies after `tick`, from their authority. Quantised:
 /// position 1/512 m about the origin, angle 2*pi/65536 rad, velocity 1/256 m/s, spin 1/256 rad/s.
 struct States {
   std::int64_t utime = 0;
@@ -125,11 +126,11 @@ struct States {
   std::int32_t peer = 0;  ///< the authority
   std::int64_t tick = 0;
   std::int32_t revision = 0;         ///< edits that the sender had applied
-  std::int64_t composition = 0;      ///< hash of the composition after them
+  std::int64_t composition = 0;      ///< hash of the composition at that revision
   std::int32_t origin_x = 0;         ///< whole metres
   std::int32_t origin_y = 0;         ///< whole metres
   std::vector<std::int32_t> id;      ///< assembly ids, ascending; all vectors of one length
-  std::vector<std::int32_t> epoch;   ///< of the body's mechanism
+  std::vector<std::int32_t> epoch;   ///< epoch of the body's mechanism
   std::vector<std::int8_t> flags;    ///< kStateAsleep | kStateImpact | kStateFalls
   std::vector<std::int16_t> x, y;    ///< 1/512 m
   std::vector<std::int16_t> angle;   ///< 2*pi/65536 rad, wraps
@@ -138,24 +139,24 @@ struct States {
 };
 constexpr std::int8_t kStateAsleep = 1;
 constexpr std::int8_t kStateImpact = 2;  ///< a major impact in the last second, on the authority
-constexpr std::int8_t kStateFalls = 4;   ///< touches nothing: gravity alone moves it
+constexpr std::int8_t kStateFalls = 4;   ///< free fall: touches nothing, only gravity acts
 
-/// Reliable: bodies that have come to rest at the peer that has authority over them, as they lie
-/// after `tick`, bit for bit. They hold until a newer state of the body.
+/// Reliable: exact poses, after `tick`, of bodies that have come to rest, from their authority. A
+/// pose is valid until a newer state of the body.
 struct Rest {
   std::int64_t utime = 0;
   std::int32_t peer = 0;    ///< the authority
-  std::int64_t number = 0;  ///< counts that peer's messages of this type
+  std::int64_t number = 0;  ///< counts the peer's messages of this type
   std::int64_t tick = 0;
   std::int32_t revision = 0;        ///< edits that the authority had applied
-  std::int64_t composition = 0;     ///< hash of the composition after them
+  std::int64_t composition = 0;     ///< hash of the composition at that revision
   std::vector<std::int32_t> id;     ///< assembly ids, ascending
-  std::vector<std::int32_t> epoch;  ///< changes of authority over the body's mechanism
+  std::vector<std::int32_t> epoch;  ///< epoch of the body's mechanism
   std::vector<float> x, y;          ///< m
   std::vector<float> angle;         ///< rad, unwrapped
 };
 
-/// Server -> everyone, reliable and ordered: who has authority over a mechanism from `tick` on.
+/// Server -> everyone, reliable and ordered: the authority of mechanisms from `tick` on.
 struct Grants {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
@@ -163,11 +164,12 @@ struct Grants {
   std::vector<std::int32_t> mechanism;  ///< mechanism ids
   std::vector<std::int16_t> authority;  ///< peer
   std::vector<std::int32_t> epoch;      ///< grows with every change of authority
-  std::vector<std::int16_t> followers;  ///< how many of `follower` are this mechanism's
-  std::vector<std::int16_t> follower;   ///< peers that are secondary, ascending for each mechanism
+  std::vector<std::int16_t> followers;  ///< number of entries of `follower` for this mechanism
+  std::vector<std::int16_t> follower;   ///< secondary peers, ascending for each mechanism
 };
 
-/// Client -> server, reliable: has let go of these mechanisms, as the grants of these epochs said.
+/// Client -> server, reliable: the client has released these mechanisms as grants of these epochs
+/// demanded.
 struct Release {
   std::int64_t utime = 0;
   std::int64_t tick = 0;
@@ -175,74 +177,73 @@ struct Release {
   std::vector<std::int32_t> epoch;
 };
 
-/// Holder -> server -> who follows, reliable and before the Release: where a mechanism's bodies
-/// were, bit for bit, when their holder let go.
+/// Old authority -> server -> followers, reliable and before the Release: exact states of a
+/// mechanism's bodies at the moment of release.
 struct ExactStates {
   std::int64_t utime = 0;
-  std::int64_t tick = 0;            ///< that these are the states after
-  std::int32_t revision = 0;        ///< edits that the holder had applied
+  std::int64_t tick = 0;            ///< the states are those after it
+  std::int32_t revision = 0;        ///< edits that the sender had applied
   std::vector<std::int32_t> id;     ///< assembly ids
-  std::vector<std::int32_t> epoch;  ///< of the grant that took the authority away
+  std::vector<std::int32_t> epoch;  ///< epoch of the grant that took the authority away
   std::vector<float> x, y, angle;   ///< m, m, rad (unwrapped)
   std::vector<float> vx, vy, spin;  ///< m/s, m/s, rad/s
 };
 
-/// Client -> server, reliable: what struck bodies that the client has authority over, as far as it
-/// can hurt them.
+/// Client -> server, reliable: impacts on bodies under the client's authority that are strong
+/// enough to cause damage.
 struct ImpactReport {
   std::int64_t utime = 0;
-  std::int64_t tick = 0;            ///< in which it happened
+  std::int64_t tick = 0;            ///< tick of the impacts
   std::int32_t revision = 0;        ///< edits that the client had applied
-  std::vector<std::int32_t> id;     ///< assembly that was struck, the client's
-  std::vector<std::int32_t> epoch;  ///< of the client's authority over it
-  std::vector<std::int32_t> by;     ///< assembly that struck it; -1: something anchored
+  std::vector<std::int32_t> id;     ///< struck assembly, the client's
+  std::vector<std::int32_t> epoch;  ///< epoch of the client's authority
+  std::vector<std::int32_t> by;     ///< striking assembly; -1: something anchored
   std::vector<float> x, y;          ///< m, point of contact
   std::vector<float> dv;            ///< m/s, change of velocity of the struck body, >= 0
 };
 
-/// A change of who is joined to whom, or of what there is; see common/topology/edit.h for the
-/// fields of each kind. From a client: proposed by the authority. From the server: ordered, for
-/// everyone.
+/// An edit: a change of bonds, joints or parts; see common/topology/edit.h for the fields of each
+/// kind. From a client, a proposal of the authority; from the server, an order for everyone.
 struct EditOrder {
   std::int64_t utime = 0;
-  /// On the bus, counts; of a proposal: how many edits its proposer had applied, so that nobody
-  /// takes what it says of a joint for another joint in its place.
+  /// On the bus, a message counter. In a proposal, the edits that the sender had applied, so that
+  /// its joint index is never taken for another joint that has that index now.
   std::int64_t sequence = 0;
-  std::int32_t number = -1;  ///< position in the order; -1: a proposal, or (server) begin anew
-  std::int64_t tick = 0;     ///< the server's when ordered; a proposer's own
+  std::int32_t number = -1;  ///< position in the order; -1: a proposal, or (server) start again
+  std::int64_t tick = 0;     ///< server's tick of an order, sender's tick of a proposal
   std::int8_t kind = 0;
   std::int8_t cause = 0;
   std::int32_t a = -1, b = -1;
   std::int32_t joint = -1;
   std::int16_t player = -1;
   std::string text;                         ///< at most kEditTextBytesMax
-  std::vector<float> value = {0, 0, 0, 0};  ///< x, y, angle, amount; of a blast also impulse
+  std::vector<float> value = {0, 0, 0, 0};  ///< x, y, angle, amount; a blast also has an impulse
 };
-/// The whole must fit kMessageBytesMax.
+/// Longest text of an edit; the whole message must fit kMessageBytesMax.
 constexpr std::size_t kEditTextBytesMax = 900;
 static_assert(kEditTextBytesMax < kMessageBytesMax);
 constexpr std::int8_t kEditKindsMax = 8, kEditKindBlast = 8;
 
-/// Server -> one client, reliable and ordered: what makes of the scene the world as it has become;
-/// common/topology/topology_entry.h says what an entry is.
+/// Server -> one client, reliable and ordered: entries that turn the scene into the current,
+/// edited topology; see common/topology/topology_entry.h.
 struct Snapshot {
   std::int64_t utime = 0;
-  std::int32_t number = 0;  ///< edits that the world has had
-  std::int32_t part = 0;    ///< part of parts
+  std::int32_t number = 0;  ///< edits of the world so far
+  std::int32_t part = 0;    ///< index of this message among `parts`
   std::int32_t parts = 1;
-  std::string text;  ///< of the entries that insert, one after another
+  std::string text;  ///< TOML of the entries that insert, concatenated
   std::vector<std::int8_t> kind;
   std::vector<std::int32_t> joint;
   std::vector<std::int32_t> a, b;
-  std::vector<float> value;  ///< of the entries in their order
+  std::vector<float> value;  ///< numbers of the entries, in their order
 };
-/// Parts of one snapshot, the most: fewer than a Link keeps waiting.
+/// Most parts of one snapshot: fewer than the send queue of a Link holds.
 constexpr std::int32_t kSnapshotPartsMax = 3900;
-/// The bytes of a Snapshot but for its arrays; of an entry; of a number.
+/// Encoded bytes: a Snapshot without arrays and text, one entry, one number.
 constexpr std::size_t kSnapshotBytes = 37, kSnapshotEntryBytes = 13, kSnapshotValueBytes = 4;
 
-/// Server -> everyone, reliable and ordered: what parts and players have and are worth, changes
-/// only. The server alone decides it.
+/// Server -> everyone, reliable and ordered: changed metadata of parts and players (health, score
+/// and so on). Only the server decides it.
 struct Meta {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
@@ -257,40 +258,40 @@ constexpr std::int8_t kMetaHealth = 0;
 constexpr std::int8_t kMetaScore = 1;
 constexpr std::int8_t kMetaCheckpoint = 2;  ///< the highest checkpoint reached in this lap
 constexpr std::int8_t kMetaLaps = 3;        ///< times that all checkpoints were reached in order
-constexpr std::int8_t kMetaTaken = 4;       ///< of a pickup's part: 1 + the player who took it
-constexpr std::int8_t kMetaScripts = 16;    ///< 16..25: "value0".."value9", for scripts alone
+constexpr std::int8_t kMetaTaken = 4;       ///< on a pickup's part: 1 + index of the taking player
+constexpr std::int8_t kMetaScripts = 16;    ///< 16..25: "value0".."value9", for scripts only
 constexpr std::int8_t kMetaKeyMax = kMetaScripts + 9;
 
-/// Bus only: what a peer shows at a tick. This is what is measured and drawn.
+/// Bus only: the poses that a peer displays at a tick. Measures and drawings use them.
 struct View {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::int32_t revision = 0;  ///< edits that the peer had applied
-  std::int32_t part = 0;      ///< part of parts: very large views are split
+  std::int32_t part = 0;      ///< index among `parts`: very large views are split
   std::int32_t parts = 1;
   std::vector<std::int32_t> id;         ///< assembly ids, ascending
   std::vector<std::int8_t> role;        ///< kRole...
-  std::vector<std::int16_t> authority;  ///< peer that has authority, as this peer knows it
+  std::vector<std::int16_t> authority;  ///< the authority as this peer knows it
   std::vector<float> x, y, angle;       ///< m, m, rad (unwrapped): as displayed
-  std::vector<float> vx, vy, spin;      ///< m/s, m/s, rad/s: of the physics state
+  std::vector<float> vx, vy, spin;      ///< m/s, m/s, rad/s: simulated
 };
 constexpr std::int8_t kRoleRemote = 0;
 constexpr std::int8_t kRoleSecondary = 1;
 constexpr std::int8_t kRoleAuthority = 2;
 
-/// Bus only: the strands that a peer shows at a tick. Nothing compares them.
+/// Bus only: the strands that a peer displays at a tick. Never compared between peers.
 struct Strands {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
   std::int32_t peer = 0;
-  std::int64_t tick = 0;             ///< of the view that they belong to
-  std::vector<std::int16_t> strand;  ///< index of the [[strand]]; its points in their order
+  std::int64_t tick = 0;             ///< tick of the View
+  std::vector<std::int16_t> strand;  ///< index of the point's [[strand]]; points are in order
   std::vector<float> x, y;           ///< m
 };
 
-/// Bus only: major impacts a peer's world felt in a tick.
+/// Bus only: major impacts in a peer's world in a tick.
 struct Impacts {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
@@ -298,10 +299,10 @@ struct Impacts {
   std::int64_t tick = 0;
   std::vector<std::int32_t> id_a, id_b;  ///< assembly ids; -1 for anchored ground
   std::vector<float> x, y;               ///< m
-  std::vector<float> dv;                 ///< m/s, the larger change of velocity of the two
+  std::vector<float> dv;                 ///< m/s, the larger velocity change of the two bodies
 };
 
-/// Once a second, on the bus from every peer: counters since the peer started.
+/// On the bus once a second from every peer: counters since the peer started.
 struct Stats {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
@@ -311,18 +312,18 @@ struct Stats {
   std::int64_t datagrams_out = 0, datagrams_in = 0;
   std::int64_t dropped_malformed = 0;    ///< did not decode, or not ours
   std::int64_t dropped_stale = 0;        ///< old epoch or old tick
-  std::int64_t dropped_right = 0;        ///< sender had no right to say it
+  std::int64_t dropped_right = 0;        ///< the sender has no right to send it
   std::int64_t dropped_implausible = 0;  ///< not finite, too fast, out of the world
-  std::int64_t dropped_budget = 0;       ///< datagrams beyond what their sender may send
+  std::int64_t dropped_budget = 0;       ///< datagrams beyond their sender's rate limit
   std::int64_t cpu_us = 0;               ///< CPU time of the process (0 in virtual time)
   std::int32_t rtt_us = 0;               ///< least round trip of the last window, -1 unknown
-  std::int32_t jitter_us = -1;           ///< nine of ten exceeded it by no more, -1 unknown
+  std::int32_t jitter_us = -1;           ///< 90th percentile of round trips less rtt_us, -1 unknown
   std::int32_t loss_ppm = 0;             ///< datagrams lost on the way in, per million
   std::int32_t tick_late_us = 0;         ///< worst lateness of a tick in the last second
-  std::int32_t clock_offset_us = 0;      ///< slewed offset still to be corrected
+  std::int32_t clock_offset_us = 0;      ///< clock offset still to be slewed away
 };
 
-/// Bus only: something a person wants to read (joined, left, hand-over, repaired).
+/// Bus only: an event for people to read (joined, left, hand-over, repaired).
 struct Event {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
@@ -331,7 +332,7 @@ struct Event {
   std::string text;
 };
 
-/// Either way: the last message of a link, or the refusal of a Hello.
+/// Both directions: the last message of a link, or the refusal of a Hello.
 struct Bye {
   std::int64_t utime = 0;
   std::string reason;

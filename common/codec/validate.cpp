@@ -18,9 +18,9 @@ bool Within(T value, L low, H high) {
 bool Time(std::int64_t us) { return us > -kTimeMaxUs && us < kTimeMaxUs; }
 bool Counter(std::int64_t n) { return n >= 0 && n < kTimeMaxUs; }
 bool Tick(std::int64_t tick) { return tick >= 0 && tick < kTickMax; }
-/// Statistics and events may come before the first tick: -1.
+/// Returns true for a tick, or for -1: statistics and events may precede the first tick.
 bool TickOrBefore(std::int64_t tick) { return tick == -1 || Tick(tick); }
-/// One of so many blocks, or none of none.
+/// Returns true for an index below `blocks`, or for index 0 if there are no blocks.
 bool Block(int blocks, int block) {
   return Within(blocks, 0, kRestBlocksMax) && Within(block, 0, std::max(0, blocks - 1));
 }
@@ -48,14 +48,14 @@ bool Ids(const std::vector<std::int32_t>& ids, std::int32_t least = 0) {
   return AllWithin(ids, least, kIdsMax - 1);
 }
 
-/// Ids: strictly ascending.
+/// Returns true if the ids ascend strictly.
 bool Ascending(const std::vector<std::int32_t>& ids) {
   return Ids(ids) && std::adjacent_find(ids.begin(), ids.end(), [](std::int32_t a, std::int32_t b) {
                        return a >= b;
                      }) == ids.end();
 }
 
-/// Bytes of the UTF-8 sequence at `at`, 0 when it is malformed or a control character.
+/// Returns the length of the UTF-8 sequence at `at`; 0 if it is malformed or a control character.
 std::size_t SequenceBytes(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;

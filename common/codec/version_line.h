@@ -1,5 +1,5 @@
 #pragma once
-/// What `--version` says: the program, its version, and who it can talk to.
+/// The output of `--version`: the program, its version and its protocol.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// "seam-server 0.4.0 (protocol 4)".
+/// Returns "seam-server 0.4.0 (protocol 4)".
 inline std::string VersionLine(const std::string& program) {
   return program + " " + kVersion + " (protocol " + std::to_string(kProtocolVersion) + ")";
 }

@@ -25,7 +25,7 @@ double OracleDistance(const Recording& recording, const Oracle& a, const Oracle&
       const std::optional<BodyState> other = a.At(tick, ids[i]);
       if (!other) continue;
       const double moved =
-          extents.Of(edits, ids[i]).Displacement(Pose(*other), Pose(b.ticks[row][i]));
+          extents.Of(edits, ids[i]).Displacement(DoublePose(*other), DoublePose(b.ticks[row][i]));
       apart.Add(moved * moved);
     }
   }

@@ -15,7 +15,7 @@
 namespace seam {
 
 struct Measures {
-  // Pose errors over all peers' views, bodies and ticks that the oracle has.
+  // DoublePose errors over all peers' views, bodies and ticks that the oracle has.
   double error_rms_m = 0, error_p95_m = 0, error_max_m = 0;
   double error_rms_rad = 0;
   // RMS of the largest displacement of a point of each body: of what clients see of others, of

@@ -27,7 +27,7 @@ std::uint32_t ByTable(ByteView bytes, std::uint32_t crc) {
 }
 
 #if defined(__x86_64__)
-/// The processor's own instruction, which is of this polynomial: eight bytes at a time.
+/// Uses the processor's instruction for this polynomial, eight bytes at a time.
 __attribute__((target("sse4.2"))) std::uint32_t ByInstruction(ByteView bytes, std::uint32_t crc) {
   std::size_t at = 0;
   std::uint64_t wide = crc;

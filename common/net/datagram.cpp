@@ -23,7 +23,7 @@ std::uint64_t Get(const std::uint8_t* at, int bytes) {
   return value;
 }
 
-/// Over the magic and all that follows the checksum.
+/// Returns the checksum over the magic and everything after the checksum field.
 std::uint32_t Checksum(ByteView datagram) {
   const std::uint32_t magic = Crc32c({datagram.data, kChecksumAt});
   return Crc32c({datagram.data + kSessionAt, datagram.size - kSessionAt}, magic);

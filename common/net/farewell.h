@@ -1,5 +1,5 @@
 #pragma once
-/// The last thing a program does with its network.
+/// Drains a program's network before it exits.
 
 #include <algorithm>
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace seam {
 
-/// Longest that a goodbye may be under way, us; the slowest profile (soak) holds it for 1 s.
-constexpr std::int64_t kFarewellUsMax = 3000000;
+/// Longest time to wait for a Bye to get through, us; the slowest profile (soak) delays it by 1 s.
+constexpr std::int64_t kDrainUsMax = 3000000;
 
-/// Lets what was sent through the simulated network before the program ends: without this a
-/// goodbye would not be sent. Takes as long as the profile delays, at most kFarewellUsMax; what
-/// arrives meanwhile is of no interest any more.
-inline void LetThrough(UdpNet& udp, ImpairedNet& net) {
-  const std::int64_t deadline = SteadyClockUs() + kFarewellUsMax;
+/// Waits until the simulated network has passed on all datagrams sent. Without this a Bye would
+/// never leave the process. Takes as long as the profile's delay, at most kDrainUsMax; datagrams
+/// that arrive meanwhile are ignored.
+inline void DrainNetwork(UdpNet& udp, ImpairedNet& net) {
+  const std::int64_t deadline = SteadyClockUs() + kDrainUsMax;
   for (std::int64_t now = 0; net.sending() && (now = SteadyClockUs()) < deadline;) {
     udp.Wait(std::clamp<std::int64_t>(net.next_due_us() - now, 0, 20000));
     net.Advance(SteadyClockUs());

@@ -1,4 +1,4 @@
-/// The other end of HttpPage, for seam-top and seam-swarm: one request, one answer, one deadline.
+/// The client of HttpPage for seam-top and seam-swarm: one request, one answer, one deadline.
 
 #include <netinet/in.h>
 #include <poll.h>
@@ -16,7 +16,7 @@
 namespace seam {
 namespace {
 
-/// A page is never longer, bytes: 1000 rooms take half of it.
+/// Longest page, bytes: 1000 rooms take half of this.
 constexpr std::size_t kPageBytesMax = 16 << 20;
 
 std::int64_t MonotonicUs() {
@@ -33,7 +33,7 @@ struct Socket {
   }
 };
 
-/// Waits until `fd` is ready for `events`; false when the time is over.
+/// Waits until `fd` is ready for `events`; false after the deadline.
 bool WaitFor(int fd, short events, std::int64_t deadline_us) {
   const std::int64_t left_us = deadline_us - MonotonicUs();
   if (left_us <= 0) return false;
@@ -53,7 +53,7 @@ bool Connect(int fd, const Address& to, std::int64_t deadline_us) {
   return getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &bytes) == 0 && error == 0;
 }
 
-/// All until the other end closes.
+/// Reads everything until the other end closes.
 bool ReadAll(int fd, std::int64_t deadline_us, std::string* text) {
   char bytes[16384];
   while (WaitFor(fd, POLLIN, deadline_us)) {

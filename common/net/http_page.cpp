@@ -16,14 +16,14 @@
 namespace seam {
 namespace {
 
-/// What stands at the beginning of every answer.
+/// Returns a whole answer: status line, headers and body.
 std::string Answer(const char* status, const std::string& body) {
   return std::string("HTTP/1.1 ") + status +
          "\r\nContent-Type: text/plain; version=0.0.4; charset=utf-8\r\nConnection: close\r\n" +
          "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
-/// One that has connected: first its request grows, then our answer is sent.
+/// A client's connection: first its request is read, then our answer is sent.
 struct Connection {
   int fd = -1;
   std::int64_t since_us = 0;
@@ -31,7 +31,7 @@ struct Connection {
   std::size_t sent = 0;
 };
 
-/// Reads what is there. False when the connection is of no more use.
+/// Reads the available bytes. False when the connection is closed, broken or over the limit.
 bool Read(Connection* connection) {
   char bytes[1024];
   for (;;) {
@@ -43,7 +43,7 @@ bool Read(Connection* connection) {
   }
 }
 
-/// Sends what can be sent. False when all is sent or nobody takes it.
+/// Sends as much of the answer as the socket takes. False when all is sent or sending fails.
 bool Write(Connection* connection) {
   while (connection->sent < connection->answer.size()) {
     const char* data = connection->answer.data() + connection->sent;
@@ -83,14 +83,15 @@ struct HttpPage::Impl {
     if (fd >= 0) close(fd);
   }
 
-  /// To ask costs a tenth of an accept that finds nobody: that makes a socket first.
-  bool SomebodyWaits() const {
+  /// Returns true if a connection is pending. A tenth of the cost of an accept without one: accept
+  /// makes a socket first.
+  bool ConnectionPending() const {
     pollfd waiting{fd, POLLIN, 0};
     return poll(&waiting, 1, 0) > 0;
   }
 
   void Accept(std::int64_t now_us) {
-    while (connections.size() < kConnectionsMax && SomebodyWaits()) {
+    while (connections.size() < kConnectionsMax && ConnectionPending()) {
       const int got = accept4(fd, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
       if (got < 0) return;
       Connection connection;
@@ -100,7 +101,7 @@ struct HttpPage::Impl {
     }
   }
 
-  /// False: it is over.
+  /// Reads, answers and writes as far as possible. False when the connection is to be closed.
   static bool Serve(std::int64_t now_us, Connection* connection, const Render& render) {
     if (now_us - connection->since_us > kConnectionUs) return false;
     if (connection->answer.empty()) {
@@ -140,7 +141,7 @@ void HttpPage::Poll(std::int64_t now_us, const Render& render) {
   auto& all = impl_->connections;
   const auto over = std::remove_if(all.begin(), all.end(), [&](Connection& connection) {
     if (Impl::Serve(now_us, &connection, render)) return false;
-    // Who still sends is told that we have heard enough, and gets our answer all the same.
+    // Half-closes first, so that a client that is still sending gets the answer.
     (void)shutdown(connection.fd, SHUT_WR);
     close(connection.fd);
     return true;

@@ -1,6 +1,6 @@
 #pragma once
-/// One page of text over HTTP, for a scraper on this machine: bound to loopback, GET alone, one
-/// request a connection, and no call that waits. Besides udp the only door to sockets.
+/// Serves one page of text over HTTP to a scraper on this machine: loopback only, GET only, one
+/// request per connection; no call blocks. Besides udp the only user of sockets.
 
 #include <cstdint>
 #include <functional>
@@ -13,17 +13,17 @@ namespace seam {
 
 class HttpPage {
  public:
-  /// Listens at 127.0.0.1 (port 0: any). Throws OperatorError ("port 9464 is in use: ...").
+  /// Listens on 127.0.0.1 (port 0: any). Throws OperatorError ("port 9464 is in use: ...").
   explicit HttpPage(std::uint16_t port);
   ~HttpPage();
   HttpPage(const HttpPage&) = delete;
   HttpPage& operator=(const HttpPage&) = delete;
 
   using Render = std::function<std::string()>;
-  /// Takes what has come and sends what can be sent, at `now_us` (any clock that never runs
-  /// backwards). `render` is called for each GET of / or /metrics. Who has not finished after
-  /// kConnectionUs, or asks for more than kRequestBytesMax, is cut off; beyond kConnectionsMax
-  /// nobody is let in. Call it often: nothing is answered in between.
+  /// Accepts connections, reads requests and sends answers without waiting, at `now_us` (any clock
+  /// that never runs backwards). Calls `render` for each GET of / or /metrics. Closes a connection
+  /// after kConnectionUs or a request above kRequestBytesMax; accepts at most kConnectionsMax at
+  /// once. Call it often: requests are answered only here.
   void Poll(std::int64_t now_us, const Render& render);
 
   std::uint16_t port() const;
@@ -37,8 +37,8 @@ class HttpPage {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Fetches such a page: "127.0.0.1:9464". Waits at most `timeout_us`. An error, one line, when
-/// nobody answers, or not with status 200.
+/// Fetches such a page from `address`, "127.0.0.1:9464". Blocks for at most `timeout_us`. Returns
+/// an error unless an answer with status 200 arrives.
 Status FetchPage(const std::string& address, std::int64_t timeout_us, std::string* body);
 
 }  // namespace seam

@@ -12,15 +12,15 @@
 namespace seam {
 namespace {
 
-/// Paths per direction with a stream of their own. Beyond (forged senders), one path is shared.
+/// Paths per direction with a random stream of their own. Any more (forged senders) share one path.
 constexpr std::size_t kPathsMax = 4096;
 /// Most datagrams taken from the inner net at once, so that a flood cannot hold us.
 constexpr int kPullMax = 4096;
 
-/// A datagram under way.
+/// A datagram in flight.
 struct Waiting {
   std::int64_t due_us = 0;
-  std::uint64_t number = 0;  // of arrival: keeps ties in order
+  std::uint64_t number = 0;  // order of arrival, breaks ties
   Address peer;
   std::size_t* path_bytes = nullptr;
   Bytes data;
@@ -32,7 +32,7 @@ struct Later {
   }
 };
 
-/// One direction: a path per peer, and what is under way on all of them.
+/// One direction: a path per peer, and the datagrams in flight on all paths.
 class Direction {
  public:
   Direction(const ImpairProfile& profile, const Random& random)
@@ -62,7 +62,7 @@ class Direction {
     }
   }
 
-  /// Takes the first datagram that is due; false when none is.
+  /// Takes the first due datagram; false if none is due.
   bool Leave(std::int64_t now_us, Address* peer, Bytes* data) {
     if (next_due_us() > now_us) return false;
     std::pop_heap(heap_.begin(), heap_.end(), Later());
@@ -90,7 +90,7 @@ class Direction {
  private:
   struct Path {
     ImpairPath impair;
-    std::size_t bytes = 0;  // under way on it
+    std::size_t bytes = 0;  // in flight on this path
   };
 
   Path& Find(const Address& peer) {
@@ -124,7 +124,7 @@ double LossDeviation(const ImpairProfile& profile, std::int64_t count) {
   const double both = profile.loss_good_to_bad + profile.loss_bad_to_good;
   const double bad = both > 0 ? profile.loss_good_to_bad / both : 0;
   const double mean = MeanLoss(profile);
-  // The states are a chain whose correlation falls by `kept` from datagram to datagram.
+  // In the Markov chain of states, the correlation falls by the factor `kept` per datagram.
   const double kept = std::clamp(1 - both, 0.0, 0.999);
   const double apart = profile.loss_in_bad - profile.loss_in_good;
   const double bursts = 2 * bad * (1 - bad) * apart * apart * kept / (1 - kept);
@@ -138,7 +138,7 @@ struct ImpairedNet::Impl {
         out(out_profile, Random(seed).Fork(1)),
         in(in_profile, Random(seed).Fork(2)) {}
 
-  /// Takes in what the inner net has received by now.
+  /// Takes received datagrams from the inner net.
   void Pull() {
     Address from;
     Bytes data;
@@ -147,7 +147,7 @@ struct ImpairedNet::Impl {
     }
   }
 
-  /// Hands on what is due.
+  /// Sends due datagrams through the inner net.
   void Push() {
     Address to;
     Bytes data;
@@ -192,7 +192,7 @@ std::int64_t ImpairedNet::discarded() const { return impl_->inner.discarded(); }
 
 void ImpairedNet::Cut(bool cut) {
   impl_->cut = impl_->cut || cut;
-  impl_->Pull();  // what arrived while cut is lost too
+  impl_->Pull();  // datagrams that arrived while cut are lost too
   impl_->cut = cut;
   if (!cut) return;
   impl_->in.Clear();

@@ -1,6 +1,6 @@
 #pragma once
-/// Makes any Net worse, repeatably: delay, jitter, bursts of loss, reorder, duplicates, bit flips,
-/// stalls, outages, cuts and a rate limit, by named profiles.
+/// Impairs any Net repeatably by named profiles: delay, jitter, bursts of loss, reordering,
+/// duplicates, bit flips, stalls, outages, cuts and a rate limit.
 
 #include <cstdint>
 #include <memory>
@@ -17,59 +17,59 @@ struct ImpairProfile {
   std::string name;
   std::string about;          ///< one line for --help
   std::int64_t delay_us = 0;  ///< propagation
-  /// Extra delay, exponential: its mean and its standard deviation are both this. Order is kept (a
-  /// clump: a late datagram holds back those behind it).
+  /// Mean and standard deviation of the extra delay, which is exponential. Order is kept: a late
+  /// datagram holds back all behind it, so that a clump arrives.
   std::int64_t jitter_mean_us = 0;
   double loss_good_to_bad = 0;  ///< Gilbert-Elliott p, per datagram
   double loss_bad_to_good = 1;  ///< r
   double loss_in_bad = 1;       ///< 1 - h of the four-parameter model
   double loss_in_good = 0;      ///< 1 - k
-  double reorder = 0;           ///< share of datagrams held back by reorder_us
+  double reorder = 0;           ///< share of datagrams delayed by reorder_us
   std::int64_t reorder_us = 0;
-  double duplicate = 0;     ///< share that arrives twice, the copy a jitter later
+  double duplicate = 0;     ///< share that arrives twice, the copy one jitter later
   double corrupt = 0;       ///< share of datagrams with one flipped bit
   double spikes_per_s = 0;  ///< stalls after which everything comes in a burst
   std::int64_t spike_min_us = 0, spike_max_us = 0;
-  std::int64_t rate_bits_per_s = 0;  ///< 0: no limit. 28 bytes of IP and UDP header count too
+  std::int64_t rate_bits_per_s = 0;  ///< 0: no limit; includes 28 bytes of IP and UDP header
   double stalls_per_s = 0;           ///< a second, rarer kind of spike
   std::int64_t stall_min_us = 0, stall_max_us = 0;
-  std::int64_t outage_period_us = 0;  ///< 0: none; else once in each period, at its end, ...
-  std::int64_t outage_min_us = 0, outage_max_us = 0;  ///< ... for so long ...
-  double outage_loss = 0;                             ///< ... this share is lost besides
+  std::int64_t outage_period_us = 0;  ///< one outage at the end of each period; 0: none
+  std::int64_t outage_min_us = 0, outage_max_us = 0;  ///< range of its length
+  double outage_loss = 0;                             ///< extra share lost in an outage
 };
 
-/// Share of the datagrams that chance takes in the long run, by the Gilbert-Elliott model; without
-/// outages and what a rate limit takes.
+/// Returns the long-run share of datagrams lost by the Gilbert-Elliott model; outages and losses at
+/// a rate limit are not included.
 double MeanLoss(const ImpairProfile& profile);
-/// Standard deviation of how many of `count` datagrams are lost, by the same model.
+/// Returns the standard deviation of the number lost of `count` datagrams, by the same model.
 double LossDeviation(const ImpairProfile& profile, std::int64_t count);
 
-/// What was offered to an impaired network, and what of it never arrives; in datagrams.
+/// Datagrams offered to an impaired network, and datagrams lost to its profile.
 struct ImpairedTraffic {
   std::int64_t offered = 0, lost = 0;
 };
 
-/// The named profiles (`seam-server --help` lists them); `demo` is 50 ms each way, 10 ms jitter,
-/// 1 % loss. Also reads a list in place of a name, of any of
+/// Returns a profile by name (`seam-server --help` lists them); `demo` is 50 ms each way, 10 ms
+/// jitter, 1 % loss. In place of a name, takes a comma-separated list of any of
 ///   delay=50ms  jitter=10ms  loss=1%  reorder=2%:30ms  duplicate=1%  corrupt=0.1%  rate=5Mb
 ///   spikes=0.1:100ms:600ms (per second, shortest, longest)  burst=1.02%:50% (p:r, all lost in bad)
-/// joined by commas; times in us, ms or s, shares with % or from 0 to 1, rates in b, kb or Mb per
-/// second. Throws OperatorError naming the known profiles when there is no such one.
+/// with times in us, ms or s, shares with % or from 0 to 1, rates in b, kb or Mb per second. Throws
+/// OperatorError that lists the known profiles if the name is unknown.
 ImpairProfile FindProfile(const std::string& name_or_spec);
 const std::vector<ImpairProfile>& Profiles();
-/// Their names.
+/// Returns the names of Profiles().
 std::vector<std::string> ProfileNames();
 
-/// Impairs what passes through `inner`: outgoing by `out`, incoming by `in`, each peer address and
-/// direction with its own random stream derived from `seed`. Order of the effects: rate limit,
+/// Impairs the traffic of `inner`: outgoing by `out`, incoming by `in`. Each peer address and
+/// direction has its own random stream derived from `seed`. Order of the effects: rate limit,
 /// propagation, jitter, stalls, reorder, duplicate, corrupt, loss.
 ///
-/// What happens to a datagram depends on the seed, the peer's address, the direction and the sizes
-/// and times (of the last Advance) of the datagrams before it on that path: on nothing else. Two
-/// clients of one process with the same server need two seeds, or get the same impairments.
+/// The fate of a datagram depends only on the seed, the peer's address, the direction, and the
+/// sizes and times (of the last Advance) of the datagrams before it on that path. Two clients of
+/// one process with the same server need two seeds, or get the same impairments.
 ///
-/// Memory is bounded: a path holds at most kPathBytesMax, all paths together kQueueBytesMax, and
-/// at a rate limit a backlog of more than kBacklogUsMax is not accepted; the rest is lost.
+/// Memory is bounded: datagrams are lost beyond kPathBytesMax per path, kQueueBytesMax in all, and
+/// beyond a backlog of kBacklogUsMax at a rate limit.
 class ImpairedNet : public Net {
  public:
   static constexpr std::size_t kPathBytesMax = 4u << 20;
@@ -82,17 +82,19 @@ class ImpairedNet : public Net {
   void Advance(std::int64_t now_us) override;
   void Send(const Address& to, ByteView datagram) override;
   void Flush() override;
-  /// In the order in which datagrams are due; those due together in the order they came in.
+  /// Returns datagrams in the order of their due times; ties keep the order of arrival.
   bool Receive(Address* from, Bytes* datagram) override;
   std::int64_t discarded() const override;
 
-  /// Nothing passes either way while cut (what is under way is lost).
+  /// Cuts or restores the network. A cut loses everything in both directions, also datagrams in
+  /// flight.
   void Cut(bool cut);
-  /// Of both directions since the start, without what a cut took.
+  /// Returns the counts of both directions since the start; losses by a cut are not included.
   ImpairedTraffic traffic() const;
-  /// When the next delayed datagram is due, INT64_MAX if none: how long a main may sleep.
+  /// Returns the due time of the next delayed datagram, INT64_MAX if none: a main may sleep until
+  /// then.
   std::int64_t next_due_us() const;
-  /// Something that was sent is still under way.
+  /// Returns true while sent datagrams are still delayed here.
   bool sending() const;
 
  private:

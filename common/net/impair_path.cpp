@@ -5,12 +5,12 @@
 namespace seam {
 namespace {
 
-/// IPv4 and UDP headers, which a bottleneck carries too, bytes.
+/// IPv4 and UDP headers, which count at a bottleneck too, bytes.
 constexpr std::size_t kHeaderBytes = 28;
-/// Least mean lag of a duplicate, us: a copy in the same microsecond would test nothing.
+/// Smallest mean lag of a duplicate, us: a copy in the same microsecond would test nothing.
 constexpr double kDuplicateLagUs = 1000;
-/// A silence after which stalls are drawn afresh instead of one by one, us. The process has no
-/// memory, so only the cost changes.
+/// Silence after which stalls are drawn from the present on instead of one by one, us. A Poisson
+/// process has no memory, so that only the cost changes.
 constexpr std::int64_t kSilenceUs = 100'000'000;
 
 std::int64_t ToUs(double us) { return static_cast<std::int64_t>(us); }
@@ -58,7 +58,7 @@ bool ImpairPath::InOutage(std::int64_t now_us) {
   if (profile_.outage_period_us <= 0) return false;
   const std::int64_t number = now_us / profile_.outage_period_us;
   if (number != outage_number_) {
-    // Drawn by the number of the period, so that silent periods change nothing.
+    // Drawn from the period's number, so that periods without traffic change nothing.
     Random random = outage_length_.Fork(static_cast<std::uint64_t>(number));
     outage_us_ = ToUs(random.Uniform(static_cast<double>(profile_.outage_min_us),
                                      static_cast<double>(profile_.outage_max_us)));

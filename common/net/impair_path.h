@@ -1,6 +1,6 @@
 #pragma once
-/// What one direction of one path does to each datagram in turn: when it arrives, how often, and
-/// with which bit flipped. Pure arithmetic on the seed; holds no datagrams.
+/// The impairments of one direction of one path: decides for each datagram when and how often it
+/// arrives and which bit is flipped. Pure arithmetic on the seed; holds no datagrams.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace seam {
 /// One arrival of a datagram.
 struct Arrival {
   std::int64_t due_us = 0;
-  std::int64_t flip_bit = -1;  ///< which bit arrives wrong, -1: none
+  std::int64_t flip_bit = -1;  ///< index of the flipped bit, -1: none
 };
 
 /// The arrivals of one datagram: none, one or two.
@@ -21,12 +21,12 @@ struct Fate {
   Arrival arrivals[2];
 };
 
-/// Stalls of a path: in [begin, end) nothing arrives. Begins are a Poisson process.
+/// Stalls of a path: nothing arrives in [begin, end). The begins are a Poisson process.
 class Stalls {
  public:
   Stalls(double per_s, std::int64_t min_us, std::int64_t max_us, Random random);
-  /// `at_us` or, if that is within a stall, the stall's end. Calls must not go back in time by
-  /// more than the jitter does.
+  /// Returns `at_us` or, if that is within a stall, the end of the stall. Successive times must not
+  /// decrease by more than the jitter.
   std::int64_t Delay(std::int64_t at_us);
 
  private:
@@ -40,15 +40,15 @@ class Stalls {
 
 class ImpairPath {
  public:
-  /// `profile` must outlive the path. Every effect has its own stream forked from `random`, so that
-  /// switching one on does not change another's decisions.
+  /// `profile` must outlive the path. Every effect has its own random stream forked from `random`,
+  /// so that switching one on does not change the decisions of another.
   ImpairPath(const ImpairProfile& profile, const Random& random);
 
-  /// Decides about the next datagram. Requires times that do not decrease.
+  /// Decides the fate of the next datagram. Requires times that do not decrease.
   Fate Next(std::int64_t now_us, std::size_t bytes);
 
  private:
-  /// When the datagram has left the bottleneck; -1: its queue was full.
+  /// Returns the time at which the datagram leaves the bottleneck; -1 if its queue is full.
   std::int64_t Depart(std::int64_t now_us, std::size_t bytes);
   bool Lost(std::int64_t now_us);
   bool InOutage(std::int64_t now_us);
@@ -59,9 +59,9 @@ class ImpairPath {
   const Random outage_length_;  // forked by period, never advanced
   Stalls spikes_, stalls_;
   bool bad_ = false;                 // state of the Gilbert-Elliott chain
-  std::int64_t link_free_us_ = 0;    // when the bottleneck has sent all it has accepted
-  std::int64_t last_due_us_ = 0;     // order is kept: nothing overtakes
-  std::int64_t outage_number_ = -1;  // of the period the next field belongs to
+  std::int64_t link_free_us_ = 0;    // the bottleneck has sent everything accepted by then
+  std::int64_t last_due_us_ = 0;     // lower bound of the next due time: keeps the order
+  std::int64_t outage_number_ = -1;  // period that outage_us_ belongs to
   std::int64_t outage_us_ = 0;
 };
 

@@ -1,4 +1,4 @@
-/// The named network profiles, and the reader of profiles spelled out on a command line.
+/// The named network profiles, and the parser of profiles spelled out on a command line.
 
 #include <algorithm>
 #include <charconv>
@@ -25,10 +25,11 @@ ImpairProfile Base(const char* name, std::int64_t delay_us, std::int64_t jitter_
   return profile;
 }
 
-/// Independent losses.
+/// Sets independent losses.
 void Loss(ImpairProfile& profile, double share) { profile.loss_in_good = share; }
 
-/// Gilbert-Elliott: from good to bad, back, loss while bad, loss while good (per datagram).
+/// Sets Gilbert-Elliott losses per datagram: chance of good to bad, of bad to good, loss while bad,
+/// loss while good.
 void Bursts(ImpairProfile& profile, double p, double r, double in_bad, double in_good) {
   profile.loss_good_to_bad = p;
   profile.loss_bad_to_good = r;
@@ -110,7 +111,7 @@ std::vector<ImpairProfile> Harsh() {
   return list;
 }
 
-/// Reads the number that `text` begins with; what follows it goes to `unit`. False if none.
+/// Splits `text` into a leading number and the rest, `unit`. False if there is no number.
 bool ReadNumber(const std::string& text, double* value, std::string* unit) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, *value);
@@ -118,7 +119,7 @@ bool ReadNumber(const std::string& text, double* value, std::string* unit) {
   return error == std::errc() && std::isfinite(*value) && *value >= 0;
 }
 
-/// Reads specs like "delay=50ms,loss=1%". Every reader throws with the piece it could not read.
+/// Reads specs like "delay=50ms,loss=1%". Each function throws with the piece that it cannot read.
 class SpecReader {
  public:
   ImpairProfile Read(const std::string& spec) {
@@ -138,7 +139,7 @@ class SpecReader {
     throw OperatorError("impairment \"" + piece_ + "\": " + why);
   }
 
-  /// The piece's `index`-th value between the colons.
+  /// Returns the piece's `index`-th value between colons.
   std::string Value(std::size_t index, std::size_t count) const {
     std::vector<std::string> values;
     for (std::size_t at = piece_.find('=') + 1; at <= piece_.size();) {

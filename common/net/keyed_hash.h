@@ -1,6 +1,6 @@
 #pragma once
-/// A short hash that only the owner of a key can compute: SipHash-2-4 (Aumasson and Bernstein,
-/// "SipHash: a fast short-input PRF", 2012), from libsodium. The one door to that library.
+/// A short keyed hash: SipHash-2-4 (Aumasson and Bernstein, "SipHash: a fast short-input PRF",
+/// 2012), from libsodium. Its .cpp is the only file that includes that library.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,8 @@ using HashKey = std::array<std::uint8_t, 16>;
 
 HashKey DrawHashKey(Entropy& entropy);
 
-/// Without the key it cannot be told from random bits, whatever else was hashed with the key.
+/// Returns the hash. Without the key it is indistinguishable from random bits, even to an observer
+/// of other hashes with that key.
 std::uint64_t KeyedHash(const HashKey& key, ByteView bytes);
 
 }  // namespace seam

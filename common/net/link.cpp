@@ -16,19 +16,19 @@
 namespace seam {
 namespace {
 
-/// Unreliable messages that may wait for a Flush.
+/// Most unreliable messages queued for a Flush.
 constexpr std::size_t kUnreliableQueueMax = 1024;
-/// Datagrams whose contents we remember for their ack: 600 ms at 1700 a second. An ack that comes
-/// later is not understood, and what it acked is sent again.
+/// Datagrams with contents remembered until their ack: 600 ms at 1700 a second. A later ack is
+/// ignored, and the reliable messages are resent.
 constexpr std::size_t kSentRecords = 1024;
-/// Silence after which acks are sent by themselves, us.
+/// Silence after which a datagram with acks only is sent, us; the second in a quiet room.
 constexpr std::int64_t kIdleUs = 100'000;
 constexpr std::int64_t kIdleQuietUs = 1'500'000;
-/// A reliable message is late after 1.25 round trips, but not before, us.
-constexpr std::int64_t kLateUsMin = 50'000;
+/// Minimum retransmission timeout, us; normally it is 1.25 round trips.
+constexpr std::int64_t kTimeoutUsMin = 50'000;
 /// Sequence numbers that one ack field and its 32 bits cover.
 constexpr std::int64_t kAckSpan = 33;
-/// Records that are acknowledged, whose memory is kept for the next.
+/// Acknowledged records kept for reuse of their memory.
 constexpr std::size_t kSpareMost = 16;
 
 }  // namespace
@@ -36,30 +36,30 @@ constexpr std::size_t kSpareMost = 16;
 struct Link::Impl {
   const std::uint64_t session;
 
-  std::int64_t sequence = 0;  // of the newest datagram sent; the first is 1
+  std::int64_t sequence = 0;  // number of the newest datagram sent; the first is 1
   std::int64_t last_send_us = -1;
   std::deque<Passing> unreliable;
-  std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest number
-  std::vector<std::int64_t> listed;                     // of kListedSlot, that arrived
+  std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest acknowledged number
+  std::vector<std::int64_t> listed;                     // acknowledged numbers of kListedSlot
   ReliableQueue reliable;
-  std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
+  std::deque<SentRecord> sent;  // for successive sequence numbers up to the newest
   std::vector<SentRecord> spare;
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
-  std::int64_t acks_newest = 0;  // of acknowledged datagrams; and which of the 64 up to it are
-  std::uint64_t acks_seen = 0;   // bit i: acks_newest - i
+  std::int64_t acks_newest = 0;  // largest acknowledged sequence number
+  std::uint64_t acks_seen = 0;   // bit i: acks_newest - i is acknowledged
   bool quiet = false;
 
   SequenceWindow window;
   std::int64_t flushed_newest = -1;  // window.newest() at the last Flush
-  bool ack_owed = false;             // something reliable came since the last datagram
+  bool ack_pending = false;          // a reliable message came since the last datagram sent
   ReliableInbox inbox;
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;
 
-  // For one Flush or Receive at a time: they keep their memory.
+  // Scratch of one Flush or Receive, kept for their memory.
   DatagramWriter writer;
-  SentRecord carried;  // by the datagram in the writer
+  SentRecord carried;  // contents of the datagram in the writer
   std::vector<std::int64_t> acks;
   std::vector<DatagramMessage> messages;
 
@@ -67,15 +67,15 @@ struct Link::Impl {
 
   // ---- sending
 
-  /// One Flush at work: writer is the datagram being filled, and carried what it carries.
+  /// Progress of one Flush; `writer` is the datagram being filled, `carried` its record.
   struct Packing {
     std::int64_t now_us;
     const Sink& send;
     std::size_t datagrams = 0;
   };
 
-  /// The ack fields for the datagrams, newest first, that together cover all that arrived since the
-  /// last Flush. One is the rule; more when over 33 datagrams came in between.
+  /// Finds the ack fields, newest first, that together cover all arrivals since the last Flush.
+  /// Usually one; more if over 33 datagrams have come.
   void FindAckPoints() {
     acks.clear();
     std::int64_t at = window.newest();
@@ -90,8 +90,8 @@ struct Link::Impl {
     }
   }
 
-  /// Remembers what the datagram in the writer carries.
-  void NoteSent(std::int64_t now_us) {
+  /// Records the contents of the datagram in the writer.
+  void RecordSent(std::int64_t now_us) {
     if (sent.size() >= kSentRecords) sent.pop_front();
     carried.sent_us = now_us;
     sent.push_back(std::exchange(carried, {}));
@@ -100,7 +100,7 @@ struct Link::Impl {
     spare.pop_back();
   }
 
-  /// Sends the datagram being filled, which may be empty.
+  /// Sends the datagram in the writer, which may be empty.
   void Emit(Packing& packing) {
     DatagramHeader header;
     header.session = session;
@@ -110,12 +110,12 @@ struct Link::Impl {
       header.ack = static_cast<std::uint16_t>(ack);
       header.ack_bits = window.BitsBefore(ack);
     }
-    NoteSent(packing.now_us);
+    RecordSent(packing.now_us);
     packing.send(writer.Finish(header));
     ++packing.datagrams;
     writer.Clear();
     last_send_us = packing.now_us;
-    ack_owed = false;
+    ack_pending = false;
   }
 
   void Pack(Packing& packing, const DatagramMessage& message) {
@@ -124,18 +124,18 @@ struct Link::Impl {
     writer.Append(message);
   }
 
-  /// Whether a datagram goes out even without messages.
-  bool OwesDatagram(std::int64_t now_us) const {
-    return ack_owed || last_send_us < 0 ||
+  /// Returns true if a datagram must be sent even without messages.
+  bool MustSendDatagram(std::int64_t now_us) const {
+    return ack_pending || last_send_us < 0 ||
            now_us - last_send_us >= (quiet ? kIdleQuietUs : kIdleUs);
   }
 
   bool Sends(std::int64_t now_us) const {
-    if (!unreliable.empty() || OwesDatagram(now_us)) return true;
+    if (!unreliable.empty() || MustSendDatagram(now_us)) return true;
     return reliable.Due(now_us);
   }
 
-  /// Until when nothing is sent, if nothing is now and nothing happens.
+  /// Returns the time until which nothing is due, provided that nothing is due now.
   std::int64_t IdleUntilUs() const {
     return std::min(last_send_us + (quiet ? kIdleQuietUs : kIdleUs), reliable.DueUs());
   }
@@ -143,7 +143,7 @@ struct Link::Impl {
   void Flush(std::int64_t now_us, const Sink& send) {
     FindAckPoints();
     Packing packing{now_us, send};
-    const bool rides = !unreliable.empty() || OwesDatagram(now_us);
+    const bool rides = !unreliable.empty() || MustSendDatagram(now_us);
     reliable.Take(now_us, rides, [&](std::int64_t id, ByteView message) {
       Pack(packing, {true, static_cast<std::uint16_t>(id), message});
       carried.ids.push_back(id);
@@ -153,7 +153,7 @@ struct Link::Impl {
       for (const Receipt& receipt : message.receipts) carried.receipts.push_back(receipt);
     }
     unreliable.clear();
-    if (!writer.empty() || OwesDatagram(now_us)) Emit(packing);
+    if (!writer.empty() || MustSendDatagram(now_us)) Emit(packing);
     while (packing.datagrams > 0 && packing.datagrams < acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
   }
@@ -163,14 +163,14 @@ struct Link::Impl {
   void SampleRtt(std::int64_t sample_us) {
     if (sample_us < 0) return;
     srtt_us = srtt_us < 0 ? sample_us : srtt_us + (sample_us - srtt_us) / 8;
-    reliable.SetLate(std::max(srtt_us + srtt_us / 4, kLateUsMin));
+    reliable.SetRetransmissionTimeout(std::max(srtt_us + srtt_us / 4, kTimeoutUsMin));
   }
 
-  /// Datagram `number` has arrived. Karn's rule (never to time what was sent twice) holds by
-  /// itself: a repeated message travels in a new datagram with a number of its own.
+  /// Marks datagram `number` as arrived. Karn's rule (never time a retransmission) holds by itself:
+  /// a resent message travels in a new datagram with a new number.
   void Acknowledge(std::int64_t number, std::int64_t now_us, bool sample) {
     const auto age = static_cast<std::size_t>(sequence - number);
-    if (age >= sent.size()) return;  // forgotten
+    if (age >= sent.size()) return;  // no longer recorded
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
@@ -180,11 +180,11 @@ struct Link::Impl {
       largest = std::max(largest, receipt.number);
       if (receipt.slot == kListedSlot) listed.push_back(receipt.number);
     }
-    for (const std::int64_t id : record.ids) reliable.NoteAcked(id);
+    for (const std::int64_t id : record.ids) reliable.MarkAcked(id);
     Spare(&record);
   }
 
-  /// Nobody asks any more what it carried.
+  /// Clears an acknowledged record and keeps its memory for reuse.
   void Spare(SentRecord* record) {
     record->ids.clear();
     record->receipts.clear();
@@ -195,8 +195,8 @@ struct Link::Impl {
     spare.back().receipts.swap(record->receipts);
   }
 
-  /// Whether the datagram is one of the last that are known to have arrived; then it is one. Each
-  /// is acknowledged by 33 datagrams: its record is looked for once.
+  /// Returns true if the datagram is known to be acknowledged, and marks it so. Each datagram is
+  /// acknowledged by up to 33 others; this saves all but the first look at its record.
   bool Seen(std::int64_t number) {
     if (number > acks_newest) {
       const std::int64_t by = number - acks_newest;
@@ -212,7 +212,7 @@ struct Link::Impl {
   }
 
   void ReadAcks(std::int64_t ack, std::uint32_t bits, std::int64_t now_us) {
-    // Zeros say "nothing has arrived" until something is known to have.
+    // All zeros mean "nothing has arrived" until the first real ack.
     if (!ever_acked && static_cast<std::uint16_t>(ack) == 0 && bits == 0) return;
     if (!Seen(ack)) Acknowledge(ack, now_us, true);
     for (int i = 0; i < 32; ++i) {
@@ -223,15 +223,15 @@ struct Link::Impl {
 
   void DeliverReliable(std::int64_t now_us, const DatagramMessage& message, const Sink& deliver) {
     const bool repeated = inbox.Has(message.id);
-    // What is repeated was acknowledged, by a datagram that may have been lost.
-    ack_owed = ack_owed || !repeated || now_us - last_send_us >= kLateUsMin;
+    // A repeated message was acknowledged before, but that ack may have been lost.
+    ack_pending = ack_pending || !repeated || now_us - last_send_us >= kTimeoutUsMin;
     if (!repeated) inbox.Take(message, deliver);
   }
 
-  /// The one place that says whether the other end of this session wrote a datagram; all that a
-  /// session may cause hangs on it. Today the session's number is the proof, drawn at random by a
-  /// client that then showed that it receives at its address: it keeps out whoever cannot read the
-  /// path. Sealed packets are to be opened here.
+  /// Returns true if the other end of this session wrote the datagram. The only such check, so the
+  /// security of a session depends on it. The proof is the session number, drawn at random by a
+  /// client that then showed that it receives at its address: this keeps out attackers that cannot
+  /// read the path. Encrypted packets would be opened here.
   bool Authentic(const DatagramHeader& header) const {
     return header.session == session && !header.loose();
   }
@@ -314,7 +314,7 @@ std::int64_t Link::acked(int slot) const {
   SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
   return impl_->arrived[static_cast<std::size_t>(slot)];
 }
-std::vector<std::int64_t> Link::TakeArrived() { return std::exchange(impl_->listed, {}); }
+std::vector<std::int64_t> Link::TakeAckedNumbers() { return std::exchange(impl_->listed, {}); }
 bool Link::SendsNow(std::int64_t now_us) const {
   if (impl_->Sends(now_us)) return true;
   idle_until_us_ = impl_->IdleUntilUs();

@@ -1,5 +1,6 @@
 #pragma once
-/// One conversation over Net: sequence, acks, unreliable messages and a few reliable ordered ones.
+/// One connection over Net: sequence numbers, acks, unreliable messages, and a few reliable ordered
+/// ones.
 ///
 ///   datagram:  magic u32 | checksum u32 | session u64 | sequence u16 | ack u16 | ack_bits u32 |
 ///              messages...
@@ -20,14 +21,15 @@
 
 namespace seam {
 
-/// Reliable messages in flight, and their bytes; more wait in a queue. Of each window under loss
-/// the slowest decides: 64 small ones were less than a holder's hand-overs at a quarter lost.
+/// Most reliable messages in flight, and their bytes; more wait in a queue. Under loss the slowest
+/// message of a window limits the rate: at 25 % loss, 64 small ones were too few for a client's
+/// hand-overs.
 constexpr int kReliableWindow = 256;
 constexpr std::size_t kReliableWindowBytes = 64 * kMessageBytesMax;
 
-/// Kinds of unreliable messages whose arrival can be asked for: one for each player's inputs.
+/// Number of receipt slots, one for each player's inputs: Link reports the newest arrival per slot.
 constexpr int kReceiptSlots = kPlayersMax;
-/// The slot of messages of which each that arrives is told (Link::TakeArrived).
+/// The slot for which every arrival is listed (Link::TakeAckedNumbers).
 constexpr int kListedSlot = kReceiptSlots;
 
 class Link {
@@ -38,63 +40,63 @@ class Link {
   Link(Link&&) noexcept;
   Link& operator=(Link&&) noexcept;
 
-  /// Sent once with the next Flush. Requires 1..kMessageBytesMax bytes. Of more than 1024 without a
-  /// Flush the oldest are forgotten. With receipts: once a datagram that carried it has been
-  /// acknowledged, acked(slot) is at least the `number` of each. Requires slots below
-  /// kReceiptSlots, or kListedSlot.
+  /// Queues a message that is sent once, with the next Flush. Requires 1..kMessageBytesMax bytes.
+  /// Beyond 1024 queued messages the oldest is dropped. Receipts: once the datagram that carried
+  /// the message is acknowledged, acked(slot) is at least the `number` of each. Requires slots
+  /// below kReceiptSlots, or kListedSlot.
   void SendUnreliable(ByteView message, std::vector<Receipt> receipts = {});
-  /// Repeated until acknowledged, delivered once and in order. Requires 1..kMessageBytesMax bytes.
-  /// False when 4096 are waiting: the peer is gone or hostile, drop it.
+  /// Queues a message that is resent until acknowledged and delivered once and in order. Requires
+  /// 1..kMessageBytesMax bytes. False when 4096 are queued: the peer is gone or hostile, drop it.
   bool SendReliable(ByteView message);
-  /// The same, for what somebody waits for: repeated once on the chance that it is lost, at most
-  /// 32 kB/s, before its acknowledgement is late.
+  /// Like SendReliable, with one speculative duplicate before the retransmission timeout; all
+  /// duplicates together take at most 32 kB/s.
   bool SendUrgent(ByteView message);
 
-  /// Nothing happens in the room: acks by themselves can wait for a second and a half, and what the
-  /// peer then lets pass until its next datagram is no round trip.
+  /// Tells the link that nothing moves in the room. It is then silent for up to 1.5 s unless a
+  /// reliable message needs an ack. Round trips are not sampled, because the peer waits as well.
   void SetQuiet(bool quiet);
 
   using Sink = std::function<void(ByteView)>;
-  /// Packs what is queued into datagrams of at most kDatagramBytesMax and gives them to `send`.
-  /// Unacknowledged reliable messages ride along first, spaced by the round trip so that they do
-  /// not fill the path, about 9 kB of them in one call. Sends a datagram without messages (acks
-  /// only) if nothing was sent for 100 ms, and when something reliable has arrived since the last.
+  /// Packs queued messages into datagrams of at most kDatagramBytesMax and passes them to `send`.
+  /// Unacknowledged reliable messages come first, about 9 kB per call, and are resent at intervals
+  /// of the round trip so that they do not fill the path. Sends a datagram without messages (acks
+  /// only) if nothing was sent for 100 ms or a reliable message has arrived since the last one.
   void Flush(std::int64_t now_us, const Sink& send);
 
-  /// Takes a datagram; calls `deliver` for each message in it that is new. False (and counted)
-  /// when it is malformed, of another session, a duplicate or too old; nothing is delivered then.
-  /// `deliver` may send on this link, but must neither destroy it nor call Receive.
+  /// Reads a datagram and calls `deliver` for each new message in it. Returns false, counts it and
+  /// delivers nothing when it is malformed, of another session, a duplicate or too old. `deliver`
+  /// may send on this link, but must neither destroy it nor call Receive.
   bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver);
-  /// Asked for a datagram that is good and new, before anything follows from it: may so many
-  /// messages come? If not, it is as if the datagram had been lost.
+  /// Called for each good new datagram before it has any effect, with its number of messages. If it
+  /// returns false, the datagram counts as lost.
   using Gate = std::function<bool(std::size_t messages)>;
   bool Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, const Sink& deliver);
 
-  /// Largest number of the slot's messages that arrived, as far as we know; -1: none.
+  /// Returns the largest acknowledged `number` of the slot; -1 if none.
   std::int64_t acked(int slot) const;
-  /// Numbers of the messages of kListedSlot that arrived, as far as we know, since the last call.
-  std::vector<std::int64_t> TakeArrived();
-  /// Whether Flush would send anything now. Costs a comparison as long as nothing is due: a server
-  /// asks each of its links in every call.
+  /// Returns the numbers of kListedSlot that were acknowledged since the last call.
+  std::vector<std::int64_t> TakeAckedNumbers();
+  /// Returns true if Flush would send anything now. Costs one comparison while nothing is due: a
+  /// server asks all its links at each call.
   bool Sends(std::int64_t now_us) const { return now_us >= idle_until_us_ && SendsNow(now_us); }
 
   std::int64_t last_receive_us() const;  ///< -1 before the first
-  /// Smoothed (RFC 6298), with the time the peer lets pass until its next datagram; -1 before the
-  /// first sample.
+  /// Returns the smoothed round trip (RFC 6298), including the peer's wait for its next datagram;
+  /// -1 before the first sample.
   std::int64_t rtt_us() const;
-  std::int64_t loss_ppm() const;  ///< missing of the last 256 incoming sequence numbers
-  std::int64_t rejected() const;  ///< datagrams Receive returned false for
-  bool reliable_pending() const;  ///< something sent reliably is not acknowledged yet
-  std::size_t waiting() const;    ///< messages that do: of 4096 at most
+  std::int64_t loss_ppm() const;  ///< share missing of the last 256 incoming sequence numbers
+  std::int64_t rejected() const;  ///< datagrams for which Receive returned false
+  bool reliable_pending() const;  ///< true if a reliable message is not acknowledged yet
+  std::size_t waiting() const;    ///< reliable messages not yet acknowledged, at most 4096
 
  private:
   struct Impl;
   bool SendsNow(std::int64_t now_us) const;
-  /// Something has come in or is to go out: what is due when has to be looked at anew.
+  /// Cancels the idle period: after traffic in or out, the next due time must be computed again.
   void Wake() { idle_until_us_ = std::numeric_limits<std::int64_t>::min(); }
 
   std::unique_ptr<Impl> impl_;
-  /// Before that nothing is sent unless Wake is called.
+  /// Nothing is due before this time unless Wake is called.
   mutable std::int64_t idle_until_us_ = std::numeric_limits<std::int64_t>::min();
 };
 

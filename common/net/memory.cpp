@@ -5,12 +5,12 @@
 namespace seam {
 namespace {
 
-/// Datagrams that may wait at one endpoint; more are lost, as in a socket nobody reads.
+/// Most datagrams queued at one endpoint; more are lost, as in a socket that is never read.
 constexpr std::size_t kInboxDatagramsMax = 65536;
 
 }  // namespace
 
-/// An endpoint of a MemoryNetwork. It works while its number is the one its inbox belongs to.
+/// An endpoint of a MemoryNetwork. It works while the address's inbox carries its number.
 class MemoryEndpoint : public Net {
  public:
   MemoryEndpoint(MemoryNetwork& network, const Address& address, std::uint64_t number)
@@ -44,7 +44,7 @@ class MemoryEndpoint : public Net {
   }
 
  private:
-  /// nullptr once another endpoint has replaced this one.
+  /// Returns its inbox; nullptr once another endpoint has replaced this one.
   MemoryNetwork::Datagrams* Inbox() {
     const auto found = network_.inbox_.find(address_);
     if (found == network_.inbox_.end() || found->second.endpoint != number_) return nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-/// The interface to datagrams: all that a Server or Client needs of the operating system.
+/// The datagram interface: everything that a Server or Client needs of the operating system.
 
 #include <cstdint>
 #include <string>
@@ -18,23 +18,24 @@ struct Address {
   bool operator<(const Address& o) const { return ip != o.ip ? ip < o.ip : port < o.port; }
 };
 
-/// "127.0.0.1:7777". For logs.
+/// Returns "127.0.0.1:7777", for logs.
 std::string ToString(const Address& address);
 
-/// Unreliable, unordered datagrams. Not thread-safe. No call blocks, throws or aborts because of
-/// what the network does.
+/// Unreliable, unordered datagrams. Not thread-safe. No call blocks, throws or aborts because of an
+/// event in the network.
 class Net {
  public:
   virtual ~Net() = default;
-  /// Takes note of the time (microseconds, never backwards); simulated networks deliver by it.
+  /// Sets the time (microseconds, never backwards); simulated networks deliver by it.
   virtual void Advance(std::int64_t now_us) = 0;
   /// Queues a datagram of 1..kDatagramBytesMax bytes. It may be lost.
   virtual void Send(const Address& to, ByteView datagram) = 0;
   /// Hands queued datagrams to the network.
   virtual void Flush() = 0;
-  /// Takes the next waiting datagram; false when there is none.
+  /// Takes the next received datagram; false when there is none.
   virtual bool Receive(Address* from, Bytes* datagram) = 0;
-  /// Datagrams that came and were empty or longer than kDatagramBytesMax: Receive leaves them out.
+  /// Returns the number of received datagrams that Receive skipped: empty or longer than
+  /// kDatagramBytesMax.
   virtual std::int64_t discarded() const { return 0; }
 };
 

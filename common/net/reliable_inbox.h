@@ -1,5 +1,5 @@
 #pragma once
-/// Reliable messages on their way in: each once, and in order.
+/// Receiving side of reliable messages: delivers each once and in order.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,22 +14,22 @@ namespace seam {
 
 class ReliableInbox {
  public:
-  /// Whether the reliable ones among a datagram's messages are of the window (kReliableWindow,
-  /// kReliableWindowBytes): no others wait for their turn.
+  /// Returns true if all reliable messages of a datagram are within the receive window
+  /// (kReliableWindow, kReliableWindowBytes). Anything beyond must be rejected.
   bool InWindow(const std::vector<DatagramMessage>& messages) const;
 
-  /// Whether a reliable message with that id was taken before.
+  /// Returns true if the reliable message with this id was taken before.
   bool Has(std::uint16_t id) const;
 
   using Sink = std::function<void(ByteView)>;
-  /// Takes one that was not, of the window: delivers it and those that have waited for it, or keeps
-  /// it until those before it have come.
+  /// Takes a message of the window: delivers it and the messages held back behind it, or holds it
+  /// until all earlier ones have come. Requires !Has(message.id).
   void Take(const DatagramMessage& message, const Sink& deliver);
 
  private:
-  std::int64_t next_ = 0;                // id of the next to deliver
-  std::map<std::int64_t, Bytes> early_;  // ahead of it
-  std::size_t early_bytes_ = 0;          // of all of those
+  std::int64_t next_ = 0;                // id of the next message to deliver
+  std::map<std::int64_t, Bytes> early_;  // later messages, by id
+  std::size_t early_bytes_ = 0;          // their total
 };
 
 }  // namespace seam

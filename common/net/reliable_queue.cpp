@@ -11,23 +11,23 @@
 namespace seam {
 namespace {
 
-/// Messages that may wait for the window.
+/// Most messages in the queue, window included.
 constexpr std::size_t kWaitMax = 4096;
-/// Bytes begun in one Take: eight datagrams. At 60 Hz 4.4 Mb/s; more floods a slow path.
+/// Most bytes sent in one Take: eight datagrams. At 60 Hz 4.4 Mb/s; more floods a slow path.
 constexpr std::size_t kTakeBytes = 8 * kMessageBytesMax;
-/// Late, before the round trip is known, us.
-constexpr std::int64_t kFirstLateUs = 250'000;
-/// Before it is late an urgent message is repeated once on the chance that it was lost, so that who
-/// waits for it need not wait a round trip more: so long after it was sent, us, with a datagram
-/// that goes out anyway, or a little later in one of its own.
-constexpr std::int64_t kChanceRidesUs = 12'000, kChanceUs = 35'000;
-/// Repeats on the chance take so many bytes a second, and at once about a datagram.
-constexpr std::int64_t kChanceBytesPerS = 32'000;
-constexpr std::int64_t kChanceBurstUs = 1'000'000 * kMessageBytesMax / kChanceBytesPerS;
+/// Retransmission timeout before the round trip is known, us.
+constexpr std::int64_t kFirstTimeoutUs = 250'000;
+/// Delay of an urgent message's speculative duplicate, us: the first with a datagram that goes out
+/// anyway, the second in one of its own. If the original was lost, the receiver need not wait for
+/// another round trip.
+constexpr std::int64_t kDuplicateRidesUs = 12'000, kDuplicateDelayUs = 35'000;
+/// Rate limit of speculative duplicates, bytes per second; a burst is about one datagram.
+constexpr std::int64_t kDuplicateBytesPerS = 32'000;
+constexpr std::int64_t kDuplicateBurstUs = 1'000'000 * kMessageBytesMax / kDuplicateBytesPerS;
 
 }  // namespace
 
-ReliableQueue::ReliableQueue() : late_us_(kFirstLateUs) {}
+ReliableQueue::ReliableQueue() : late_us_(kFirstTimeoutUs) {}
 
 bool ReliableQueue::Push(ByteView message, bool urgent) {
   if (messages_.size() >= kWaitMax) return false;
@@ -41,21 +41,21 @@ bool ReliableQueue::Push(ByteView message, bool urgent) {
   return true;
 }
 
-void ReliableQueue::NoteAcked(std::int64_t id) {
+void ReliableQueue::MarkAcked(std::int64_t id) {
   const auto index = static_cast<std::size_t>(messages_.empty() ? -1 : id - messages_.front().id);
   if (index < messages_.size()) messages_[index].acked = true;
   while (!messages_.empty() && messages_.front().acked) {
     window_bytes_ -= messages_.front().bytes.size();
     --window_;
     messages_.pop_front();
-    due_us_ = 0;  // the window moves on
+    due_us_ = 0;  // the window has moved
   }
   FillWindow();
 }
 
-void ReliableQueue::SetLate(std::int64_t late_us) {
+void ReliableQueue::SetRetransmissionTimeout(std::int64_t late_us) {
   late_us_ = late_us;
-  due_us_ = 0;  // what is repeated may be due earlier
+  due_us_ = 0;  // a resend may be due earlier now
 }
 
 void ReliableQueue::FillWindow() {
@@ -67,19 +67,20 @@ void ReliableQueue::FillWindow() {
   }
 }
 
-/// When a message is due that is not acknowledged; its chance is `chance_us` after it.
+/// Returns the due time of an unacknowledged message; its speculative duplicate is due `chance_us`
+/// after the last send.
 std::int64_t ReliableQueue::DueUs(const Message& message, std::int64_t chance_us) const {
   if (message.sent_us < 0) return 0;
   const std::int64_t late_us = message.sent_us + late_us_;
   if (!message.chance) return late_us;
-  const std::int64_t paid_us = chances_paid_us_ - kChanceBurstUs;
+  const std::int64_t paid_us = duplicates_paid_us_ - kDuplicateBurstUs;
   return std::min(late_us, std::max(message.sent_us + chance_us, paid_us));
 }
 
 std::int64_t ReliableQueue::FirstDueUs() const {
   std::int64_t due_us = std::numeric_limits<std::int64_t>::max();
   for (std::size_t i = 0; i < window_; ++i) {
-    if (!messages_[i].acked) due_us = std::min(due_us, DueUs(messages_[i], kChanceUs));
+    if (!messages_[i].acked) due_us = std::min(due_us, DueUs(messages_[i], kDuplicateDelayUs));
   }
   return due_us;
 }
@@ -88,14 +89,15 @@ bool ReliableQueue::Due(std::int64_t now_us) const {
   return now_us >= due_us_ && now_us >= (due_us_ = FirstDueUs());
 }
 
-void ReliableQueue::Pay(std::int64_t now_us, const Message& message) {
+void ReliableQueue::ChargeDuplicate(std::int64_t now_us, const Message& message) {
   const auto bytes = static_cast<std::int64_t>(FramedBytes(message.bytes.size(), true));
-  chances_paid_us_ = std::max(chances_paid_us_, now_us) + 1'000'000 * bytes / kChanceBytesPerS;
+  duplicates_paid_us_ =
+      std::max(duplicates_paid_us_, now_us) + 1'000'000 * bytes / kDuplicateBytesPerS;
 }
 
 void ReliableQueue::Take(std::int64_t now_us, bool rides, const Pack& pack) {
   if (now_us < due_us_ && !rides) return;
-  const std::int64_t chance_us = rides ? kChanceRidesUs : kChanceUs;
+  const std::int64_t chance_us = rides ? kDuplicateRidesUs : kDuplicateDelayUs;
   std::size_t budget = kTakeBytes;
   for (std::size_t i = 0; i < window_; ++i) {
     Message& message = messages_[i];
@@ -103,7 +105,7 @@ void ReliableQueue::Take(std::int64_t now_us, bool rides, const Pack& pack) {
     if (message.bytes.size() > budget) break;
     budget -= message.bytes.size();
     if (message.sent_us >= 0) {
-      if (now_us - message.sent_us < late_us_) Pay(now_us, message);
+      if (now_us - message.sent_us < late_us_) ChargeDuplicate(now_us, message);
       message.chance = false;
     }
     message.sent_us = now_us;

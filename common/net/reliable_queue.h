@@ -1,5 +1,5 @@
 #pragma once
-/// Reliable messages on their way out: which is to be sent when, until it is acknowledged.
+/// Send queue of reliable messages: decides when each is sent and resent until acknowledged.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,19 +14,20 @@ class ReliableQueue {
  public:
   ReliableQueue();
 
-  /// False when 4096 are waiting. `urgent`: to be repeated on the chance.
+  /// Queues a message; false when 4096 are queued. `urgent`: send one speculative duplicate.
   bool Push(ByteView message, bool urgent);
-  /// A datagram that carried the message has arrived.
-  void NoteAcked(std::int64_t id);
-  /// A message is late when it is not acknowledged so long after it was sent, us.
-  void SetLate(std::int64_t late_us);
+  /// Marks the message as acknowledged.
+  void MarkAcked(std::int64_t id);
+  /// Sets the retransmission timeout, us.
+  void SetRetransmissionTimeout(std::int64_t late_us);
 
-  /// Whether something is to be sent now, in a datagram of its own if need be.
+  /// Returns true if a message is due now, even in a datagram of its own.
   bool Due(std::int64_t now_us) const;
-  /// After that said no: when it may be, us.
+  /// Returns the earliest time at which a message may be due, us. Valid after Due returned false.
   std::int64_t DueUs() const { return due_us_; }
   using Pack = std::function<void(std::int64_t id, ByteView message)>;
-  /// What is to be sent now. `rides`: a datagram goes out in any case.
+  /// Calls `pack` for each message due now. `rides`: a datagram goes out in any case, so that
+  /// duplicates may go earlier.
   void Take(std::int64_t now_us, bool rides, const Pack& pack);
 
   bool empty() const { return messages_.empty(); }
@@ -35,25 +36,25 @@ class ReliableQueue {
  private:
   struct Message {
     std::int64_t id = 0;
-    std::int64_t sent_us = -1;  // -1: not yet
-    bool chance = false;        // to be repeated once before it is late
+    std::int64_t sent_us = -1;  // time of the last send, -1: not yet
+    bool chance = false;        // its speculative duplicate is still to be sent
     bool acked = false;
     Bytes bytes;
   };
   std::int64_t DueUs(const Message& message, std::int64_t chance_us) const;
   std::int64_t FirstDueUs() const;
-  /// Lets in what fits.
+  /// Extends the window by as many messages as fit.
   void FillWindow();
-  /// For a repeat on the chance.
-  void Pay(std::int64_t now_us, const Message& message);
+  /// Charges a speculative duplicate to the rate limit.
+  void ChargeDuplicate(std::int64_t now_us, const Message& message);
 
   std::deque<Message> messages_;
-  std::size_t window_ = 0;        // so many of the first of them are the window,
-  std::size_t window_bytes_ = 0;  // that are so long
+  std::size_t window_ = 0;        // number of leading messages in the window
+  std::size_t window_bytes_ = 0;  // their bytes
   std::int64_t next_id_ = 0;
   std::int64_t late_us_;
-  std::int64_t chances_paid_us_ = 0;  // by then for what was repeated on the chance
-  mutable std::int64_t due_us_ = 0;   // before that none of the window is due
+  std::int64_t duplicates_paid_us_ = 0;  // time at which past duplicates fit the rate limit
+  mutable std::int64_t due_us_ = 0;   // no message of the window is due before
 };
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// What a link remembers of what it sends: to know by an acknowledgement what has arrived.
+/// A link's records of sent datagrams, by which an ack tells which messages have arrived.
 
 #include <cstdint>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace seam {
 
-/// Asks whether a message arrived: Link::SendUnreliable.
+/// A request to report the arrival of a message; see Link::SendUnreliable.
 struct Receipt {
   int slot = 0;
   std::int64_t number = -1;
 };
 
-/// An unreliable message that waits for a Flush.
+/// An unreliable message queued for the next Flush.
 struct Passing {
   Bytes bytes;
   std::vector<Receipt> receipts;
 };
 
-/// What a datagram carried.
+/// The contents of a sent datagram.
 struct SentRecord {
   std::int64_t sent_us = 0;
   bool acked = false;

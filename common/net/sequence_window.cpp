@@ -36,7 +36,7 @@ void SequenceWindow::Insert(std::int64_t number) {
 }
 
 std::uint32_t SequenceWindow::BitsBefore(std::int64_t number) const {
-  // Of numbers beyond the newest one none has arrived.
+  // Numbers beyond the newest have not arrived.
   const std::int64_t age = newest_ - (number - 1);
   if (empty_ || age <= -32 || age >= kSize) return 0;
   const std::bitset<kSize> low32(0xffffffffu);

@@ -1,12 +1,13 @@
 #pragma once
-/// Which of the last 256 sequence numbers have arrived: duplicates, acks and loss come from it.
+/// Records which of the last 256 sequence numbers have arrived, to detect duplicates and to compute
+/// acks and loss.
 
 #include <bitset>
 #include <cstdint>
 
 namespace seam {
 
-/// The full number nearest to `reference` whose low 16 bits are `wire`.
+/// Returns the full number nearest to `reference` with the low 16 bits `wire`.
 inline std::int64_t Unwrap(std::uint16_t wire, std::int64_t reference) {
   const auto low = static_cast<std::uint16_t>(reference);
   return reference + static_cast<std::int16_t>(static_cast<std::uint16_t>(wire - low));
@@ -16,19 +17,19 @@ class SequenceWindow {
  public:
   static constexpr std::int64_t kSize = 256;
 
-  /// The full number of a sequence number just read.
+  /// Returns the full number of a sequence number read from a datagram.
   std::int64_t Full(std::uint16_t wire) const;
-  /// It has not arrived yet and is not too old to know.
+  /// Returns true if the number has not arrived yet and is within the window or ahead of it.
   bool IsNew(std::int64_t number) const;
-  /// Notes that it has. Requires IsNew.
+  /// Marks the number as arrived. Requires IsNew.
   void Insert(std::int64_t number);
 
   bool empty() const { return empty_; }
   std::int64_t newest() const { return newest_; }
   bool Has(std::int64_t number) const;
-  /// Bit i: number - 1 - i has arrived.
+  /// Returns a mask; bit i: number - 1 - i has arrived.
   std::uint32_t BitsBefore(std::int64_t number) const;
-  /// Missing per million of the last 256 (fewer at first).
+  /// Returns the share missing of the last 256 numbers (fewer at first), per million.
   std::int64_t loss_ppm() const;
 
  private:

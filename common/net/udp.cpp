@@ -19,15 +19,15 @@
 namespace seam {
 namespace {
 
-/// Datagrams per system call. More gains nothing measurable; fewer costs calls.
+/// Datagrams per system call. More gain nothing measurable; fewer cost more calls.
 constexpr unsigned kBatch = 64;
 /// Kernel buffer each way, bytes: a burst of 800 full datagrams. Too small loses bursts silently.
 constexpr int kSocketBufferBytes = 1 << 20;
-/// One byte more than we accept, so that a longer datagram is seen to be too long.
+/// One byte more than we accept, so that a longer datagram is recognised as too long.
 constexpr std::size_t kSlotBytes = kDatagramBytesMax + 1;
-/// Pending socket errors (an ICMP for an earlier send) passed over in one Receive.
-constexpr int kErrorsPassedOver = 8;
-/// Datagrams of a wrong size left out in one Receive, so that a flood of them cannot hold it.
+/// Most pending socket errors (an ICMP for an earlier send) skipped in one Receive.
+constexpr int kErrorsSkippedMax = 8;
+/// Most datagrams of a wrong size skipped in one Receive, so that a flood cannot block it.
 constexpr int kDiscardsMax = 1024;
 
 sockaddr_in ToSockaddr(const Address& address) {
@@ -42,7 +42,7 @@ Address FromSockaddr(const sockaddr_in& in) {
   return Address{ntohl(in.sin_addr.s_addr), ntohs(in.sin_port)};
 }
 
-/// 64 datagrams in the form that recvmmsg and sendmmsg want.
+/// Buffers and headers of 64 datagrams for recvmmsg and sendmmsg.
 struct Batch {
   std::array<mmsghdr, kBatch> headers{};
   std::array<iovec, kBatch> parts{};
@@ -52,7 +52,7 @@ struct Batch {
   Batch() {
     for (unsigned i = 0; i < kBatch; ++i) Reset(i, kSlotBytes);
   }
-  /// Makes slot `i` ready for `bytes` of data.
+  /// Prepares slot `i` for `bytes` of data.
   void Reset(unsigned i, std::size_t bytes) {
     parts[i] = {data[i].data(), bytes};
     headers[i] = {};
@@ -154,9 +154,9 @@ struct UdpSender::Impl {
       if (done > 0) {
         sent += static_cast<unsigned>(done);
       } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
-        break;  // the kernel's buffer is full: a router would drop them too
+        break;  // the kernel's buffer is full: lost, as in a congested router
       } else if (errno != EINTR) {
-        ++sent;  // refused, unreachable, filtered: this one is lost, the others are not
+        ++sent;  // refused, unreachable or filtered: only this datagram is lost
       }
     }
     count = 0;
@@ -167,28 +167,28 @@ struct UdpNet::Impl {
   int fd = -1;
   Batch in;
   UdpSender::Impl out;
-  unsigned in_count = 0, in_next = 0;  // received, and handed out of them
-  bool drained = false;                // the last call left nothing
+  unsigned in_count = 0, in_next = 0;  // received in the batch, and handed out
+  bool drained = false;                // the last call emptied the socket
   std::int64_t discarded = 0;
 
   ~Impl() {
     if (fd >= 0) close(fd);
   }
 
-  /// Fetches up to kBatch datagrams; false when none wait. Who asks until none do is spared the
-  /// call that would say so, where the one before found fewer than it had room for.
+  /// Fetches up to kBatch datagrams; false when none is pending. After a batch that was not full,
+  /// the next Fetch returns false without a system call.
   bool Fetch() {
-    for (unsigned i = 0; i < in_count; ++i) in.Reset(i, kSlotBytes);  // those that were filled
+    for (unsigned i = 0; i < in_count; ++i) in.Reset(i, kSlotBytes);  // the filled slots
     in_count = in_next = 0;
     if (std::exchange(drained, false)) return false;
-    for (int errors = 0; errors < kErrorsPassedOver; ++errors) {
+    for (int errors = 0; errors < kErrorsSkippedMax; ++errors) {
       const int got = recvmmsg(fd, in.headers.data(), kBatch, MSG_DONTWAIT, nullptr);
       if (got > 0) {
         in_count = static_cast<unsigned>(got);
         drained = in_count < kBatch;
         return true;
       }
-      // EAGAIN: empty. Anything else is an error left by an earlier send: that datagram was lost.
+      // EAGAIN means empty; any other error is left over from a send whose datagram was lost.
       if (got == 0 || errno == EAGAIN || errno == EWOULDBLOCK) return false;
     }
     return false;
@@ -232,7 +232,7 @@ bool UdpNet::Receive(Address* from, Bytes* datagram) {
     if (impl_->in_next == impl_->in_count && !impl_->Fetch()) return false;
     const unsigned slot = impl_->in_next++;
     const std::size_t bytes = impl_->in.headers[slot].msg_len;
-    if (bytes == 0 || bytes > kDatagramBytesMax) {  // not from one of us
+    if (bytes == 0 || bytes > kDatagramBytesMax) {  // not from Seam2D
       ++impl_->discarded;
       continue;
     }

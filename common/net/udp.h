@@ -8,8 +8,8 @@
 
 namespace seam {
 
-/// Reads "host:port" or "host" (numeric IPv4 or a name, which may take the resolver's time). Port 0
-/// is allowed: any port, to bind. Throws OperatorError with what is wrong.
+/// Reads "host:port" or "host" (numeric IPv4, or a name, which may block in the resolver). Port 0
+/// is allowed and binds to any port. Throws OperatorError with the reason.
 Address ParseAddress(const std::string& text, std::uint16_t default_port);
 
 class UdpNet : public Net {
@@ -26,13 +26,13 @@ class UdpNet : public Net {
   bool Receive(Address* from, Bytes* datagram) override;
   std::int64_t discarded() const override;
 
-  /// Sleeps in poll until a datagram (or, if >= 0, `extra_fd`) is readable or `timeout_us` has
-  /// passed; a signal ends it early. Returns at once at the end of file of `extra_fd`: do not pass
-  /// it again then. Does not Flush. True: a datagram is there.
+  /// Sleeps in poll until a datagram (or `extra_fd`, if >= 0) is readable or `timeout_us` has
+  /// passed; a signal ends it early. Returns true if a datagram is there. Does not Flush. At its
+  /// end of file `extra_fd` stays readable: do not pass it again.
   bool Wait(std::int64_t timeout_us, int extra_fd = -1);
 
   Address local() const;
-  /// For poll and epoll: readable when a datagram waits.
+  /// Returns the descriptor for poll and epoll, readable when a datagram is pending.
   int fd() const;
 
  private:
@@ -41,11 +41,11 @@ class UdpNet : public Net {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Sends from the address of a UdpNet, with a batch of its own: one thread may send through it
-/// while another uses the UdpNet. Receives nothing.
+/// Sends from the address of a UdpNet with a batch of its own, so that one thread may send through
+/// it while another uses the UdpNet. Receives nothing.
 class UdpSender : public Net {
  public:
-  /// `net` must outlive it.
+  /// `net` must outlive the sender.
   explicit UdpSender(const UdpNet& net);
   ~UdpSender() override;
 

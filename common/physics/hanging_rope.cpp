@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "common/physics/world_build.h"
+
 namespace seam {
 namespace {
 
 constexpr int kSweeps = 8;  // over all links, a step
-
-b2Vec2 ToB2(const Vec2& v) { return {v.x(), v.y()}; }
 
 /// The engine gives out a rope's points only by drawing.
 class PointCollector : public b2Draw {

@@ -39,7 +39,7 @@ void ShiftVelocity(const Vector2d& centre, double sign, BodyState* state) {
 }
 
 /// The world before the edits.
-struct Before {
+struct WorldBeforeEdit {
   Composition composition;
   std::vector<Part> parts;                 // poses within their assemblies
   std::vector<BodyState> states;           // by body, velocities of the centres of mass
@@ -71,7 +71,7 @@ struct Piece {
   std::vector<PartId> parts;
 };
 
-Piece PieceOf(const Before& before, const Scene& scene, const Part& root_now,
+Piece PieceOf(const WorldBeforeEdit& before, const Scene& scene, const Part& root_now,
               const std::vector<PartId>& parts, bool came) {
   Piece piece;
   piece.parts = parts;
@@ -97,7 +97,7 @@ Piece PieceOf(const Before& before, const Scene& scene, const Part& root_now,
   return piece;
 }
 
-BodyOrigin OriginOf(const Before& before, const Scene& scene, const Assembly& now) {
+BodyOrigin OriginOf(const WorldBeforeEdit& before, const Scene& scene, const Assembly& now) {
   BodyOrigin origin;
   origin.body = before.BodyOf(now.id);
   if (origin.body < 0) return origin;
@@ -120,7 +120,7 @@ BodyOrigin OriginOf(const Before& before, const Scene& scene, const Assembly& no
 }
 
 /// Returns the motion of a body made of pieces.
-BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
+BodyState StateOf(const WorldBeforeEdit& before, const Scene& scene, const Assembly& now,
                   const BodyOrigin& origin) {
   const Part& root = scene.parts[static_cast<std::size_t>(now.id)];
   if (origin.same) return before.states[static_cast<std::size_t>(origin.body)];
@@ -161,7 +161,7 @@ BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
 }
 
 /// Moves bodies along with bonds and returns by how much. Velocities stay, and so does momentum.
-std::vector<BodyState> Carry(const Before& before, const Scene& scene, const Composition& now,
+std::vector<BodyState> Carry(const WorldBeforeEdit& before, const Scene& scene, const Composition& now,
                              std::vector<WorldSnapshot::Body>* bodies) {
   std::vector<BodyState> states;
   for (const WorldSnapshot::Body& body : *bodies) states.push_back(body.state);
@@ -178,7 +178,7 @@ std::vector<BodyState> Carry(const Before& before, const Scene& scene, const Com
   return jumps;
 }
 
-std::vector<std::vector<int>> MechanismsFrom(const Before& before, const Composition& now) {
+std::vector<std::vector<int>> MechanismsFrom(const WorldBeforeEdit& before, const Composition& now) {
   std::vector<std::vector<int>> all;
   for (const Mechanism& m : now.mechanisms) {
     std::vector<int> from;
@@ -220,7 +220,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   Impl& w = *impl_;
   const std::uint64_t hash = w.composition.hash;
   const std::size_t joints_before = w.scene.joints.size();
-  Before before{w.composition, w.scene.parts, {}, BodyOfAssembly(w.composition), {}};
+  WorldBeforeEdit before{w.composition, w.scene.parts, {}, BodyOfAssembly(w.composition), {}};
   std::vector<bool> held;  // joints that exist, not broken ones
   for (std::size_t j = 0; j < joints_before; ++j) held.push_back(w.Holds(j));
   for (int body = 0; body < body_count(); ++body) before.states.push_back(Read(body));

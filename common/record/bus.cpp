@@ -16,9 +16,10 @@
 namespace seam {
 namespace {
 
-/// Messages that wait for one Poll; LCM's default of 30 loses what 30 clients send in phase.
+/// Most messages queued for one Poll; LCM's default of 30 loses messages when 30 clients send in
+/// phase.
 constexpr int kQueueMessages = 4096;
-/// Most messages that one Poll handles, so that a flood cannot hold the caller.
+/// Most messages handled by one Poll, so that a flood cannot block the caller.
 constexpr int kPollMessagesMax = 10000;
 
 constexpr const char* kRoute =
@@ -26,7 +27,7 @@ constexpr const char* kRoute =
     "root: unshare -rn sh -c 'ip link set lo up; ip route add 224.0.0.0/4 dev lo; exec \"$@\"' sh "
     "COMMAND)";
 
-/// Holds back what is written to stderr while it lives: LCM explains itself there, in many lines.
+/// Captures stderr during its lifetime: LCM writes its explanations there, in many lines.
 class StderrCapture {
  public:
   StderrCapture() : text_fd_(memfd_create("lcm-stderr", MFD_CLOEXEC)), stderr_fd_(dup(2)) {
@@ -61,7 +62,7 @@ bool Contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The url that is really used: with a receive buffer that holds a burst.
+/// Returns the url in effect, with a receive buffer that holds a burst.
 std::string FullUrl(std::string url) {
   const char* fallback = std::getenv("LCM_DEFAULT_URL");
   if (url.empty() && fallback != nullptr) url = fallback;
@@ -73,7 +74,7 @@ std::string FullUrl(std::string url) {
   return url;
 }
 
-/// One line out of LCM's several.
+/// Condenses LCM's several lines into one.
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.substr(0, 200);
@@ -104,7 +105,7 @@ struct Bus::Impl {
 
   static void Handle(const lcm::ReceiveBuffer* buffer, const std::string& channel,
                      Subscriber* subscriber) {
-    try {  // nothing may be thrown through LCM's C code
+    try {  // no exception may pass through LCM's C code
       const ByteView message(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
       subscriber->handler(channel, buffer->recv_utime, message);
     } catch (...) {
@@ -139,7 +140,7 @@ void Bus::Publish(const std::string& channel, std::int64_t, ByteView message) {
 std::int64_t Bus::failures() const { return impl_->failures; }
 
 void Bus::Subscribe(const std::string& channel_regex, Handler handler) {
-  // LCM anchors with ^ and $ only: the parentheses anchor "a|b" as well.
+  // LCM just adds ^ and $; the parentheses make them apply to all of "a|b".
   const std::string regex = "(" + channel_regex + ")";
   regex_t compiled;
   if (regcomp(&compiled, regex.c_str(), REG_EXTENDED | REG_NOSUB) != 0) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The LCM bus, safely: its .cpp is the only file that includes <lcm/lcm-cpp.hpp>.
+/// A safe wrapper of the LCM bus. Its .cpp is the only file that includes <lcm/lcm-cpp.hpp>.
 
 #include <cstdint>
 #include <functional>
@@ -11,39 +11,39 @@
 
 namespace seam {
 
-/// Socket buffer that Bus asks for: with the default one, bursts of large messages are lost.
+/// Socket buffer that Bus requests, bytes: the default one loses bursts of large messages.
 constexpr int kBusReceiveBytes = 4194304;
 
-/// Publishes to and hears from LCM. For one thread.
+/// Publishes and receives LCM messages. For one thread.
 class Bus : public Recorder {
  public:
-  /// `url`: as LCM's; "" takes LCM_DEFAULT_URL or LCM's default; recv_buf_size is added when the
-  /// url does not say it. Throws OperatorError when multicast cannot work, saying what to type
-  /// (the `ip route add 224.0.0.0/4 ...` line). What LCM writes to stderr becomes that one line.
+  /// `url` is LCM's; "" means LCM_DEFAULT_URL or LCM's default. Adds recv_buf_size if the url has
+  /// none. Throws OperatorError when multicast cannot work, with the command that fixes it (`ip
+  /// route add 224.0.0.0/4 ...`). LCM's own lines on stderr are condensed into that one line.
   explicit Bus(const std::string& url);
   ~Bus() override;
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// LCM has no time on the wire: `utime` is not sent. Refuses, and counts, messages above
-  /// kBusMessageBytesMax, channels above kChannelBytesMax, and what the socket does not take.
+  /// Publishes a message. Drops and counts messages above kBusMessageBytesMax, channels above
+  /// kChannelBytesMax, and failed sends. `utime` is not sent: LCM has no time on the wire.
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
-  /// Messages that could not be published, and handlers that threw.
+  /// Returns the number of unpublished messages plus handler calls that threw.
   std::int64_t failures() const override;
 
-  /// `utime`: when the message was received, us since 1970.
+  /// `utime`: time of receipt, us since 1970.
   using Handler = std::function<void(const std::string& channel, std::int64_t utime, ByteView)>;
-  /// Calls `handler` from Poll for each message whose channel matches the regular expression
-  /// (POSIX extended) as a whole. Exceptions of the handler are caught and counted. Sets a receive
-  /// queue large enough for a burst. Throws OperatorError for a wrong expression, and when a
-  /// firewall keeps multicast from coming back, which LCM notices after 10 s.
+  /// Makes Poll call `handler` for each message on a channel that matches the whole regular
+  /// expression (POSIX extended). Exceptions of the handler are caught and counted. Makes the
+  /// receive queue large enough for a burst. Throws OperatorError for an invalid expression, and,
+  /// after LCM's 10 s, when a firewall blocks multicast loopback.
   void Subscribe(const std::string& channel_regex, Handler handler);
-  /// Handles what has arrived; waits at most `timeout_us` for the first message. Returns at once
-  /// when nothing is subscribed.
+  /// Handles arrived messages; waits at most `timeout_us` for the first one. Returns at once if
+  /// nothing is subscribed.
   void Poll(std::int64_t timeout_us);
-  /// For poll(2): readable when Poll has something to do. -1 while nothing is subscribed.
+  /// Returns the descriptor for poll(2), readable when Poll has work; -1 without subscriptions.
   int fd() const;
-  /// Lines worth showing to the operator: what is not as it should be, and what to type.
+  /// Returns warnings for the operator, each with a remedy.
   const std::vector<std::string>& warnings() const;
 
  private:

@@ -22,7 +22,8 @@ std::string ReadText(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-/// a.b.c.d as /proc/net/route writes it on a little-endian machine: the first byte is the lowest.
+/// Parses a.b.c.d into the number that /proc/net/route shows on a little-endian machine: the first
+/// byte is the lowest.
 bool ParseAddress(const std::string& text, unsigned* address) {
   unsigned a = 0, b = 0, c = 0, d = 0;
   char rest = 0;
@@ -32,7 +33,7 @@ bool ParseAddress(const std::string& text, unsigned* address) {
   return true;
 }
 
-/// The group in udpm://GROUP:PORT?..., or LCM's default.
+/// Returns the group in udpm://GROUP:PORT?..., or LCM's default.
 std::string GroupOf(const std::string& url) {
   const std::size_t begin = url.find("://");
   const std::string rest = begin == std::string::npos ? "" : url.substr(begin + 3);
@@ -125,7 +126,7 @@ std::string RouteInterface(const std::string& routes, const std::string& address
     }
     constexpr unsigned kUp = 1, kReject = 0x200;
     const bool usable = (flags & kUp) != 0 && (flags & kReject) == 0;
-    // Network masks compare by their leading bits, which are the low bytes here.
+    // The mask's length decides; its leading bits are in the low bytes here.
     const unsigned long width = __builtin_bswap32(mask);
     if (!usable || (wanted & mask) != destination) continue;
     if (best.empty() || width > best_mask) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Answers "why do I see nothing on the bus?": looks at what LCM needs and says what to type.
+/// Diagnoses "why do I see nothing on the bus?": checks LCM's requirements and names remedies.
 
 #include <string>
 #include <vector>
@@ -7,17 +7,17 @@
 namespace seam {
 
 struct DoctorReport {
-  bool healthy = true;             ///< messages arrive; warnings do not count against it
+  bool healthy = true;             ///< messages arrive; warnings do not make it false
   std::vector<std::string> lines;  ///< each begins with "ok", "warning" or "BROKEN"
 };
 
-/// Checks the multicast route, the limit of receive buffers, the stock tools, and that a small and
-/// the largest message sent on a scratch channel come back within a second. Takes up to 12 s when
-/// a firewall is in the way. Never throws. `url` as for Bus; needs no privileges.
+/// Checks the multicast route, the receive buffer limit, the stock tools, and that a small and the
+/// largest message on a scratch channel come back within a second. Takes up to 12 s behind a
+/// firewall. Never throws; needs no privileges. `url` as for Bus.
 DoctorReport RunDoctor(const std::string& url);
 
-/// The interface that the kernel's table `routes` (the text of /proc/net/route) sends `address`
-/// (a.b.c.d) to; "" when it has none.
+/// Returns the interface for `address` (a.b.c.d) in the kernel's table `routes` (the text of
+/// /proc/net/route); "" if there is none.
 std::string RouteInterface(const std::string& routes, const std::string& address);
 
 }  // namespace seam

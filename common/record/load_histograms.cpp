@@ -16,13 +16,7 @@ const Named kHistograms[] = {
     {"seam_tick_seconds", "Wall time of the ticks since the start.", &RoomLoad::tick},
     {"seam_late_seconds", "Lateness of the ticks since the start.", &RoomLoad::late}};
 
-std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", value);
-  return text;
-}
-
-std::string Seconds(std::int64_t us) { return Number(static_cast<double>(us) * 1e-6); }
+std::string Seconds(std::int64_t us) { return MetricNumber(static_cast<double>(us) * 1e-6); }
 
 void Write(const Named& named, const RoomLoad& load, std::string* text) {
   const BucketHistogram& h = load.*named.of;
@@ -38,7 +32,7 @@ void Write(const Named& named, const RoomLoad& load, std::string* text) {
 }
 
 void TakeBucket(const std::string& le, std::int64_t value, BucketHistogram* h) {
-  // To half a microsecond; "+Inf" is none of them: it is the count.
+  // Matches bounds to half a microsecond. "+Inf" matches none: it equals the count.
   const double bound_us = std::strtod(le.c_str(), nullptr) * 1e6;
   for (std::size_t i = 0; i < h->at_most.size(); ++i) {
     const auto known_us = static_cast<double>(h->kBoundsUs[i]);
@@ -47,6 +41,12 @@ void TakeBucket(const std::string& le, std::int64_t value, BucketHistogram* h) {
 }
 
 }  // namespace
+
+std::string MetricNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.15g", value);
+  return text;
+}
 
 std::string WriteHistograms(const std::vector<RoomLoad>& loads) {
   std::string text;

@@ -1,6 +1,5 @@
 #pragma once
-/// The histograms in a server's page: how long its ticks took and how late they began, since its
-/// beginning.
+/// The histograms in a server's page: durations and lateness of all ticks since its start.
 
 #include <string>
 
@@ -8,11 +7,14 @@
 
 namespace seam {
 
-/// Heads and samples of all rooms, in the exposition format.
+/// Returns a number of the exposition format, to 15 digits.
+std::string MetricNumber(double value);
+
+/// Returns headers and samples of all rooms in the exposition format.
 std::string WriteHistograms(const std::vector<RoomLoad>& loads);
 
-/// Takes up the sample `name{...} value` if it is of a histogram; `le`: its label of that name, ""
-/// if it has none.
+/// Stores the sample `name{...} value` in `room` if it belongs to a histogram. `le` is the value of
+/// its label le, "" if there is none.
 void TakeHistogram(const std::string& name, const std::string& le, double value, RoomLoad* room);
 
 }  // namespace seam

@@ -15,14 +15,14 @@ constexpr const char* kTraffic[] = {"framing", "states",  "inputs", "rest",  "gr
                                     "edits",   "joining", "clock",  "rules", "other"};
 static_assert(sizeof kTraffic / sizeof kTraffic[0] == kTrafficOther + 1, "a name for each kind");
 
-/// A number of a Load and what the page says of it. One of the two members is set.
+/// A field of a Load and its metric in the page. Exactly one of the two members is set.
 struct Metric {
   const char* name;
   const char* type;
   const char* help;
   std::int32_t Load::*small;
   std::int64_t Load::*large;
-  double unit;  // what 1 of the Load's number is in the page
+  double unit;  // factor from the Load's number to the page's
 };
 
 constexpr double kMicro = 1e-6;
@@ -77,16 +77,10 @@ std::string Head(const char* name, const char* type, const char* help) {
   return std::string("# HELP ") + name + ' ' + help + "\n# TYPE " + name + ' ' + type + '\n';
 }
 
-std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", value);
-  return text;
-}
-
-/// `name{room="r",more} value`. A room's name has nothing that would have to be escaped (IsName).
+/// Returns `name{room="r",more} value`. A room's name needs no escapes (IsName).
 std::string Sample(const char* name, const std::string& room, const std::string& more,
                    double value) {
-  return std::string(name) + "{room=\"" + room + "\"" + more + "} " + Number(value) + '\n';
+  return std::string(name) + "{room=\"" + room + "\"" + more + "} " + MetricNumber(value) + '\n';
 }
 
 double Value(const Metric& metric, const Load& load) {
@@ -104,11 +98,11 @@ void SetValue(const Metric& metric, double value, Load* load) {
   }
 }
 
-/// A line that is a sample, in pieces.
+/// A parsed sample line.
 struct Line {
   std::string name, labels;
   double value = 0;
-  /// The text of a label, "" if there is none.
+  /// Returns the value of a label, "" if there is none.
   std::string Label(const std::string& key) const {
     const std::size_t at = ("," + labels).find("," + key + "=\"");
     if (at == std::string::npos) return "";

@@ -1,6 +1,6 @@
 #pragma once
-/// A server's Loads as the text that Prometheus scrapes (exposition format 0.0.4), and back; with
-/// them histograms of all its ticks, which the page alone has.
+/// Writes and reads a server's Loads as the text that Prometheus scrapes (exposition format 0.0.4),
+/// with histograms of all ticks, which are only in this page.
 
 #include <cstdint>
 #include <string>
@@ -14,19 +14,18 @@ namespace seam {
 struct RoomLoad {
   std::string room;
   Load load;
-  /// Of all ticks since its beginning: wall time, and how long after it was due each began. Of
-  /// nothing where the Load was heard on the bus.
+  /// Wall time and lateness of all ticks since the start. Empty if the Load came from the bus.
   BucketHistogram tick{}, late{};
 };
 
-/// One metric after the other, each with a sample per room: docs/server.md names them.
+/// Returns the page: one metric after the other, each with a sample per room (docs/server.md).
 std::string WriteLoadPage(const std::vector<RoomLoad>& loads);
 
-/// Reads what WriteLoadPage wrote, in the order of the rooms; what it does not know is left out.
-/// Times come back to the microsecond. utime and sequence are 0.
+/// Reads the output of WriteLoadPage, in the order of the rooms; skips unknown metrics. Times are
+/// exact to the microsecond. utime and sequence are 0.
 std::vector<RoomLoad> ReadLoadPage(const std::string& text);
 
-/// "states", as the page and seam-top call a kind of traffic; kTrafficStates...
+/// Returns the name of a kind of traffic (kTrafficStates...) in the page and seam-top: "states".
 const char* TrafficName(int kind);
 
 }  // namespace seam

@@ -1,6 +1,6 @@
 #pragma once
-/// LCM event logs without lcm::LogFile, which crashes on damaged files: a writer whose bytes depend
-/// on its arguments alone, and a reader that reads a damaged log as far as it is good.
+/// LCM event logs without lcm::LogFile, which crashes on damaged files. The writer's bytes depend
+/// only on its arguments; the reader recovers the undamaged part of a log.
 ///
 ///   event: magic 0xEDA1DA01 u32 | number i64 | timestamp_us i64 | channel_bytes i32
 ///          | data_bytes i32 | channel | data   (big-endian; the format of LCM 1.3's eventlog.c)
@@ -15,16 +15,17 @@
 
 namespace seam {
 
-/// "EDA1DA01": where an event begins.
+/// The magic at the start of each event.
 constexpr std::uint32_t kLogMagic = 0xEDA1DA01u;
 constexpr std::size_t kLogHeaderBytes = 28;
-/// Largest message in a log, normal 60 kB; a header that says more is taken for damage.
+/// Largest message in a log, normal 60 kB; a header with more counts as damage.
 constexpr std::size_t kLogDataBytesMax = 1000000;
 
-/// Writes the format that lcm-logger writes and lcm-logplayer reads.
+/// Writes logs like those of lcm-logger; lcm-logplayer reads the result.
 class LogWriter : public Recorder {
  public:
-  /// What the constructor would throw, without touching the file: for a log that begins later.
+  /// Throws whatever the constructor would, but does not touch the file: for a log that begins
+  /// later.
   static void Check(const std::string& path, bool force);
   /// Throws OperatorError when the file cannot be created, exists and `force` is not given, or is
   /// no regular file.
@@ -36,10 +37,10 @@ class LogWriter : public Recorder {
   /// channel is empty or longer than kChannelBytesMax, or the message exceeds kLogDataBytesMax.
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
   std::int64_t failures() const override { return failures_; }
-  /// The first failure: "PATH: cannot be written: No space left on device". What is written comes
-  /// to the disk some kilobytes at a time, or at Flush: a failure shows then.
+  /// Returns the first failure: "PATH: cannot be written: No space left on device". Output is
+  /// buffered for some kilobytes or until Flush; a failure shows only then.
   const Status& trouble() const { return trouble_; }
-  /// Hands what is buffered to the operating system; a failure is counted.
+  /// Passes buffered bytes to the operating system; counts a failure.
   void Flush();
 
  private:
@@ -64,22 +65,21 @@ struct LogEvent {
   }
 };
 
-/// Reads event by event. After damage it searches for the next plausible header. An event whose
-/// own lengths are damaged may come out cut short or run together: decode what it carries.
+/// Reads event by event; after damage, searches for the next plausible header. An event with
+/// damaged lengths may come out truncated or merged with the next: validate the data by decoding.
 class LogReader {
  public:
   /// Throws OperatorError when the file cannot be opened, is no regular file, or has no event at
-  /// all ("not an LCM log").
-  /// Reads what the file holds now, not what is appended later.
+  /// all ("not an LCM log"). Reads the present contents only, not bytes appended later.
   explicit LogReader(const std::string& path);
   ~LogReader();
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;
-  /// False at the end. Never throws for what the file contains.
+  /// Reads the next event; false at the end. Never throws because of the file's contents.
   bool Next(LogEvent* event);
-  /// Bytes that belong to no event that Next returned.
+  /// Returns the number of bytes outside all events returned by Next.
   std::int64_t skipped_bytes() const { return skipped_bytes_; }
-  /// Stretches of such bytes.
+  /// Returns the number of stretches of such bytes.
   std::int64_t damaged_places() const { return damaged_places_; }
 
  private:
@@ -89,13 +89,13 @@ class LogReader {
   bool ReadHeader(std::int64_t at, bool magic_matters, Header* header);
   std::int64_t FindHeader(std::int64_t from, std::int64_t to);
   bool FollowedByEvent(std::int64_t end);
-  bool SwallowsAnother(std::int64_t at, const Header& header);
+  bool ContainsNextEvent(std::int64_t at, const Header& header);
 
   std::FILE* file_ = nullptr;
   Bytes window_;  ///< a stretch of the file, from window_at_
   std::int64_t window_at_ = 0;
-  std::uint8_t glance_[kChannelBytesMax] = {};
-  std::int64_t at_ = 0;  ///< where the next event should begin
+  std::uint8_t peeked_header_[kChannelBytesMax] = {};
+  std::int64_t at_ = 0;  ///< expected start of the next event
   std::int64_t size_bytes_ = 0;
   std::int64_t skipped_bytes_ = 0;
   std::int64_t damaged_places_ = 0;

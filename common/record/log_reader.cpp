@@ -12,7 +12,7 @@
 namespace seam {
 namespace {
 
-/// Read at least this much at once, bytes.
+/// Least bytes per read of the file.
 constexpr std::size_t kReadBytes = 256 * 1024;
 
 template <class T>
@@ -27,7 +27,7 @@ T GetBigEndian(const std::uint8_t* from) {
 struct LogReader::Header {
   std::int64_t number, timestamp_us;
   std::size_t channel_bytes, data_bytes;
-  std::int64_t end;  ///< where the event ends in the file
+  std::int64_t end;  ///< end of the event in the file
 };
 
 LogReader::LogReader(const std::string& path) {
@@ -43,16 +43,16 @@ LogReader::LogReader(const std::string& path) {
 
 LogReader::~LogReader() { std::fclose(file_); }
 
-/// The `bytes` bytes at `at`, valid until the next call; null when the file ends before or cannot
-/// be read. A glance at a header outside the window leaves the window where it is.
+/// Returns the `bytes` bytes at `at`, valid until the next call; null when the file ends before or
+/// cannot be read. Reading a header outside the window does not move the window.
 const std::uint8_t* LogReader::Peek(std::int64_t at, std::size_t bytes) {
   if (at < 0 || at > size_bytes_ || bytes > static_cast<std::size_t>(size_bytes_ - at)) return {};
   const std::int64_t inside = at - window_at_;
   if (inside >= 0 && static_cast<std::size_t>(inside) + bytes <= window_.size()) {
     return window_.data() + inside;
   }
-  if (bytes <= sizeof glance_) {
-    return ReadAt(at, glance_, bytes) == bytes ? glance_ : nullptr;
+  if (bytes <= sizeof peeked_header_) {
+    return ReadAt(at, peeked_header_, bytes) == bytes ? peeked_header_ : nullptr;
   }
   const auto left = static_cast<std::size_t>(size_bytes_ - at);
   window_.resize(std::min(left, std::max(bytes, kReadBytes)));
@@ -66,8 +66,8 @@ std::size_t LogReader::ReadAt(std::int64_t at, std::uint8_t* to, std::size_t byt
   return got > 0 ? static_cast<std::size_t>(got) : 0;
 }
 
-/// True when an event may begin at `at`: magic (if it matters), lengths in bounds, a printable
-/// channel, and all of it in the file.
+/// Returns true if an event may begin at `at`: magic (if it matters), lengths in bounds, a
+/// printable channel, and all of it within the file.
 bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) {
   const std::uint8_t* bytes = Peek(at, kLogHeaderBytes);
   if (bytes == nullptr) return false;
@@ -88,11 +88,11 @@ bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) 
                                            [](std::uint8_t c) { return c >= 0x20 && c < 0x7f; });
 }
 
-/// The first position in [from, to) where an event may begin; `to` when there is none.
+/// Returns the first position in [from, to) at which an event may begin; `to` if there is none.
 std::int64_t LogReader::FindHeader(std::int64_t from, std::int64_t to) {
   constexpr std::uint8_t kFirst = kLogMagic >> 24;
   while (from < to) {
-    // A stretch that is in the window anyway, or can be brought into it, but never beyond `to`.
+    // A stretch that is in the window or fits into it, and never goes beyond `to`.
     const auto left = static_cast<std::size_t>(to - from);
     const std::size_t stretch = std::min(left, kReadBytes / 2);
     const std::uint8_t* bytes = Peek(from, stretch);
@@ -107,8 +107,8 @@ std::int64_t LogReader::FindHeader(std::int64_t from, std::int64_t to) {
   return to;
 }
 
-/// True when what is at `end` bears out that an event ends there: the end of the file, a magic, or
-/// a header whose magic alone is damaged (its own event is followed by one).
+/// Returns true if the bytes at `end` confirm that an event ends there: the end of the file, a
+/// magic, or a header with only its magic damaged (its own event is followed by another).
 bool LogReader::FollowedByEvent(std::int64_t end) {
   const auto good_end = [this](std::int64_t at) {
     if (at == size_bytes_) return true;
@@ -119,11 +119,11 @@ bool LogReader::FollowedByEvent(std::int64_t end) {
   return good_end(end) || (ReadHeader(end, false, &next) && good_end(next.end));
 }
 
-/// True when the lengths in the header at `at` are wrong because another event begins inside them:
-/// any, if nothing follows where this one should end; the next by its number, if something does.
-/// (A message may well carry a piece of another log. When nothing follows and nothing begins
-/// inside, the damage lies behind this event.)
-bool LogReader::SwallowsAnother(std::int64_t at, const Header& header) {
+/// Returns true if the lengths in the header at `at` are wrong because another event begins within
+/// this one. If an event follows at this one's end, the inner one must have the next number (a
+/// message may contain a piece of another log); if none follows, any inner event will do. If there
+/// is neither, the damage lies after this event.
+bool LogReader::ContainsNextEvent(std::int64_t at, const Header& header) {
   const std::int64_t inner_at = FindHeader(at + 1, header.end);
   if (inner_at == header.end) return false;
   Header inner;
@@ -138,7 +138,7 @@ bool LogReader::Next(LogEvent* event) {
   for (;; ++at_) {
     at_ = FindHeader(at_, size_bytes_);
     if (at_ == size_bytes_ || !ReadHeader(at_, true, &header)) break;
-    if (!SwallowsAnother(at_, header)) break;
+    if (!ContainsNextEvent(at_, header)) break;
   }
   if (at_ != expected) {
     ++damaged_places_;
@@ -149,7 +149,7 @@ bool LogReader::Next(LogEvent* event) {
   event->timestamp_us = header.timestamp_us;
   const std::int64_t body = at_ + static_cast<std::int64_t>(kLogHeaderBytes);
   const std::uint8_t* bytes = Peek(body, header.channel_bytes + header.data_bytes);
-  if (bytes == nullptr) return false;  // the file shrank meanwhile
+  if (bytes == nullptr) return false;  // the file has shrunk meanwhile
   event->channel.assign(reinterpret_cast<const char*>(bytes), header.channel_bytes);
   event->data.assign(bytes + header.channel_bytes,
                      bytes + header.channel_bytes + header.data_bytes);

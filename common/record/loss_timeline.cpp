@@ -19,7 +19,7 @@ std::string RoomName(const std::string& channel) {
   return end == std::string::npos ? "" : channel.substr(5, end - 5);
 }
 
-/// The sequence number of a message that goes over the bus, and the tick of a view; -1: none.
+/// The sequence number of a message on the bus, and the tick of a view; -1: none.
 struct Numbered {
   std::int64_t sequence = -1, view_tick = -1;
 };
@@ -55,7 +55,7 @@ void FindBusLosses(const std::string& path, double tick_hz, std::vector<Loss>* l
     if (numbers.view_tick >= 0) now_s = static_cast<double>(numbers.view_tick) / tick_hz;
     Last& last = channels[event.channel];
     const std::int64_t missing = numbers.sequence - last.sequence - 1;
-    // A number far ahead or behind is of a publisher that started again.
+    // A number far ahead or behind comes from a publisher that was restarted.
     if (last.sequence >= 0 && missing > 0 && missing < 100000) {
       losses->push_back({Loss::Kind::kBus, event.channel, last.at_s, now_s, missing});
     }

@@ -1,6 +1,6 @@
 #pragma once
-/// When and where a recording lost something: messages that the logger missed, ticks without a
-/// view, datagrams that the network lost; by channel and moment.
+/// The losses of a recording by channel and time: messages missed by the logger, ticks without a
+/// view or input, datagrams lost in the network.
 
 #include <cstdint>
 #include <string>
@@ -13,33 +13,32 @@ namespace seam {
 
 struct Loss {
   enum class Kind {
-    kBus,      ///< messages of the channel that are not in the log, by their sequence numbers
-    kView,     ///< ticks of which the peer's view is not whole, or missing
-    kInput,    ///< ticks of which no input of the player was accepted
-    kNetwork,  ///< datagrams on the way to the peer, estimated: of the second, the share that its
-               ///< last 256 lacked
+    kBus,      ///< messages of the channel missing in the log, by their sequence numbers
+    kView,     ///< ticks with an incomplete or missing view of the peer
+    kInput,    ///< ticks without an accepted input of the player
+    kNetwork,  ///< datagrams to the peer, estimated per second from the loss among the last 256
   };
   Kind kind = Kind::kBus;
-  std::string channel;          ///< as in the log, "SEAM.room.view.1"; of a network "to peer 1"
-  double from_s = 0, to_s = 0;  ///< between which it was lost: moments of the session
+  std::string channel;          ///< as in the log, "SEAM.room.view.1"; for kNetwork "to peer 1"
+  double from_s = 0, to_s = 0;  ///< interval of the loss, session time
   std::int64_t lost = 0;        ///< messages, ticks or datagrams
 };
 
-/// All losses of a log, by moment. `recording` is the log, read: it gives views and counters.
-/// Throws OperatorError when the log cannot be opened.
+/// Returns all losses of a log, by time. `recording` must be read from that log; it supplies views,
+/// inputs and counters. Throws OperatorError when the log cannot be opened.
 std::vector<Loss> FindLosses(const std::string& path, const Recording& recording);
-/// Those of views and networks alone, where there is no log.
+/// Returns the losses except kBus, for a recording without a log.
 std::vector<Loss> FindLosses(const Recording& recording);
 
-/// Those that touch the range.
+/// Returns the losses that overlap the range.
 std::vector<Loss> Within(const std::vector<Loss>& losses, const TimeRange& range);
 
-/// "bus", "view", "input", "network".
+/// Returns "bus", "view", "input" or "network".
 const char* LossKind(Loss::Kind kind);
 
-/// A line for each, aligned, with a heading; "no losses" when there are none.
+/// Returns a heading and one aligned line per loss; "no losses" when there are none.
 std::string FormatLosses(const std::vector<Loss>& losses);
-/// kind,channel,from_s,to_s,lost.
+/// Returns the losses as CSV: kind,channel,from_s,to_s,lost.
 std::string LossesCsv(const std::vector<Loss>& losses);
 
 }  // namespace seam

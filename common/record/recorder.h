@@ -1,5 +1,5 @@
 #pragma once
-/// Where a peer's messages are published: the LCM bus, a log file, or memory.
+/// The interface to which a peer publishes its messages: the LCM bus, a log file, or memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,12 +18,12 @@ class Recorder {
   /// Publishes one encoded message. Never throws; failures are counted in failures().
   virtual void Publish(const std::string& channel, std::int64_t utime, ByteView message) = 0;
   virtual std::int64_t failures() const { return 0; }
-  /// False: whatever is published comes to nobody.
+  /// Returns false if published messages have no receiver and may be skipped.
   virtual bool listening() const { return true; }
 };
 
-/// "SEAM.<room>.<kind>" or "SEAM.<room>.<kind>.<peer>" when peer >= 0. kind is lower case: scene,
-/// inputs, states, grants, edit, meta, view, impacts, stats, event; docs/recordings.md lists them.
+/// Returns "SEAM.<room>.<kind>", or "SEAM.<room>.<kind>.<peer>" if peer >= 0. Kinds are lower case:
+/// scene, inputs, states, grants, edit, meta, view, impacts, stats, event ... (docs/recordings.md).
 /// Throws OperatorError when `room` is not a name (1..32 characters of [A-Za-z0-9_-]).
 std::string ChannelName(const std::string& room, const std::string& kind, int peer = -1);
 

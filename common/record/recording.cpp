@@ -12,15 +12,15 @@
 namespace seam {
 namespace {
 
-/// Channels whose sequence numbers are followed; a session has about 4 a peer.
+/// Most channels with tracked sequence numbers; a session has about 4 per peer.
 constexpr std::size_t kChannelsMax = 16384;
-/// Views that wait for further parts; normal 1 a peer. Beyond it the oldest tick is given up.
+/// Most views waiting for further parts, normal 1 per peer; beyond it the oldest tick is dropped.
 constexpr std::size_t kPartialMax = 256;
-/// No session pauses for so many ticks: views farther apart than this do not belong together.
-/// A damaged tick would otherwise make a session of thousands of years.
+/// Longest pause of a session, ticks: views farther apart do not belong together. Without this
+/// limit, one damaged tick number would make a session of thousands of years.
 constexpr std::int64_t kTickPauseMax = 100000;
 
-/// The room in "SEAM.<room>.<kind>..."; "" when the channel is not one of ours.
+/// Returns the room in "SEAM.<room>.<kind>..."; "" if the channel is not one of ours.
 std::string RoomOf(const std::string& channel) {
   if (channel.compare(0, 5, "SEAM.") != 0) return "";
   const std::size_t end = channel.find('.', 5);
@@ -68,11 +68,11 @@ bool RecordingBuilder::Add(const std::string& channel, ByteView message, std::in
         using M = std::decay_t<decltype(m)>;
         if constexpr (std::is_same_v<M, std::monostate>) {
           ++recording_.undecodable;
-          const std::int32_t protocol = ForeignProtocol(message);
+          const std::int32_t protocol = OldRoomProtocol(message);
           if (protocol != 0) recording_.foreign_protocol = protocol;
           return false;
         } else if constexpr (MessageTraits<M>::kTravels == Travels::kEdge) {
-          ++recording_.foreign;  // of the edge: it has no business on the bus
+          ++recording_.foreign;  // a message of the edge does not belong on the bus
           return false;
         } else {
           if (wanted_room_.empty()) wanted_room_ = room;
@@ -96,7 +96,7 @@ bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int64_t sequ
   const std::uint64_t hash_before = hash;
   hash = Fnv1a(message.data, message.size);
   const std::int64_t ahead = sequence - heard.highest;
-  if (heard.highest < 0 || ahead <= -64) {  // the first, or a publisher that started again
+  if (heard.highest < 0 || ahead <= -64) {  // the first, or a publisher that was restarted
     heard.first = heard.highest = sequence;
     heard.mask = 1;
     return false;
@@ -109,18 +109,18 @@ bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int64_t sequ
   }
   const std::uint64_t bit = std::uint64_t{1} << -ahead;
   if ((heard.mask & bit) != 0) {
-    if (hash != hash_before) return false;  // another message of that number: started again
+    if (hash != hash_before) return false;  // another message of that number: a restart
     ++recording_.duplicates;
     return true;
   }
-  heard.mask |= bit;  // late: it was counted as missing, unless it came before the first
+  heard.mask |= bit;  // late: counted as missing before, unless it precedes the first
   CountGaps(channel, sequence > heard.first ? -1 : heard.first - sequence - 1);
   heard.first = std::min<std::int64_t>(heard.first, sequence);
   return false;
 }
 
 bool RecordingBuilder::Keep(Room& room) {
-  if (room.protocol < kOldestRecorded || room.protocol > kProtocolVersion) {
+  if (room.protocol < kOldestReadableProtocol || room.protocol > kProtocolVersion) {
     recording_.foreign_protocol = room.protocol;
     ++recording_.foreign;
     return false;
@@ -219,7 +219,7 @@ bool RecordingBuilder::Keep(View& part) {
 bool RecordingBuilder::KeepWhole(View& view) {
   const auto not_below = [](std::int32_t a, std::int32_t b) { return a >= b; };
   if (std::adjacent_find(view.id.begin(), view.id.end(), not_below) != view.id.end()) {
-    ++recording_.undecodable;  // parts that do not fit together
+    ++recording_.undecodable;  // the parts do not fit together
     return false;
   }
   const bool first = recording_.last_tick < 0;
@@ -284,8 +284,9 @@ Recording ReadRecording(const std::string& path, const std::string& room) {
     const std::int32_t other = builder.recording().foreign_protocol;
     if (other != 0) {
       throw OperatorError(path + ": recorded with protocol " + std::to_string(other) +
-                          "; this program reads protocol " + std::to_string(kOldestRecorded) +
-                          " to " + std::to_string(kProtocolVersion));
+                          "; this program reads protocol " +
+                          std::to_string(kOldestReadableProtocol) + " to " +
+                          std::to_string(kProtocolVersion));
     }
     const std::string which = room.empty() ? "no Seam2D room" : "no room \"" + room + "\"";
     throw OperatorError(path + ": " + which + " in this log (record channels SEAM.*)");

@@ -5,7 +5,7 @@
 namespace seam {
 namespace {
 
-/// Bus messages taken per Poll, so that a flood cannot hold up the simulation.
+/// Calls of Bus::Poll per Poll, so that a flood cannot hold up the simulation.
 constexpr int kPollsMax = 64;
 
 }  // namespace
@@ -28,7 +28,7 @@ void Sink::OpenLog() {
   try {
     log_ = std::make_unique<LogWriter>(record_path_, force_);
   } catch (const OperatorError& error) {
-    // Somebody was quicker, or the place takes no files: it seemed possible when we looked.
+    // Possible despite the check at the start: the file or folder may have changed since.
     not_opened_ = Status::Error(error.what());
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What `--lcm-url` and `--record` mean: a peer's recorder made of a bus, a log file, both or none.
+/// The recorder configured by `--lcm-url` and `--record`: a bus, a log file, both or none.
 
 #include <map>
 #include <memory>
@@ -11,24 +11,24 @@
 namespace seam {
 
 /// Publishes to the bus (unless `lcm_url` is "none") and writes `record_path` (unless empty). With
-/// both, the log also holds what other peers of the room publish on the bus, so that it is the log
-/// that lcm-logger would have written. It begins with the first message that is published here: a
-/// program that never gets so far leaves no file, and a file that may be overwritten as it was. A
-/// file that cannot be made then is given up: a log without its beginning has no scene.
+/// both, the log also contains the messages of the room's other peers, as lcm-logger would have
+/// written it. The log begins with the first message published here: a program that ends before
+/// creates no file and overwrites none. If the file cannot be created then, recording is given up,
+/// because a log without its beginning has no scene.
 class Sink : public Recorder {
  public:
-  /// Throws OperatorError from Bus, or for a file that cannot be written.
+  /// Throws OperatorError from Bus, or if the file cannot be written.
   Sink(const std::string& lcm_url, const std::string& record_path, bool force,
        const std::string& room);
 
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
   std::int64_t failures() const override;
   bool listening() const override { return bus_ != nullptr || !record_path_.empty(); }
-  /// The first failure to write the log; ok without one, and without a log.
+  /// Returns the first failure to write the log; ok if there is none, or no log.
   const Status& trouble() const;
-  /// Takes what other peers have published into the log. Call often; never blocks.
+  /// Copies messages published by other peers into the log. Call it often; never blocks.
   void Poll();
-  /// Hands the log to the operating system, so that failures() knows of a full disk.
+  /// Passes the log to the operating system, so that failures() includes a full disk.
   void Flush();
 
  private:
@@ -39,7 +39,7 @@ class Sink : public Recorder {
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<LogWriter> log_;  ///< null until it begins
   Status not_opened_;
-  std::int64_t lost_ = 0;  ///< messages for a log that could not be made
+  std::int64_t lost_ = 0;  ///< messages lost because the log could not be created
   std::map<std::string, bool> own_channels_;
 };
 

@@ -8,20 +8,20 @@
 namespace seam {
 namespace {
 
-/// Ticks at the ends are not lost to rounding, s.
+/// Tolerance against losing ticks at the ends to rounding, s.
 constexpr double kSlack = 1e-6;
 
 double Seconds(std::int64_t tick, int tick_hz) {
   return static_cast<double>(tick) / std::max(1, tick_hz);
 }
 
-std::string Number(double value) {
+std::string Digits4(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
 }
 
-/// Erases the ticks outside from maps by peer and tick, and peers of whom nothing is left.
+/// Erases the ticks outside the range from maps by peer and tick, and then peers without ticks.
 template <class Map, class Keep>
 void KeepTicks(Map* by_peer, const Keep& keep) {
   for (auto peer = by_peer->begin(); peer != by_peer->end();) {
@@ -54,7 +54,7 @@ void RequireRange(const TimeRange& range, const Recording& recording, const std:
   const double last_s = Seconds(recording.last_tick, recording.room.tick_hz);
   if (range.from_s > last_s + kSlack || range.to_s < first_s - kSlack) {
     throw OperatorError(path + ": --from and --to leave nothing: it has views of " +
-                        Number(first_s) + " to " + Number(last_s) + " s");
+                        Digits4(first_s) + " to " + Digits4(last_s) + " s");
   }
 }
 

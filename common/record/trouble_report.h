@@ -1,5 +1,6 @@
 #pragma once
-/// A recording that fails while a program goes on: said at once, again at the end, exit status 1.
+/// Reports a recording that fails while the program goes on: at once, and again at the end with
+/// exit status 1.
 
 #include <string>
 
@@ -9,13 +10,13 @@
 
 namespace seam {
 
-/// For one recording; `trouble` is its Sink's.
+/// Reports for one recording; pass its Sink's `trouble`.
 class TroubleReport {
  public:
-  /// `program`: begins each line. `goes_on`: what happens in spite of it, "the room runs on".
+  /// `program` begins each line; `goes_on` describes the consequence, "the room runs on".
   TroubleReport(const char* program, const char* goes_on) : program_(program), goes_on_(goes_on) {}
 
-  /// Says the first trouble on stderr, in a line of its own, when it is first seen. Call often.
+  /// Prints the first trouble to stderr once, in a line of its own. Call it often.
   void Look(const Status& trouble, ProgressLine& line) {
     if (trouble.ok() || said_) return;
     said_ = true;
@@ -23,7 +24,7 @@ class TroubleReport {
     PrintError(program_, trouble.why() + "; " + goes_on_);
   }
 
-  /// At the end: says it again, if there is one, and returns the program's exit status, 0 or 1.
+  /// Prints the trouble again at the end, if any, and returns the exit status, 0 or 1.
   int End(const Status& trouble) const {
     if (trouble.ok()) return 0;
     PrintError(program_, trouble.why() + "; the recording is not complete");

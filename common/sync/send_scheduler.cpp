@@ -110,7 +110,7 @@ std::vector<int> SendScheduler::ChooseBodies() {
   std::stable_sort(due.begin(), due.end(), [&](int a, int b) {
     return memory_.track(a).priority > memory_.track(b).priority;
   });
-  // The server selects again for each receiver, within its budget (Outbox).
+  // The server selects again for each receiver, within its budget (SendQueue).
   if (roles_.self() > 0 && due.size() > kBodiesPerSend) due.resize(kBodiesPerSend);
   std::sort(due.begin(), due.end());
   return due;

@@ -26,10 +26,10 @@ constexpr StyleFile kStyles[kTextStyles] = {{"DejaVuSans.ttf", 11},
 std::size_t Index(TextStyle style) { return static_cast<std::size_t>(style); }
 
 /// FreeType's handles, freed in any case.
-struct Faces {
+struct FontFaces {
   FT_Library library = nullptr;
   FT_Face face = nullptr;
-  ~Faces() {
+  ~FontFaces() {
     if (face != nullptr) FT_Done_Face(face);
     if (library != nullptr) FT_Done_FreeType(library);
   }
@@ -51,7 +51,7 @@ Font::Font(float scale, const std::string& extra, const std::string& folder)
   atlas_width_ = scale_ > 2.5f ? 4096 : 1024;
   const std::set<std::uint32_t> wanted = Wanted(extra);
   for (int s = 0; s < kTextStyles; ++s) {
-    Faces ft;
+    FontFaces ft;
     const std::string path = folder + "/" + kStyles[s].file;
     if (FT_Init_FreeType(&ft.library) != 0) throw OperatorError("FreeType does not start");
     if (FT_New_Face(ft.library, path.c_str(), 0, &ft.face) != 0)

@@ -95,7 +95,7 @@ Rect OnPanel(const Viewport& viewport, const Water& water) {
   return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
 }
 
-bool Seen(const Rect& rect) { return rect.width > 0 && rect.height > 0; }
+bool HasArea(const Rect& rect) { return rect.width > 0 && rect.height > 0; }
 
 /// Pale arrows along the flow, fixed to the world, longer where it is faster.
 void DrawFlow(DrawList& list, const Viewport& viewport, const Water& water, const Rect& area) {
@@ -162,9 +162,9 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
   for (const Region& region : regions) {
     const Rect inner{region.inner.x + scale, region.inner.y + scale, region.inner.width - 2 * scale,
                      region.inner.height - 2 * scale};
-    if (Seen(Shared(inner, near)))
+    if (HasArea(Shared(inner, near)))
       list.StrokeRect(Shared(inner, near), {1.5f * scale, Faded(region.colour, 0.85f), 0});
-    if (region.outer.width > region.inner.width && Seen(Shared(region.outer, near))) {
+    if (region.outer.width > region.inner.width && HasArea(Shared(region.outer, near))) {
       list.StrokeRect(Shared(region.outer, near),
                       {1.2f * scale, Faded(region.colour, 0.9f), 8 * scale});
     }
@@ -222,7 +222,7 @@ void DrawScaleBar(DrawList& list, const Viewport& viewport) {
 void DrawWaters(DrawList& list, const Viewport& viewport, const Playback& playback) {
   for (const Water& water : playback.scene().waters) {
     const Rect area = OnPanel(viewport, water);
-    if (!Seen(area)) continue;
+    if (!HasArea(area)) continue;
     list.FillRect(area, Faded(kWater, kTint));
     DrawFlow(list, viewport, water, area);
   }
@@ -231,7 +231,7 @@ void DrawWaters(DrawList& list, const Viewport& viewport, const Playback& playba
 void DrawSurfaces(DrawList& list, const Viewport& viewport, const Playback& playback) {
   for (const Water& water : playback.scene().waters) {
     const Rect area = OnPanel(viewport, water);
-    if (!Seen(area)) continue;
+    if (!HasArea(area)) continue;
     list.FillRect(area, Faded(kWater, kVeil));
     const float level = viewport.ToPx(water.max).y();
     if (level < viewport.panel.y) continue;

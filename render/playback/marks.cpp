@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kShownMin = 1.0f;        ///< m/s; weaker ones would clutter a stack
 constexpr float kGroundShownMin = 3.0f;  ///< m/s, against what never moves
-constexpr double kSame_s = 0.35;         ///< pushes of a pair within this are one meeting
+constexpr double kSameMeeting_s = 0.35;         ///< pushes of a pair within this are one meeting
 constexpr float kNear_m = 3.0f;          ///< of several this near each other one is marked
 constexpr std::size_t kMarksMax = 5;     ///< at a time
 constexpr float kStronger = 1.5f;        ///< unless one is this much stronger than the last
@@ -39,7 +39,7 @@ std::vector<Mark> Thinned(std::vector<Mark> marks, double same_ticks) {
 }  // namespace
 
 std::vector<Mark> MarksBefore(const Recording& recording, int peer, double tick, double span) {
-  const double same = kSame_s * recording.room.tick_hz;
+  const double same = kSameMeeting_s * recording.room.tick_hz;
   std::vector<Push> pushes;
   for (const Impacts& impacts : recording.impacts) {
     const auto at = static_cast<double>(impacts.tick);

@@ -10,11 +10,11 @@ namespace {
 
 constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
 constexpr float kStrongImpact = 3.0f;  ///< m/s
-constexpr double kSame_s = 0.05;       ///< impacts within this belong to one contact
+constexpr double kSameContact_s = 0.05;       ///< impacts within this belong to one contact
 
 /// Those that an impact of that moment names, with what the scene watches.
 std::set<PartId> BodiesOf(const Playback& playback, double s, std::set<PartId> bodies) {
-  const double tick = s * playback.tick_hz(), same = kSame_s * playback.tick_hz();
+  const double tick = s * playback.tick_hz(), same = kSameContact_s * playback.tick_hz();
   for (const Impacts& impacts : playback.recording().impacts) {
     if (std::abs(static_cast<double>(impacts.tick) - tick) > same) continue;
     for (std::size_t i = 0; i < impacts.dv.size(); ++i) {

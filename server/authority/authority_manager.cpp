@@ -165,7 +165,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
     return true;
   }
   if (authority == record.authority && secondaries == record.secondaries) {
-    // In large rooms only the holder heard of the question (GrantNews).
+    // In large rooms only the holder heard of the question (GrantAudience).
     const bool others_know = replica_.world().body_count() <= scene_.follow_bodies;
     if (released && !others_know) changed_.push_back(m);
     return kept;

@@ -33,7 +33,7 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
 void HostedRoom::Run(std::int64_t now_us) {
   ran_us_ = now_us;
   if (done()) {
-    LetThrough(now_us);
+    DrainNetwork(now_us);
     return;
   }
   const std::int64_t tick = server_.tick(), due_us = server_.next_tick_us();
@@ -129,7 +129,7 @@ void HostedRoom::Close(std::int64_t now_us) {
   sink_.Flush();
 }
 
-bool HostedRoom::LetThrough(std::int64_t now_us) {
+bool HostedRoom::DrainNetwork(std::int64_t now_us) {
   impaired_.Advance(now_us);
   impaired_.Flush();
   return impaired_.sending();

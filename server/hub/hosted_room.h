@@ -59,7 +59,7 @@ class HostedRoom : public Runnable {
   /// Says goodbye to the clients, unless done, and closes the recording.
   void Close(std::int64_t now_us);
   /// Advances the simulated network; false if nothing is in flight any more.
-  bool LetThrough(std::int64_t now_us);
+  bool DrainNetwork(std::int64_t now_us);
   const Server& server() const { return server_; }
   const Scene& scene() const { return plan_.scene; }
   const ServerConfig& config() const { return plan_.config; }

@@ -97,10 +97,10 @@ bool Hub::done() const {
 void Hub::Close() {
   lanes_.reset();
   for (const auto& room : rooms_) room->Close(SteadyClockUs());
-  const std::int64_t deadline_us = SteadyClockUs() + kFarewellUsMax;
+  const std::int64_t deadline_us = SteadyClockUs() + kDrainUsMax;
   for (bool under_way = true; under_way && SteadyClockUs() < deadline_us;) {
     under_way = false;
-    for (const auto& room : rooms_) under_way = room->LetThrough(SteadyClockUs()) || under_way;
+    for (const auto& room : rooms_) under_way = room->DrainNetwork(SteadyClockUs()) || under_way;
     if (under_way) udp_.Wait(1000);
   }
 }

@@ -15,21 +15,22 @@ std::uint64_t Key(std::int32_t x, std::int32_t y) {
          static_cast<std::uint32_t>(y);
 }
 
-/// Orders as Key does.
+/// Sorts in the same order as Key.
 std::uint32_t ShortKey(std::int32_t x, std::int32_t y) {
   return static_cast<std::uint32_t>(x) << 16 | static_cast<std::uint16_t>(y);
 }
 
-/// Of the same cell.
+/// Returns the Key of the same cell.
 std::uint64_t KeyOf(std::uint32_t short_key) {
   return Key(static_cast<std::int16_t>(short_key >> 16), static_cast<std::int16_t>(short_key));
 }
 
-/// Cells share slots: who asks whether a cell is wanted may be told so of another's sake.
+/// Hash slots: several cells share one, so a cell may count as wanted because of another.
 constexpr std::size_t kSlots = 1 << 15;
 std::size_t Slot(std::uint32_t short_key) { return (short_key * 0x9e3779b1u) >> 17; }
 
-/// What lies beyond the border, hundreds of km away, is in the border's cells.
+/// Returns the cell of a coordinate. Positions beyond the 16-bit range, hundreds of km away, are
+/// clamped to its outermost cells.
 std::int32_t CellOf(float coordinate, float side) {
   constexpr float kLow = -32768, kHigh = 32767;  // of 16 bits
   return static_cast<std::int32_t>(std::clamp(std::floor(coordinate / side), kLow, kHigh));
@@ -43,7 +44,7 @@ Interest::Interest(const Scene& scene, const SyncConfig& config, const Replica& 
 }
 
 void Interest::Remap() {
-  concern_.clear();
+  relevance_.clear();
   const World& world = replica_.world();
   by_mechanism_.clear();
   for (int body = 0; body < world.body_count(); ++body) {
@@ -59,10 +60,10 @@ void Interest::Remap() {
 }
 
 void Interest::Want(const Receiver& receiver, float side, Cells* cells) {
-  FindThings(receiver);
+  FindReceiverBodies(receiver);
   std::uint64_t last = 0;
   bool any = false;
-  for (const int body : things_) {
+  for (const int body : receiver_bodies_) {
     const Vec2 at = replica_.world().Read(body).position;
     const std::int32_t x = CellOf(at.x(), side), y = CellOf(at.y(), side);
     if (any && last == Key(x, y)) continue;
@@ -90,7 +91,7 @@ void Interest::FindMoved() {
 void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cells* cells) {
   const World& world = replica_.world();
   const std::size_t count = by_mechanism_.size();
-  // Nobody asks for other cells: what is there, mostly asleep, need not be put in order.
+  // Only wanted cells are sorted: the rest of the room is mostly asleep.
   cells->wanted.assign(kSlots, 0);
   for (const Receiver& receiver : receivers) {
     if (receiver.player >= 0) Want(receiver, side, cells);
@@ -102,7 +103,7 @@ void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cel
         ShortKey(CellOf(at.x(), side), CellOf(at.y(), side));
   }
   order_.clear();
-  // By x, then y, then mechanism: what is alike stays in its order.
+  // Ordered by x, then y, then mechanism: the sort is stable.
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t key = cells->places[i];
     if (cells->wanted[Slot(key)] != 0) order_.push_back(SortKey{key} << 32 | i);
@@ -126,44 +127,44 @@ void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cel
   cells->begin.push_back(static_cast<int>(cells->mechanisms.size()));
 }
 
-void Interest::FindThings(const Receiver& receiver) {
-  things_ = held_[static_cast<std::size_t>(receiver.peer)];
+void Interest::FindReceiverBodies(const Receiver& receiver) {
+  receiver_bodies_ = held_[static_cast<std::size_t>(receiver.peer)];
   if (receiver.player < 0) return;
   const World& world = replica_.world();
   for (const int m : replica_.drivers().MechanismsOf(receiver.player)) {
     EachIdOf(world.composition(), m, [&](PartId id) {
       const int body = world.BodyOfId(id);
-      if (body >= 0) things_.push_back(body);
+      if (body >= 0) receiver_bodies_.push_back(body);
     });
   }
 }
 
-void Interest::Note(const Receiver& receiver, const int* begin, const int* end, Concern to) {
+void Interest::Note(const Receiver& receiver, const int* begin, const int* end, Relevance to) {
   const auto peer = static_cast<std::size_t>(receiver.peer);
-  Concern* const row = &concern_[peer * stride_];
+  Relevance* const row = &relevance_[peer * stride_];
   std::vector<int>& noted = noted_[peer];
   for (; begin != end; ++begin) {
-    Concern& now = row[*begin];
+    Relevance& now = row[*begin];
     if (now >= to) continue;
-    if (now == Concern::kNone) {
+    if (now == Relevance::kNone) {
       noted.push_back(*begin);
       hearing_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
     }
-    if (now < Concern::kNear && to >= Concern::kNear) {
-      hearing_near_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
+    if (now < Relevance::kNear && to >= Relevance::kNear) {
+      receivers_near_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
     }
     now = to;
   }
 }
 
-void Interest::NoteAll(const Receiver& receiver, Concern to) {
+void Interest::NoteAll(const Receiver& receiver, Relevance to) {
   for (int m = 0; m < static_cast<int>(stride_); ++m) Note(receiver, &m, &m + 1, to);
 }
 
-void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Concern to) {
+void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Relevance to) {
   centres_.clear();
   around_.clear();
-  for (const int body : things_) {
+  for (const int body : receiver_bodies_) {
     const Vec2 at = replica_.world().Read(body).position;
     const std::int32_t x = CellOf(at.x(), side), y = CellOf(at.y(), side);
     if (std::find(centres_.rbegin(), centres_.rend(), Key(x, y)) != centres_.rend()) continue;
@@ -181,19 +182,19 @@ void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, C
   }
 }
 
-/// Makes room for a Look; only what was noted is wiped.
+/// Prepares the tables for a Look; clears only entries that were set.
 void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
-  before_.swap(concern_);
+  before_.swap(relevance_);
   noted_before_.swap(noted_);
   looked_before_.swap(looked_);
   noted_.resize(peers);
-  if (stride_ == mechanisms && concern_.size() == mechanisms * peers) {
+  if (stride_ == mechanisms && relevance_.size() == mechanisms * peers) {
     for (std::size_t p = 0; p < peers; ++p) {
-      Concern* row = &concern_[p * mechanisms];
-      for (const int m : noted_[p]) row[m] = Concern::kNone;
+      Relevance* row = &relevance_[p * mechanisms];
+      for (const int m : noted_[p]) row[m] = Relevance::kNone;
     }
   } else {
-    concern_.assign(mechanisms * peers, Concern::kNone);
+    relevance_.assign(mechanisms * peers, Relevance::kNone);
   }
   if (stride_ != mechanisms) before_.clear();
   stride_ = mechanisms;
@@ -203,8 +204,8 @@ void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
   for (std::vector<int>& held : held_) held.clear();
   hearing_.resize(mechanisms);
   for (std::vector<int>& hearing : hearing_) hearing.clear();
-  hearing_near_.resize(mechanisms);
-  for (std::vector<int>& hearing : hearing_near_) hearing.clear();
+  receivers_near_.resize(mechanisms);
+  for (std::vector<int>& hearing : receivers_near_) hearing.clear();
 }
 
 void Interest::FindRisen(const Receiver& receiver, std::vector<Risen>* risen) const {
@@ -213,7 +214,7 @@ void Interest::FindRisen(const Receiver& receiver, std::vector<Risen>* risen) co
   const bool known = peer < looked_before_.size() && looked_before_[peer] != 0;
   for (const int m : noted_[peer]) {
     const std::size_t at = row + static_cast<std::size_t>(m);
-    if (!known || concern_[at] > before_[at]) risen->push_back({receiver.peer, m});
+    if (!known || relevance_[at] > before_[at]) risen->push_back({receiver.peer, m});
   }
 }
 
@@ -239,14 +240,14 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
   for (const Receiver& receiver : receivers) {
     looked_[static_cast<std::size_t>(receiver.peer)] = 1;
     if (receiver.player < 0) {
-      NoteAll(receiver, Concern::kNear);
+      NoteAll(receiver, Relevance::kNear);
     } else {
-      FindThings(receiver);
-      // Who has nothing at all may look anywhere.
-      if (things_.empty()) NoteAll(receiver, Concern::kFar);
-      Raise(receiver, far_, hear, Concern::kFar);
-      Raise(receiver, near_, kNearReach, Concern::kNear);
-      if (central) Raise(receiver, close_, kCloseReach, Concern::kClose);
+      FindReceiverBodies(receiver);
+      // A client without any body may look anywhere.
+      if (receiver_bodies_.empty()) NoteAll(receiver, Relevance::kFar);
+      Raise(receiver, far_, hear, Relevance::kFar);
+      Raise(receiver, near_, kNearReach, Relevance::kNear);
+      if (central) Raise(receiver, close_, kCloseReach, Relevance::kClose);
     }
     FindRisen(receiver, &risen);
   }

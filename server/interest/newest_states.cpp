@@ -11,12 +11,12 @@
 namespace seam {
 namespace {
 
-/// Nobody sees at which angle a wheel is that spins faster than this, rad/s.
+/// The angle of a wheel that spins faster than this is not visible, rad/s.
 constexpr float kSpinSeen = 6;
 constexpr int kQuantaPerMetre = 512;
 
-HeardState Entry(const States& states, std::size_t i) {
-  HeardState heard;
+ReceivedState Entry(const States& states, std::size_t i) {
+  ReceivedState heard;
   heard.peer = states.peer;
   heard.tick = states.tick;
   heard.revision = states.revision;
@@ -32,7 +32,7 @@ HeardState Entry(const States& states, std::size_t i) {
   return heard;
 }
 
-/// How far the farthest point of a body is from its origin now, at most, m.
+/// Returns an upper bound of the distance from a body's origin to its farthest point, m.
 float ReachOf(const World& world, int body) {
   const MovingBox box = BoxOf(world, body);
   const Vec2 at = world.Read(body).position;
@@ -41,22 +41,22 @@ float ReachOf(const World& world, int body) {
 
 }  // namespace
 
-bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRule& rule,
+bool NewestStates::IsNews(const Body& body, const ReceivedState& told, const ReckoningRule& rule,
                           double repeat_s) const {
-  const HeardState& now = body.heard;
+  const ReceivedState& now = body.heard;
   if (told.tick < 0 || told.epoch != now.epoch) return true;
   if (((told.flags ^ now.flags) & kStateAsleep) != 0) return true;
   const float seconds = static_cast<float>(now.tick - told.tick) / static_cast<float>(tick_hz_);
   constexpr float kQuantum = kPositionQuantum, kSpeed = kVelocityQuantum;
   const float speed = kSpeed * static_cast<float>(std::abs(told.vx) + std::abs(told.vy)) +
                       kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
-  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : repeat_s)) return true;
+  if (seconds >= (speed < kSlow ? kStateRepeatSlowS : repeat_s)) return true;
   if (seconds < rule.least) return false;
   const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
   Vec2 way(x, y);
   if ((told.flags & kStateFalls) != 0) {
-    // As the engine does it, whose steps end with the speed that they have gained (Flight).
+    // As the engine integrates: a substep moves by the velocity at its end (Flight).
     const Solver& solver = world_.scene().solver;
     const float step = world_.dt() / static_cast<float>(solver.substeps);
     way -= (seconds * (seconds + step) / 2) * world_.scene().gravity;
@@ -86,9 +86,9 @@ const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, 
     body.heard = Entry(states, i);
     if (body.reach < 0) body.reach = ReachOf(world_, told.body);
     News& news = together_[static_cast<std::size_t>(told.mechanism)];
-    if (IsNews(body, body.far, kFarNews, repeat_s)) {
+    if (IsNews(body, body.far, kFarReckoning, repeat_s)) {
       news = News::kAll;
-    } else if (news == News::kNobody && IsNews(body, body.near, kNearNews, repeat_s)) {
+    } else if (news == News::kNobody && IsNews(body, body.near, kNearReckoning, repeat_s)) {
       news = News::kNear;
     }
   }

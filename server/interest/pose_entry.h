@@ -1,11 +1,11 @@
 #pragma once
-/// An entry of the messages that list bodies by id, epoch and pose (Rest, ExactStates).
+/// Copies an entry between messages that list bodies by id, epoch and pose (Rest, ExactStates).
 
 #include <cstddef>
 
 namespace seam {
 
-/// Who the i-th body of a message is and where, added to `to`.
+/// Appends id, epoch and pose of the i-th body of `from` to `to`.
 template <class Message>
 void AddPose(const Message& from, std::size_t i, Message* to) {
   to->id.push_back(from.id[i]);

@@ -19,7 +19,7 @@ constexpr float kSlack = 1.0f;
 constexpr float kNear = 0.5f;
 
 /// Returns the distance from the body's root to its farthest point, m.
-float Reach(const World& world, int body) {
+float ExtentOf(const World& world, int body) {
   const Composition& c = world.composition();
   const std::vector<Part>& parts = world.scene().parts;
   const Part& root = parts[static_cast<std::size_t>(world.id(body))];
@@ -93,13 +93,13 @@ bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std
   const std::int64_t from = tick - kTicksBefore, to = tick - 1;
   const Trail struck = trail.Between(blow.body, from, to);
   if (struck.empty()) return false;
-  const float reach = Reach(world, blow.body);
+  const float reach = ExtentOf(world, blow.body);
   if (!IsNear(struck, blow.point, tick, reach, world.dt())) return false;
   Trail striker;
   float reach_by = 0, restitution = LargestRestitution(world, blow.body);
   if (blow.by >= 0) {
     striker = trail.Between(blow.by, from, to);
-    reach_by = Reach(world, blow.by);
+    reach_by = ExtentOf(world, blow.by);
     if (striker.empty() || !IsNear(striker, blow.point, tick, reach_by, world.dt())) return false;
     restitution = std::max(restitution, LargestRestitution(world, blow.by));
   } else {

@@ -13,7 +13,7 @@ constexpr int kLookEvery = 200;
 constexpr std::size_t kStringHeader = 64;
 /// Bytes per unit of work: of allocated memory, and of memory scanned by the full collection that
 /// follows each refused allocation.
-constexpr std::size_t kBytesPerUnit = 64;
+constexpr std::size_t kMemoryBytesPerUnit = 64;
 /// Units of work for a caught error: Lua makes its message, and walks all active calls to shrink
 /// the stack.
 constexpr std::int64_t kErrorUnits = 200;
@@ -49,10 +49,10 @@ void* LuaAllocate(void* user, void* block, std::size_t old_bytes, std::size_t ne
     return nullptr;
   }
   if (new_bytes > had && guard.charging) {
-    guard.work -= static_cast<std::int64_t>(new_bytes / kBytesPerUnit);
+    guard.work -= static_cast<std::int64_t>(new_bytes / kMemoryBytesPerUnit);
     const bool is_string = block == nullptr && old_bytes == LUA_TSTRING;
     if (TooMuch(guard, is_string, new_bytes - had, new_bytes)) {
-      guard.work -= guard.memory / static_cast<std::int64_t>(kBytesPerUnit);
+      guard.work -= guard.memory / static_cast<std::int64_t>(kMemoryBytesPerUnit);
       return nullptr;
     }
   }
@@ -119,6 +119,12 @@ void LuaDescribeLimit(LuaGuard* guard) {
                 static_cast<long long>(guard->limits.memory_bytes / 1024),
                 static_cast<long long>(BlockMax(guard->limits) / 1024),
                 static_cast<int>(kScriptStringMax));
+}
+
+void LuaWrap(lua_State* L, int all, const char* name, lua_CFunction function) {
+  lua_getfield(L, all, name);
+  lua_pushcclosure(L, function, 1);
+  lua_setfield(L, -2, name);
 }
 
 }  // namespace seam

@@ -41,6 +41,7 @@ struct LuaGuard {
 };
 
 inline LuaGuard& GuardOf(lua_State* L) { return **static_cast<LuaGuard**>(lua_getextraspace(L)); }
+inline ScriptHost& HostOf(lua_State* L) { return GuardOf(L).host; }
 
 /// The lua_Alloc function with a LuaGuard: counts, charges, and refuses above the limit.
 void* LuaAllocate(void* guard, void* block, std::size_t old_bytes, std::size_t new_bytes);
@@ -73,6 +74,8 @@ void Attempt(lua_State* L, F f) {
   LuaRefuse(L, what);
 }
 
+/// Sets the field `name` of the table on top to `function`, with Lua's own from `all` as upvalue.
+void LuaWrap(lua_State* L, int all, const char* name, lua_CFunction function);
 /// Returns the argument, a finite number; else raises.
 float LuaNumber(lua_State* L, int argument);
 /// Counts a change of the world: each becomes messages to every peer. Raises above the limit.

@@ -13,8 +13,6 @@ namespace {
 /// Most nested tables, and most entries in all, of a part or joint that a script makes.
 constexpr int kNestingMax = 4, kEntriesMax = 200;
 
-ScriptHost& HostOf(lua_State* L) { return GuardOf(L).host; }
-
 int LineOf(lua_State* L) {
   lua_Debug where;
   if (lua_getstack(L, 1, &where) == 0) return 1;

@@ -159,12 +159,6 @@ int Sort(lua_State* L) {
   return CallUpvalue(L);
 }
 
-void Wrapped(lua_State* L, int all, const char* name, lua_CFunction function) {
-  lua_getfield(L, all, name);
-  lua_pushcclosure(L, function, 1);
-  lua_setfield(L, -2, name);
-}
-
 }  // namespace
 
 void OpenLuaTable(lua_State* L) {
@@ -172,11 +166,11 @@ void OpenLuaTable(lua_State* L) {
   lua_call(L, 0, 1);
   const int all = lua_gettop(L);
   lua_newtable(L);
-  Wrapped(L, all, "insert", ChargedByLength);
-  Wrapped(L, all, "remove", ChargedByLength);
-  Wrapped(L, all, "concat", Concat);
-  Wrapped(L, all, "unpack", Unpack);
-  Wrapped(L, all, "sort", Sort);
+  LuaWrap(L, all, "insert", ChargedByLength);
+  LuaWrap(L, all, "remove", ChargedByLength);
+  LuaWrap(L, all, "concat", Concat);
+  LuaWrap(L, all, "unpack", Unpack);
+  LuaWrap(L, all, "sort", Sort);
   lua_getfield(L, all, "pack");
   lua_setfield(L, -2, "pack");
   lua_setglobal(L, "table");

@@ -10,12 +10,12 @@ namespace seam {
 namespace {
 
 /// Bytes per unit of work.
-constexpr std::size_t kBytesPerUnit = 16;
+constexpr std::size_t kTextBytesPerUnit = 16;
 /// Units per conversion of string.format: "%99.99f" of the largest number takes some microseconds.
 constexpr std::int64_t kConversionUnits = 100;
 
 void ChargeBytes(lua_State* L, std::size_t bytes) {
-  LuaCharge(L, static_cast<std::int64_t>(bytes / kBytesPerUnit));
+  LuaCharge(L, static_cast<std::int64_t>(bytes / kTextBytesPerUnit));
 }
 
 /// Charges for the text at 1, then calls Lua's own function, the upvalue.
@@ -128,13 +128,6 @@ int Format(lua_State* L) {
   return 1;
 }
 
-/// Sets the field `name` of the table on top to `function`, with Lua's own from `all` as upvalue.
-void Wrapped(lua_State* L, int all, const char* name, lua_CFunction function) {
-  lua_getfield(L, all, name);
-  lua_pushcclosure(L, function, 1);
-  lua_setfield(L, -2, name);
-}
-
 }  // namespace
 
 void OpenLuaText(lua_State* L) {
@@ -143,9 +136,9 @@ void OpenLuaText(lua_State* L) {
   const int all = lua_gettop(L);
   lua_newtable(L);
   for (const char* name : {"len", "lower", "reverse", "sub", "upper"}) {
-    Wrapped(L, all, name, Charged);
+    LuaWrap(L, all, name, Charged);
   }
-  Wrapped(L, all, "rep", Repeat);
+  LuaWrap(L, all, "rep", Repeat);
   lua_getfield(L, all, "format");
   lua_getglobal(L, "tostring");
   lua_pushcclosure(L, Format, 2);

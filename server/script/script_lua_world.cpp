@@ -9,8 +9,6 @@
 namespace seam {
 namespace {
 
-ScriptHost& HostOf(lua_State* L) { return GuardOf(L).host; }
-
 int Tick(lua_State* L) {
   lua_pushinteger(L, HostOf(L).Tick());
   return 1;

@@ -1,5 +1,5 @@
 #pragma once
-/// What each client's sessions came to, for people: kept after a session is over, by name.
+/// Traffic and connection statistics per client name, for people; kept after a session is over.
 
 #include <cstdint>
 #include <map>
@@ -8,35 +8,35 @@
 
 namespace seam {
 
-/// Of all sessions under one name.
+/// Totals of all sessions under one name.
 struct ClientAccount {
   std::string name;
-  int peer = 0;                                 ///< of the newest session
-  bool player = false;                          ///< of the scene; else a spectator
-  int sessions = 0;                             ///< so many got ready
+  int peer = 0;                                 ///< the newest session's
+  bool player = false;                          ///< drives a player; else a spectator
+  int sessions = 0;                             ///< sessions that became ready
   std::int64_t bytes_in = 0, bytes_out = 0;     ///< UDP payload
-  std::int64_t dropped = 0;                     ///< datagrams and messages of it that were dropped
-  std::int64_t corrections = 0;                 ///< of the server's copy of its bodies
-  std::int64_t readings = 0;                    ///< of round trip and loss, one a second
+  std::int64_t dropped = 0;                     ///< datagrams and messages from it, dropped
+  std::int64_t corrections = 0;                 ///< corrections of the server's copy of its bodies
+  std::int64_t readings = 0;                    ///< readings of round trip and loss, one a second
   std::int64_t rtt_us_sum = 0, rtt_us_max = 0;  ///< over the readings
   std::int64_t loss_ppm_sum = 0;                ///< on the way to the server, over the readings
 
-  /// Means over the readings; -1 without one.
+  /// Means over the readings; -1: no reading.
   std::int64_t rtt_us() const { return readings > 0 ? rtt_us_sum / readings : -1; }
   std::int64_t loss_ppm() const { return readings > 0 ? loss_ppm_sum / readings : -1; }
-  /// `rtt_us`: -1, not known yet, is no reading.
+  /// Adds a reading. Ignored if `read_rtt_us` is -1: not known yet.
   void Read(std::int64_t read_rtt_us, std::int64_t read_loss_ppm);
 };
 
 class AccountBook {
  public:
-  /// Names with an account of their own; all further ones share the last, "others". A session costs
-  /// no more memory than that, however many names are tried.
+  /// Most accounts. When all but one are taken, every further name shares the account "others", so
+  /// that no number of names fills the memory.
   static constexpr std::size_t kAccountsMax = 1024;
 
-  /// The account of a name, which stays where it is.
+  /// Returns the account of a name; makes it if needed. The reference stays valid.
   ClientAccount& Of(const std::string& name);
-  /// By peer, and those of one peer by name.
+  /// Returns all accounts, ordered by peer, then by name.
   std::vector<ClientAccount> List() const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Proof that somebody receives at an address: a number that only this server can compute, sent
-/// there and repeated from there. The server remembers nothing of it.
+/// Proof of a client's address: a number that only this server can compute, sent to the address and
+/// returned from it. The server stores nothing per address.
 
 #include <cstdint>
 
@@ -15,14 +15,14 @@ class AddressToken {
   /// Draws the secret.
   explicit AddressToken(Entropy& entropy) : secret_(DrawHashKey(entropy)) {}
 
-  /// A keyed hash of the address, the session's number and the time slot.
+  /// Returns a keyed hash of the address, the session's number and the time slot.
   std::int64_t Make(std::int64_t now_us, const Address& address, std::uint64_t session) const;
-  /// It was made for this address and session in this slot or the one before.
+  /// True if the token was made for this address and session in this slot or the one before.
   bool Good(std::int64_t now_us, const Address& address, std::uint64_t session,
             std::int64_t token) const;
 
-  /// Length of a time slot, us: a token is good for at least one and at most two of them. Long
-  /// enough for the slowest path, short enough that a recorded one is soon worthless.
+  /// Length of a time slot, us: a token is valid for one to two slots. Long enough for the slowest
+  /// path, short enough that a recorded token is soon worthless.
   static constexpr std::int64_t kSlotUs = 10000000;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// How many bytes an address without a session may draw: never more than it sent. A table of fixed
-/// size, so that no number of addresses fills the memory.
+/// Limits the bytes sent to an address without a session: never more than it has sent (no traffic
+/// amplification). A table of fixed size, so that no number of addresses fills the memory.
 
 #include <array>
 #include <cstdint>
@@ -15,12 +15,12 @@ class ByteCredit {
  public:
   explicit ByteCredit(Entropy& entropy) : key_(DrawHashKey(entropy)) {}
 
-  /// The address has sent so many bytes, and wants so many in answer: true if all that it has drawn
-  /// stays within all that it has sent; they count as drawn then.
+  /// Credits `sent_bytes` to the address, then takes `wanted_bytes` for an answer. Returns false,
+  /// and takes nothing, if the credit is smaller.
   bool Draw(const Address& address, std::size_t sent_bytes, std::size_t wanted_bytes);
 
-  /// Addresses remembered. Another address in the same place takes it, and its credit is lost: who
-  /// is crowded out says hello once more.
+  /// Entries in the table. An address that hashes to a taken entry replaces it, and the old credit
+  /// is lost: the client that loses it has to say hello once more.
   static constexpr std::size_t kAddresses = 256;
 
  private:
@@ -28,7 +28,7 @@ class ByteCredit {
     Address address;
     std::size_t bytes = 0;
   };
-  const HashKey key_;  // so that nobody can choose whose place he takes
+  const HashKey key_;  // secret, so that no sender can choose the entry that it replaces
   std::array<Entry, kAddresses> entries_{};
 };
 

@@ -16,8 +16,8 @@ std::string OtherProtocol(std::int32_t theirs) {
          std::to_string(theirs);
 }
 
-/// The bytes begin with the type of a Hello or a Join. Nothing else is worth decoding of those who
-/// have no session.
+/// True if the bytes begin with the type of a Hello or a Join. Nothing else is decoded for a sender
+/// without a session.
 bool BeginsAsHandshake(ByteView bytes) {
   if (bytes.size < 8) return false;
   std::uint64_t hash = 0;
@@ -51,7 +51,7 @@ Handshake::Verdict Handshake::Receive(std::int64_t now_us, const Address& from,
   const auto* wish = std::get_if<Join>(&any);
   if (wish == nullptr) return Verdict::kForeign;
   if (!token_.Good(now_us, from, number, wish->token)) {
-    // Too old, or another server's: it may have a new one.
+    // The token is too old, or another server's: send a new one.
     Challenge(now_us, from, number);
     return Verdict::kAnswered;
   }
@@ -67,7 +67,7 @@ void Handshake::Challenge(std::int64_t now_us, const Address& to, std::uint64_t 
   seam::Challenge challenge;
   challenge.utime = now_us;
   challenge.token = token_.Make(now_us, to, number);
-  // Shorter than any Hello or Join, so it draws no more than it answers (tests/server).
+  // Shorter than any Hello or Join, so no amplification; it needs no byte credit (tests/server).
   Send(to, LooseDatagram(number, Encode(challenge)));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What the server says to those it has no session with. It builds and remembers nothing for them:
-/// a Hello draws a Challenge, a Join is only passed on with the Challenge's token in it.
+/// Answers datagrams of senders without a session; keeps no session state for them. A Hello is
+/// answered by a Challenge; a Join is passed on only with a valid token of a Challenge.
 
 #include <cstdint>
 #include <string>
@@ -19,20 +19,21 @@ class Handshake {
   Handshake(Net& net, Entropy& entropy) : net_(net), token_(entropy), credit_(entropy) {}
 
   enum class Verdict {
-    kJoins,     ///< proved its address; `join` says as whom it wants to come in
-    kAnswered,  ///< with a Challenge or a refusal, or not worth one
+    kJoins,     ///< has proved its address; `join` is its request
+    kAnswered,  ///< by a Challenge or a refusal, or not at all for lack of byte credit
     kForeign,   ///< neither Hello nor Join
   };
-  /// Looks at the first message of a datagram whose header was read: session `number`. Decodes it
-  /// if it is a Hello or a Join.
+  /// Handles the first message of a datagram with a valid header (session `number`). Decodes the
+  /// message only if it is a Hello or a Join.
   Verdict Receive(std::int64_t now_us, const Address& from, std::uint64_t number, ByteView datagram,
                   Join* join);
 
-  /// Says why not, in answer to a datagram of `sent_bytes`, within the address's byte credit.
+  /// Sends the reason of a refusal, in answer to a datagram of `sent_bytes`, if the address's byte
+  /// credit allows.
   void Refuse(std::int64_t now_us, const Address& to, std::uint64_t number, std::size_t sent_bytes,
               const std::string& reason);
 
-  /// Adds what was sent since the last call.
+  /// Adds the bytes and datagrams sent since the last call to `stats`.
   void Count(Stats* stats);
 
  private:
@@ -42,7 +43,7 @@ class Handshake {
   Net& net_;
   const AddressToken token_;
   ByteCredit credit_;
-  std::int64_t bytes_ = 0, datagrams_ = 0;  // sent, not counted yet
+  std::int64_t bytes_ = 0, datagrams_ = 0;  // sent since the last Count
 };
 
 }  // namespace seam

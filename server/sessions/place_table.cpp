@@ -8,8 +8,8 @@
 namespace seam {
 namespace {
 
-/// Of a list of names in a refusal, bytes. With the longest name in use before it, and the count of
-/// those left out, it must fit.
+/// Longest list of free names in a refusal, bytes. The message must still fit with the longest name
+/// in use before the list and the count of omitted names after it.
 constexpr std::size_t kFreeBytesMax = 120;
 static_assert(kFreeBytesMax + kNameBytesMax + 40 <= kImpairBytesMax);
 
@@ -25,7 +25,7 @@ PlaceTable::Answer PlaceTable::Claim(std::int64_t now_us, const std::string& nam
   if (own > 0) {
     Place& place = At(own);
     if (place.key == key) {
-      // A Join that was long under way, or recorded, must not end the session that came after it.
+      // A late or replayed Join of an ended session must not end the session that came after it.
       if (session == place.previous) return {};
       place.key_known = true;
       return {own, ""};
@@ -82,15 +82,15 @@ int PlaceTable::FindName(const std::string& name) const {
 }
 
 int PlaceTable::ChoosePeer(int player) const {
-  // Player p is peer p + 1 wherever possible, so that recordings of a scene agree on who is who;
-  // spectators come after the players.
+  // Player p is peer p + 1 wherever possible, so that peer numbers mean the same in all recordings
+  // of a scene; spectators come after the players.
   const auto free = [](const Place& place) { return place.name.empty(); };
   if (player >= 0 && free(at(player + 1))) return player + 1;
   const auto first =
       places_.begin() +
       std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(scene_.players.size()) + 1, kPeersMax);
   auto best = std::find_if(first, places_.end(), free);
-  // Else of those that are only held for their owners the one that was left first.
+  // Else the unoccupied place that was left first, although it is still held for its owner.
   for (auto it = first; it != places_.end() && (best == places_.end() || !free(*best)); ++it) {
     const bool earlier = best == places_.end() || it->heard_us < best->heard_us;
     if (!it->occupied && earlier) best = it;
@@ -112,7 +112,7 @@ void PlaceTable::Leave(int peer, std::uint64_t session, bool goodbye) {
   Place& place = At(peer);
   place.occupied = false;
   place.previous = session;
-  // Who never learned the key could not come back with it.
+  // An owner that never received the key could not come back with it.
   if (goodbye || !place.key_known) place = Place();
 }
 

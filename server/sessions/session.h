@@ -1,5 +1,5 @@
 #pragma once
-/// What the server knows of one client.
+/// The server's record of one client.
 
 #include <cstdint>
 #include <string>
@@ -10,19 +10,19 @@
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/rest/rest_blocks.h"
-#include "server/interest/outbox.h"
+#include "server/interest/send_queue.h"
 #include "server/sessions/account_book.h"
 #include "server/sessions/traffic_budget.h"
 
 namespace seam {
 
 enum class SessionStage {
-  kAdmitted,  ///< has proved its address; the Welcome waits, and the Room comes next
-  kLoading,   ///< the Room is under way
+  kAdmitted,  ///< has proved its address; the Welcome is queued, and the Room comes next
+  kLoading,   ///< the Room is on its way to the client
   kReady,     ///< simulates (or will from tick 0)
 };
 
-/// Who sends: one address may hold several conversations.
+/// Identifies a sender: one address may hold several sessions.
 struct SessionId {
   Address address;
   std::uint64_t number = 0;  ///< drawn by the client
@@ -32,36 +32,37 @@ struct SessionId {
 };
 
 struct Session {
-  /// `bytes_per_s`: what it is sent at most; 0: no limit.
+  /// `allowed`: limit for the client's traffic; `bytes_per_s`: limit for traffic to it, 0: none.
   Session(const SessionId& session, const TrafficRate& allowed, double bytes_per_s,
           const PackedMotion& motion)
-      : id(session), link(session.number), budget(allowed), outbox(bytes_per_s), packer(motion) {}
+      : id(session), link(session.number), budget(allowed), send_queue(bytes_per_s), packer(motion) {}
 
   SessionId id;
   Link link;
   TrafficBudget budget;
-  std::vector<InputFeed> feeds;      ///< of the others' inputs, by player
-  std::vector<int> heard_players;    ///< whose inputs concern it, ascending
-  std::vector<int> unsent_players;   ///< of them, of whom something waits to go along with others
-  Outbox outbox;                     ///< states of others that wait for it
-  RestBlocks rest;                   ///< with what the client knows to rest
-  bool rest_agrees = false;          ///< all of it, as of its newest ping
+  std::vector<InputFeed> feeds;      ///< other players' inputs, by player
+  std::vector<int> relevant_players;  ///< players with inputs relevant to the client, ascending
+  std::vector<int> unsent_players;   ///< the ones with inputs that wait for another message
+  SendQueue send_queue;                  ///< states of other peers' bodies to send to the client
+  RestBlocks rest;                   ///< comparison with the bodies that rest at the client
+  bool rest_agrees = false;          ///< the same bodies rest at both, as of its newest ping
   ClientAccount* account = nullptr;  ///< the name's; outlives the session
   std::string name;
   int peer = 0;
   int player = -1;
-  int revision = -1;  ///< edits that it has applied, as of its newest ping
-  float load = -1;    ///< share of its time that it needs for its ticks; below 0: not known
+  int revision = -1;  ///< edits that the client has applied, as of its newest ping
+  float load = -1;    ///< share of the client's time spent in its ticks; below 0: not known
   SessionStage stage = SessionStage::kAdmitted;
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;
-  bool lapsed = false;  ///< its lease has ended: it gets no authority before it joins anew
-  /// Since when its pings are not answered, us, because it does not let go; -1: they are.
+  bool lapsed = false;  ///< its lease has ended: the client gets no authority until it joins anew
+  /// Time from which its pings are no longer answered, because the client does not release a
+  /// mechanism, us; -1: pings are answered.
   std::int64_t ending_us = -1;
   bool leaving = false;  ///< to be dropped at the next opportunity
-  bool goodbye = false;  ///< it said so itself
+  bool goodbye = false;  ///< the client itself said so
   std::string leaving_why;
-  StatesPacker packer;  ///< states that go out with the next flush
+  StatesPacker packer;  ///< states to send with the next flush
 };
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// SessionTable, what concerns many sessions at once.
+/// SessionTable: functions over many sessions at once.
 
 #include <algorithm>
 #include <utility>
@@ -51,13 +51,13 @@ void SessionTable::ReadAccounts() {
 }
 
 void SessionTable::SendToAll(const Bytes& message, int but_peer) {
-  ForEachTold([&](Session& session) {
+  ForEachSentRoom([&](Session& session) {
     if (session.peer != but_peer) SendTo(session, message);
   });
 }
 
 void SessionTable::SendUrgentToAll(const Bytes& message) {
-  ForEachTold([&](Session& session) { SendUrgentTo(session, message); });
+  ForEachSentRoom([&](Session& session) { SendUrgentTo(session, message); });
 }
 
 void SessionTable::SendTo(Session& session, const Bytes& message) {
@@ -86,7 +86,7 @@ void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
       stats->bytes_out += static_cast<std::int64_t>(datagram.size);
       stats->datagrams_out += 1;
       session->account->bytes_out += static_cast<std::int64_t>(datagram.size);
-      session->outbox.Spend(datagram.size);
+      session->send_queue.Spend(datagram.size);
       net_.Send(to, datagram);
     });
   }

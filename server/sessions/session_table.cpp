@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// A session that never gets ready is forgotten after this, us.
+/// A session that never gets ready is dropped after this, us.
 constexpr std::int64_t kHalfOpenUs = 10000000;
 /// A goodbye is sent this often, each in a datagram of its own: a burst of losses, as of profile
 /// 4g, easily takes four in a row.
@@ -34,13 +34,13 @@ SessionTable::Verdict SessionTable::Receive(std::int64_t now_us, const Address& 
   if (!ReadHeader(datagram, &header)) return Verdict::kMalformed;
   const SessionId id{from, header.session};
   const auto found = sessions_.find(id);
-  // Another number from a known address is another conversation, and does nothing to this one.
+  // Another number from a known address is another session; existing ones are not affected.
   if (found == sessions_.end()) return OnStranger(now_us, id, datagram);
   if (header.loose()) return Verdict::kTaken;  // a Hello or Join that was repeated, too late
   return OnSession(now_us, *found->second, datagram, deliver);
 }
 
-/// The one place that decides what somebody without a session can cause here.
+/// Handles a datagram without a session: the one place that decides the effects of such senders.
 SessionTable::Verdict SessionTable::OnStranger(std::int64_t now_us, const SessionId& id,
                                                const Bytes& datagram) {
   Join join;
@@ -110,7 +110,8 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
   session.account->dropped += over || !good ? 1 : 0;
   if (over) return Verdict::kOverBudget;
   if (!good) return Verdict::kMalformed;
-  for (const std::int64_t number : session.link.TakeArrived()) session.packer.Acknowledge(number);
+  for (const std::int64_t number : session.link.TakeAckedNumbers())
+    session.packer.Acknowledge(number);
   places_.Heard(session.peer, now_us, session.stage == SessionStage::kReady);
   return Verdict::kTaken;
 }
@@ -160,7 +161,8 @@ void SessionTable::DropSilent(std::int64_t now_us) {
   for (const auto& [id, why] : gone) Drop(id, why);
 }
 
-/// Why a session is dropped now; if it is not, silent_us_ is no later than it may have to be.
+/// Returns why the session has to be dropped now, or "". In that case silent_us_ is brought forward
+/// to the earliest time at which it may have to be.
 std::string SessionTable::TooLong(std::int64_t now_us, const Session& session) {
   const std::int64_t heard = std::max(session.link.last_receive_us(), session.created_us);
   const std::int64_t over_us = session.budget.over_us(now_us);
@@ -206,7 +208,7 @@ void SessionTable::Close(std::int64_t now_us, const std::string& reason, Stats* 
   Bye bye;
   bye.utime = now_us;
   bye.reason = reason;
-  for (int copy = 0; copy < kByeCopies; ++copy) {  // nobody will repeat a lost one
+  for (int copy = 0; copy < kByeCopies; ++copy) {  // no retransmission after this
     for (auto& [id, session] : sessions_) session->link.SendUnreliable(Encode(bye));
     Flush(now_us, stats);
   }

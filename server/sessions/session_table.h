@@ -1,6 +1,6 @@
 #pragma once
-/// Who is in the room: joining, names and peer numbers, silence, and going. It holds the sessions
-/// and says what happened to them; what follows from it is the server's business.
+/// The sessions of the room: joining, names and peer numbers, timeouts, leaving. Reports changes of
+/// sessions as events; the server acts on them.
 
 #include <functional>
 #include <map>
@@ -24,74 +24,74 @@ namespace seam {
 struct SessionEvent {
   enum class Kind {
     kJoined,   ///< admitted and welcomed
-    kLoading,  ///< the room was sent, the world should follow
-    kReady,    ///< has loaded the room: simulates, and is told everything
-    kLeft,     ///< the session is no more
+    kLoading,  ///< the Room was sent; the world has to follow
+    kReady,    ///< has loaded the room: simulates, and receives all messages
+    kLeft,     ///< the session has ended
   };
   Kind kind = Kind::kJoined;
   Address address;
   std::string name;
   int peer = 0;
   int player = -1;
-  bool was_ready = false;  ///< kLeft: had been ready before
+  bool was_ready = false;  ///< kLeft: the session had been ready
   std::string why;         ///< kLeft
 };
 
 class SessionTable {
  public:
-  /// `scene`, `net` and `entropy` must outlive it. `room`: the encoded Room that joiners get;
-  /// `allowed`: what each of them may send; `bytes_per_s`: what each is sent at most, 0: no limit.
+  /// `scene`, `net` and `entropy` must outlive this object. `room`: the encoded Room for joiners;
+  /// `allowed`: limit for traffic from each; `bytes_per_s`: limit for traffic to each, 0: none.
   SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed, Net& net,
                Entropy& entropy, double bytes_per_s = 0);
 
   enum class Verdict { kTaken, kMalformed, kNoRight, kOverBudget };
   using Deliver = std::function<void(Session&, ByteView)>;
-  /// Takes a datagram; calls `deliver` for each message of a session. What belongs to no session
-  /// is only looked at for a Hello or a Join.
+  /// Takes a datagram; calls `deliver` for each message of a session. A datagram without a session
+  /// is ignored unless it begins with a Hello or a Join.
   Verdict Receive(std::int64_t now_us, const Address& from, const Bytes& datagram,
                   const Deliver& deliver);
-  /// A session said Ready. Before the room was sent that means nothing.
+  /// Handles a Ready message. Ignored unless the session is loading.
   void NoteReady(Session& session);
-  /// Drops who is silent (lease.h), who never gets ready, who sends too much, and who is leaving.
+  /// Drops sessions that are silent (lease.h), never get ready, send too much, or are leaving.
   void DropSilent(std::int64_t now_us);
-  /// It has to leave: the next DropSilent drops it. The first reason counts.
+  /// Marks a session to be dropped by the next DropSilent. The first reason counts.
   void Leave(Session& session, const std::string& why);
-  /// Sends the room to those who have been admitted since.
+  /// Sends the room to sessions admitted since the last call.
   void Advance(std::int64_t now_us);
-  /// What happened since the last call, in order. To be called after each of the above.
+  /// Returns the events since the last call, in order. To be called after each of the above.
   std::vector<SessionEvent> TakeEvents() { return std::exchange(events_, {}); }
 
   int count() const { return static_cast<int>(sessions_.size()); }
-  /// nullptr: no session of this peer.
+  /// Returns nullptr if this peer has no session.
   Session* Find(int peer);
   /// By player: the peer that is ready to drive it, or -1.
   const std::vector<int>& PeerOfPlayer() const { return peer_of_player_; }
-  int player_count() const;         ///< players who are ready
+  int player_count() const;         ///< players with a ready client
   std::int64_t WorstRttUs() const;  ///< -1: unknown
   std::int64_t WorstLossPpm() const;
-  /// "free are bob, carl": the scene's players that may join now, as many as fit a message.
+  /// Returns "free are bob, carl": the scene's players that may join now, as many as fit a message.
   std::string FreeNames(std::int64_t now_us) const { return places_.FreeNames(now_us); }
-  /// Reads round trip and loss of all that are ready into their accounts. Once a second.
+  /// Reads round trip and loss of all ready sessions into their accounts. Once a second.
   void ReadAccounts();
-  /// Of all who were in the room.
+  /// Accounts of all clients that were in the room, present or gone.
   const AccountBook& accounts() const { return accounts_; }
 
-  /// Reliably, to everyone to whom the room was sent; who never acknowledges has to leave. Not to
-  /// peer `but_peer`.
+  /// Sends reliably to every session that was sent the room, except peer `but_peer`. A session that
+  /// never acknowledges has to leave.
   void SendToAll(const Bytes& message, int but_peer = -1);
-  /// The same to one of them.
+  /// Like SendToAll, to one session.
   void SendTo(Session& session, const Bytes& message);
-  /// The same for what they wait for (Link::SendUrgent).
+  /// Like SendToAll and SendTo, by Link::SendUrgent: for messages that the client waits for.
   void SendUrgentToAll(const Bytes& message);
   void SendUrgentTo(Session& session, const Bytes& message);
-  /// Calls `visit(Session&)` for everyone to whom the room was sent.
+  /// Calls `visit(Session&)` for every session that was sent the room.
   template <class Visit>
-  void ForEachTold(Visit visit) {
+  void ForEachSentRoom(Visit visit) {
     for (Session* session : in_order_) {
       if (session->stage != SessionStage::kAdmitted) visit(*session);
     }
   }
-  /// Calls `visit(Session&)` for all that are ready but one peer.
+  /// Calls `visit(Session&)` for all ready sessions except peer `but_peer`.
   template <class Visit>
   void ForEachReady(int but_peer, Visit visit) {
     for (Session* session : in_order_) {
@@ -99,16 +99,16 @@ class SessionTable {
       visit(*session);
     }
   }
-  /// Hands everything to the network; counts it in `stats`.
+  /// Sends all queued messages; counts bytes and datagrams in `stats`.
   void Flush(std::int64_t now_us, Stats* stats);
-  /// Says goodbye to all, and forgets them without events.
+  /// Says goodbye to all sessions and ends them without events.
   void Close(std::int64_t now_us, const std::string& reason, Stats* stats);
 
  private:
   using Sessions = std::map<SessionId, std::unique_ptr<Session>>;
 
   void LeaveUnless(bool sent, Session& session);
-  /// Who is there, or ready, has changed.
+  /// Rebuilds the indices after a session came, went or became ready.
   void NoteChanged();
   Verdict OnStranger(std::int64_t now_us, const SessionId& id, const Bytes& datagram);
   void Admit(std::int64_t now_us, const SessionId& id, int peer);
@@ -127,14 +127,14 @@ class SessionTable {
   PlaceTable places_;
   AccountBook accounts_;
   Sessions sessions_;
-  // Looked at with every datagram: the map is not for that.
-  std::vector<Session*> in_order_;  // of sessions_
+  // Indices for lookups with every datagram, where the map is too slow.
+  std::vector<Session*> in_order_;  // in the order of sessions_
   std::vector<Session*> by_peer_;
   std::vector<int> peer_of_player_;
   std::vector<SessionEvent> events_;
-  bool admitted_ = false;       // somebody was, since the last Advance
-  bool leaving_ = false;        // somebody is
-  std::int64_t silent_us_ = 0;  // before that nobody has been silent for too long
+  bool admitted_ = false;       // some session was, since the last Advance
+  bool leaving_ = false;        // some session is
+  std::int64_t silent_us_ = 0;  // time of the next check for timeouts
 };
 
 }  // namespace seam

@@ -14,10 +14,10 @@ constexpr std::size_t kInputsUsual = 16;
 /// Pings a second while the clock settles, and their bytes.
 constexpr double kPingsPerSecond = 20;
 constexpr std::size_t kPingBytes = 36;
-/// Messages that the States of one send are split into, at most in any scene of ours: one for each
-/// 120 m of its bodies, and for each kStatesBodiesMax. (Bodies a send: kBodiesPerSend.)
+/// Most messages per send of States in our scenes: one for each 120 m that the bodies extend, and
+/// one for each kStatesBodiesMax bodies. (Bodies a send: kBodiesPerSend.)
 constexpr std::size_t kStatesPerSend = 12;
-/// Reliable messages a second (proposals, releases; a whole window), and bytes of one.
+/// Reliable messages a second (proposals, releases; a whole window), and bytes of each.
 constexpr double kReliablePerSecond = 64;
 constexpr std::size_t kReliableBytes = 128;
 
@@ -30,7 +30,7 @@ double Framed(std::size_t bytes, bool reliable = false) {
 TrafficRate HonestTraffic(int tick_hz, int send_hz) {
   TrafficRate rate;
   const double per_send = static_cast<double>(kStatesPerSend);
-  // A datagram a tick, and one for the acknowledgement of each reliable message.
+  // One datagram a tick, and one for the acknowledgement of each reliable message.
   const double datagrams = tick_hz + kReliablePerSecond;
   rate.messages = datagrams + tick_hz + kPingsPerSecond + send_hz * per_send + kReliablePerSecond;
   rate.bytes = datagrams * static_cast<double>(kDatagramHeaderBytes) +

@@ -1,6 +1,6 @@
 #pragma once
-/// How much a session may send: what a client of the room can need, and a margin. What is beyond
-/// is dropped before any of it is decoded.
+/// Limits the traffic from a session to the most that an honest client sends, times a margin.
+/// Datagrams beyond the limit are dropped before they are decoded.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,33 +9,32 @@ namespace seam {
 
 /// Per second.
 struct TrafficRate {
-  double bytes = 0;     ///< of datagrams, their headers included
-  double messages = 0;  ///< in them, and the datagrams themselves: none is free
+  double bytes = 0;     ///< datagram bytes, headers included
+  double messages = 0;  ///< messages, plus one for each datagram: an empty one is not free
 };
 
-/// What an honest client of a room sends at most; see the constants in the .cpp for the sum.
+/// Returns the most that an honest client of a room sends; see the constants in the .cpp.
 TrafficRate HonestTraffic(int tick_hz, int send_hz);
-/// What it may send: kBudgetMargin times that.
+/// Returns the limit: kBudgetMargin times HonestTraffic.
 TrafficRate AllowedTraffic(int tick_hz, int send_hz);
-/// A client may be this much better than what we think of, a path may hold back as many seconds of
-/// its traffic and let them go at once.
+/// Allowed rate divided by honest rate. A client may send more than we expect by this factor; or a
+/// path may hold back as many seconds of its traffic and release them at once.
 constexpr double kBudgetMargin = 4;
-/// What may come at once: this many seconds of the allowed rate (so four of the honest one).
+/// Largest burst: this many seconds of the allowed rate (so four of the honest one).
 constexpr double kBudgetBurst = 1;
-/// A session that has been beyond its budget for so long, us, without a pause of kBudgetCalmUs, has
-/// to leave.
+/// A session beyond its budget for this long, us, without a pause of kBudgetCalmUs, has to leave.
 constexpr std::int64_t kOverBudgetUs = 10000000;
 constexpr std::int64_t kBudgetCalmUs = 1000000;
 
-/// Two token buckets.
+/// Two token buckets: bytes and messages.
 class TrafficBudget {
  public:
   explicit TrafficBudget(const TrafficRate& allowed);
 
-  /// Takes one datagram of so many bytes and messages out of the budget; false, and nothing taken,
-  /// when there is not enough left of either.
+  /// Takes one datagram of so many bytes and messages out of the budget. Returns false, and takes
+  /// nothing, if either is not enough.
   bool Take(std::int64_t now_us, std::size_t bytes, std::size_t messages);
-  /// For how long it has been beyond the budget without a pause, us; 0: it is not.
+  /// Returns for how long the session has been beyond its budget without a pause, us; 0: within it.
   std::int64_t over_us(std::int64_t now_us) const;
 
  private:

@@ -6,7 +6,7 @@
 #include "common/sync/edits/edit_order.h"
 #include "server/edits/edit_log.h"
 #include "tests/support/client_test_access.h"
-#include "tests/support/count_allocations.h"
+#include "tests/support/allocations/count_allocations.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {

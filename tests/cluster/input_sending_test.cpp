@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/sync/input_source.h"
-#include "server/interest/outbox.h"
+#include "server/interest/send_queue.h"
 #include "tests/lab/cluster.h"
 
 namespace seam {

@@ -149,9 +149,9 @@ TEST(Interest, WhatIsFollowedIsHeardOfAtOnceTheRestWhenItIsNotAsItWouldBeGuessed
   const CountingNet::Counts counts = CountAtAnn(1);
   // In five seconds at 30 sends a second, and a few that were under way.
   EXPECT_NEAR(counts.states.at(kBeside), 150, 8);
-  EXPECT_NEAR(counts.states.at(kNear), 5 / kNewsRepeat, 3) << "it spins on as it did";
+  EXPECT_NEAR(counts.states.at(kNear), 5 / kStateRepeatS, 3) << "it spins on as it did";
   EXPECT_GT(counts.states.at(kDriven), 20) << "a bot drives it";
-  EXPECT_NEAR(counts.states.at(kFar), 5 / kFarNews.least, 4) << "and this one";
+  EXPECT_NEAR(counts.states.at(kFar), 5 / kFarReckoning.least, 4) << "and this one";
 }
 
 TEST(Interest, ABudgetIsKeptAndWhatIsFollowedComesFirst) {

@@ -11,7 +11,7 @@
 
 #include "common/codec/validate.h"
 #include "common/net/link.h"
-#include "tests/support/count_allocations.h"
+#include "tests/support/allocations/count_allocations.h"
 #include "tests/support/random_messages.h"
 #include "tests/support/soak.h"
 

@@ -126,16 +126,16 @@ Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
   Balls balls(seed, path.width);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion);
-  struct UnderWay {
+  struct InFlight {
     std::vector<StatesPacker::Message> messages;
     std::vector<Told> told;
   };
-  std::deque<UnderWay> ways;
+  std::deque<InFlight> ways;
   std::deque<std::int64_t> acks;
   Traffic traffic;
   for (int tick = 0; tick < ticks; ++tick) {
     balls.Step();
-    UnderWay way;
+    InFlight way;
     const std::vector<States> told = balls.Tell(path.all || tick % 5 == 0 ? 1 : 0.3);
     for (const States& states : told) packer.Add(states);
     way.told = TellsOf(told);

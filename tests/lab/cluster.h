@@ -15,7 +15,7 @@
 namespace seam {
 
 struct ClusterConfig {
-  std::string scene = "crossing";  ///< of scenes/
+  std::string scene = "crossing";  ///< name in scenes/
   std::string scene_text;          ///< instead of a file, if not empty
   std::string mode = "buffer";
   std::string reconcile;
@@ -26,19 +26,19 @@ struct ClusterConfig {
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
   int spectators = 0;     ///< clients besides the scene's players, after them: "guest0", ...
   Drive drive = Drive::kScript;
-  Publish publish = Publish::kAll;  ///< of server and clients
+  Publish publish = Publish::kAll;  ///< for server and clients
   int players = 0;                  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
   float smooth_rate = kSmoothRate;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
-  /// What a tick of the server takes, us of virtual time, by tick; nullptr: nothing.
+  /// Duration of a server tick, us of virtual time, by tick; nullptr: 0.
   std::function<std::int64_t(std::int64_t)> server_tick_us;
   /// CPU time of a client for each body in each of its steps, replayed ones included, us. Virtual
   /// time has no CPU: this is a model. 0: clients take no time and do not know their load.
   double client_body_us = 0;
   std::vector<double> client_throttle;  ///< by client: times slower; beyond the end 1
   bool keep = true;                     ///< recording() has everything; false saves its memory
-  /// If set, what each client's network (by the scene's order of players) is replaced by.
+  /// If set, makes the replacement of each client's network (by the scene's order of players).
   std::function<std::unique_ptr<Net>(std::size_t, std::unique_ptr<Net>)> client_net;
 };
 
@@ -47,50 +47,49 @@ class Cluster {
   explicit Cluster(const ClusterConfig& config);
   ~Cluster();
 
-  /// Runs until the server has done this many ticks. Throws OperatorError after 30 s without one:
-  /// nobody can play over such a network.
+  /// Runs until the server has done this many ticks. Throws OperatorError after 30 s without a
+  /// tick: the network is too bad to play.
   void RunToTick(std::int64_t tick);
   /// Runs to the configured end.
   void Run();
 
-  /// CPU time of the server so far, us, on this machine: of all that it does, network included.
+  /// Total CPU time of the server so far, us, on this machine, network included.
   double server_cpu_us() const { return server_cpu_us_; }
-  /// The same of all clients together.
+  /// Total CPU time of all clients together, us.
   double client_cpu_us() const { return client_cpu_us_; }
-  /// All peers': ticks that were stepped again, and replays that waited for their budget.
+  /// Sums over all peers: ticks that were stepped again, and replays that waited for their budget.
   std::int64_t ticks_stepped_again();
   std::int64_t replays_deferred();
 
   /// Called after every virtual instant.
   std::function<void()> each_instant;
 
-  /// The client's process dies (nothing more is sent), or a new one starts under its name and with
-  /// its key.
+  /// Kills the client's process (nothing more is sent), or starts a new one with its name and key.
   void Kill(int client);
   void Revive(int client);
-  /// The client says goodbye and ends; Revive lets it come back.
+  /// Lets the client say goodbye and end; Revive lets it come back.
   void Leave(int client);
-  /// The client's process is stopped, or goes on.
+  /// Stops the client's process, or lets it go on.
   void Pause(int client, bool paused) {
     clients_[static_cast<std::size_t>(client)].paused = paused;
   }
 
   Server& server() { return *server_; }
   Client* client(int i) { return clients_[static_cast<std::size_t>(i)].client.get(); }
-  /// The key that a revived client would show.
+  /// Returns the key that a revived client would use.
   std::int64_t key(int i) const { return clients_[static_cast<std::size_t>(i)].key; }
   int client_count() const { return static_cast<int>(clients_.size()); }
   std::int64_t now_us() const { return now_us_; }
   const Recording& recording() { return recorder_.memory.builder.recording(); }
   ImpairedNet& server_net() { return *server_net_; }
   const Scene& scene() const { return scene_; }
-  /// A raw endpoint of the network, for hostile tests.
+  /// Makes a raw endpoint of the network, for hostile tests.
   std::unique_ptr<Net> Attach(const Address& address) { return network_.Attach(address); }
   Address server_address() const { return server_address_; }
 
  private:
-  /// What the peers publish, to memory and to the configured recorder, at the one virtual time:
-  /// what lcm-logger does to a live session.
+  /// Records the peers' messages to memory and to the configured recorder, with the virtual time,
+  /// as lcm-logger does in a live session.
   class Tap : public Recorder {
    public:
     explicit Tap(const Cluster& cluster) : cluster_(cluster) {}
@@ -108,7 +107,7 @@ class Cluster {
     std::unique_ptr<Entropy> entropy;
     std::unique_ptr<Client> client;
     std::int64_t clock_offset_us = 0;
-    std::int64_t key = 0;  // what seam-client keeps in its --key file
+    std::int64_t key = 0;  // the content of seam-client's --key file
     bool paused = false;
     double cpu_us = 0;  // modelled
     std::int64_t busy_until_us = 0;
@@ -119,7 +118,7 @@ class Cluster {
   void Instant();
   /// Runs the server, unless it is still at its last ticks.
   void RunServer();
-  /// Of the server's and all clients' replicas that there are.
+  /// Sums a count over the existing replicas of server and clients.
   std::int64_t Sum(std::int64_t (Replica::*count)() const);
 
   ClusterConfig config_;
@@ -138,10 +137,10 @@ class Cluster {
   std::int64_t server_busy_until_us_ = 0;
 };
 
-/// Bodies in a world's steps: all but those that are absent.
+/// Returns the number of bodies in a world's steps: all but the absent ones.
 int SteppedBodies(const World& world);
 
-/// Runs a cluster to its end and returns what it recorded.
+/// Runs a cluster to its end and returns its recording.
 Recording RunCluster(const ClusterConfig& config);
 
 }  // namespace seam

@@ -1,6 +1,6 @@
 #pragma once
-/// The commands of seam-lab. Each returns the program's exit status and throws OperatorError, with
-/// nothing written, for what the operator can put right.
+/// The commands of seam-lab. Each returns the program's exit status. Throws OperatorError, with
+/// nothing written, for mistakes that the operator can correct.
 
 #include <optional>
 #include <string>
@@ -31,8 +31,8 @@ struct CheckCommand {
   bool force = false;               ///< overwrite it
 };
 
-/// Prints what the scenes say that is surely not meant, "FILE:LINE: ..." each, and draws one by
-/// seam-render. 0: nothing was found, or drawn; 1: something was.
+/// Prints likely mistakes in the scenes, "FILE:LINE: ..." each, and draws one scene by seam-render.
+/// 0: nothing was found, or drawn; 1: something was.
 int RunCheck(const CheckCommand& command);
 
 struct DivergenceCommand {
@@ -45,7 +45,7 @@ struct DivergenceCommand {
 int FirstDivergence(const DivergenceCommand& command);
 
 struct SweepCommand {
-  std::string file;    ///< what to vary (docs/lab.md)
+  std::string file;    ///< sweep file: parameters to vary (docs/lab.md)
   std::string table;   ///< CSV file to write or complete
   int jobs = 0;        ///< runs at a time; 0: as many as there are cores
   bool force = false;  ///< begin the table anew
@@ -76,7 +76,7 @@ int RunPhysics(const PhysicsCommand& command);
 
 struct TuneCommand {
   std::string scene;      ///< a file
-  double error = 0;       ///< what it must not exceed, in the unit of the measure
+  double error = 0;       ///< limit for the error, in the unit of the measure
   bool keep_hz = false;   ///< tick_hz stays as the scene has it
   double seconds = 0;     ///< horizon; 0: the case's, or 10 s or the scene's duration
   double budget_s = 120;  ///< predicted CPU seconds of the search's runs
@@ -87,15 +87,15 @@ struct TuneCommand {
 int RunTune(const TuneCommand& command);
 
 struct TuneGaitCommand {
-  std::string objective;  ///< what to search (TOML; docs/lab.md)
+  std::string objective;  ///< file with the search objective (TOML; docs/lab.md)
   std::string output;     ///< gains file to put the result into; empty: none
   int jobs = 0;           ///< trials at a time; 0: as many as there are cores
   int generations = -1;   ///< -1: the objective's
   int seed = -1;          ///< -1: the objective's
 };
 
-/// Searches gains that make an ability better and prints what becomes of training and held-out
-/// starts. 1: a signal came: what was found so far is printed, and nothing written.
+/// Searches gains that make an ability better and prints the results of training and held-out
+/// starts. 1: a signal came: prints the best gains so far, and writes nothing.
 int RunTuneGait(const TuneGaitCommand& command);
 
 struct OverheadCommand {
@@ -107,7 +107,7 @@ struct OverheadCommand {
   bool force = false;  ///< begin the table anew
 };
 
-/// Prints what World::Step costs beside the engine alone. 1: they end differently, or a signal.
+/// Prints the cost of World::Step beside the engine alone. 1: they end differently, or a signal.
 int RunOverhead(const OverheadCommand& command);
 
 struct BenchCommand {
@@ -116,10 +116,10 @@ struct BenchCommand {
   bool quick = false;                ///< smaller and fewer
 };
 
-/// Prints what the features of a scene cost and err beside their baselines. 1: a signal came.
+/// Prints cost and error of a scene's features beside their baselines. 1: a signal came.
 int RunWorld(const BenchCommand& command);
-/// Prints what distribution takes off the server, and what it costs, beside its bars. 1: a signal
-/// came.
+/// Prints the load that distribution takes off the server, and its cost, beside their bars. 1: a
+/// signal came.
 int RunRelief(const BenchCommand& command);
 
 struct FairnessCommand {
@@ -134,8 +134,8 @@ struct FairnessCommand {
   bool quiet = false;  ///< no progress line
 };
 
-/// Runs a mirrored crash with either player near the server, and prints who receives how much of
-/// it. 1: some runs failed, more than a tenth of the rows are not valid, or a signal came.
+/// Runs a mirrored crash with either player near the server, and prints each one's share of the
+/// momentum. 1: some runs failed, more than a tenth of the rows are not valid, or a signal came.
 int RunFairnessTable(const FairnessCommand& command);
 
 struct TitlesCommand {
@@ -148,7 +148,7 @@ struct TitlesCommand {
   bool quiet = false;                          ///< no progress line
 };
 
-/// Plays scenes and prints in how many sessions each did what its title says. 1: some runs failed
+/// Plays scenes and prints for each in how many sessions its title came true. 1: some runs failed
 /// (and left no row), or a signal came.
 int RunTitles(const TitlesCommand& command);
 
@@ -165,8 +165,8 @@ struct LoadCommand {
   bool quiet = false;            ///< no progress line
 };
 
-/// Tabulates what sessions cost the server and a client. 1: some runs failed (and left no row), or
-/// a signal came.
+/// Tabulates the cost of sessions for the server and a client. 1: some runs failed (and left no
+/// row), or a signal came.
 int RunLoad(const LoadCommand& command);
 
 struct HandOverCommand {
@@ -182,8 +182,8 @@ struct HandOverCommand {
   bool quiet = false;               ///< no progress line
 };
 
-/// Tabulates how long changes of authority take in mode buffer, what they look like and what it
-/// costs to tell of them. 1: some runs failed (and left no row), or a signal came.
+/// Tabulates the latency of changes of authority in mode buffer, their visible jumps, and the bytes
+/// of their grants. 1: some runs failed (and left no row), or a signal came.
 int RunHandOver(const HandOverCommand& command);
 
 struct ReportCommand {
@@ -194,7 +194,7 @@ struct ReportCommand {
   bool png = false;                         ///< not SVG
 };
 
-/// Draws and tabulates what is in the tables: index.html, plots/, tables/.
+/// Draws and tabulates the tables' content: index.html, plots/, tables/.
 int RunReport(const ReportCommand& command);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// Where two recordings part: the first tick, peer, body and field in which their views differ.
+/// First divergence of two recordings: tick, peer, body and field in which their views differ.
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-/// All combinations that a sweep file asks for, in a fixed order.
+/// All combinations of a sweep file, in a fixed order.
 
 #include <cstdint>
 #include <memory>
@@ -33,7 +33,7 @@ constexpr std::size_t kGridPointsMax = 1000000;
 /// Most settings of a scene, each of which is one more scene in memory.
 constexpr std::size_t kGridScenesMax = 10000;
 
-/// What a network and a scene are in numbers, for plots:
+/// Numbers of a network and a scene, for plots:
 /// one_way_ms,jitter_ms,loss_percent,tick_hz,substeps,velocity_iterations,position_iterations,
 /// skin_m,buffer_m,input_delay_ticks. Loss is the mean without stalls and outages, skin empty where
 /// the scene leaves it to the engine.
@@ -41,8 +41,8 @@ std::string PointHeader();
 /// The values, with a comma before each.
 std::string PointValues(const GridPoint& point);
 
-/// Reads and checks the file and every scene it names. Throws OperatorError: every combination of
-/// what it returns can be run.
+/// Reads and checks the file and every scene in it. Throws OperatorError. Every combination of the
+/// result can be run.
 Grid ReadGrid(const std::string& path);
 
 }  // namespace seam

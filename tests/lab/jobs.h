@@ -7,7 +7,7 @@
 
 namespace seam {
 
-/// What became of a job: `text` is its result, or (not good) in one line why there is none.
+/// Outcome of a job: `text` is its result or, if not `good`, one line with the reason.
 struct JobResult {
   bool good = false;
   std::string text;

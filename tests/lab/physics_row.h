@@ -12,7 +12,8 @@ namespace seam {
 constexpr int kPhysicsKeyColumns = 16;
 std::string PhysicsHeader();
 
-/// The first kPhysicsKeyColumns values: what it is. `version` holds a hash of the scene's text.
+/// Returns the first kPhysicsKeyColumns values: the row's key. `version` holds a hash of the
+/// scene's text.
 std::string PhysicsKey(const PhysicsPoint& point);
 
 /// Runs and measures; the line without its end. All but the last columns cpu_us_per_s,
@@ -20,11 +21,11 @@ std::string PhysicsKey(const PhysicsPoint& point);
 /// judge; if it is not converged, that is the row's failure.
 std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference);
 
-/// The line of a run that took its process with it.
+/// Returns the line of a run that crashed its process.
 std::string CrashedRow(const PhysicsPoint& point, const std::string& why);
 
-/// Prints per case: the error of the stock and of the scene's own setting, their ratio, what the
-/// latter costs of the former, and failures. `lines`: the rows there are, by point; empty: not yet.
+/// Prints per case: the error of the stock and of the scene's own setting, their ratio, the ratio
+/// of their costs, and failures. `lines`: the existing rows, by point; empty: not yet.
 void PrintPhysics(const PhysicsPlan& plan, const std::vector<std::string>& lines);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// The rows that a table still lacks, made in processes of their own and added as they are done.
+/// Makes the missing rows of a table in separate processes and adds each when it is done.
 
 #include <cstddef>
 #include <functional>
@@ -18,15 +18,15 @@ struct RowMaker {
   std::function<std::optional<std::string>(std::size_t row, const std::string& why)> rescue;
 };
 
-/// What became of a table.
+/// Outcome for a table.
 struct RowsDone {
   std::size_t added = 0, failed = 0;
 };
 
-/// As many jobs as there are cores, unless `wanted` says otherwise.
+/// Returns `wanted`, or the number of cores if that is 0.
 int JobsOr(int wanted);
 
-/// Those of 0..rows-1 that the table does not have.
+/// Returns the rows of 0..rows-1 that the table does not have.
 std::vector<std::size_t> MissingRows(const SweepTable& table, std::size_t rows);
 
 /// Makes the rows of `todo`, with a progress line unless `quiet`; failures are named on stderr by
@@ -34,7 +34,7 @@ std::vector<std::size_t> MissingRows(const SweepTable& table, std::size_t rows);
 RowsDone MakeRows(const std::vector<std::string>& keys, const std::vector<std::size_t>& todo,
                   const RowMaker& maker, int jobs, bool quiet, SweepTable* table);
 
-/// Says in one line what was done. The exit status: 0 when no row is missing.
+/// Prints a summary in one line. Returns the exit status: 0 if no row is missing.
 int PrintRows(const std::string& path, const SweepTable& table, std::size_t rows,
               const RowsDone& done);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of a scene set from outside, in its text: so that a recording carries what was really
+/// Sets numbers of a scene from outside, in its text: so a recording carries the scene as it was
 /// simulated, and its oracle is computed from that.
 
 #include <string>
@@ -14,10 +14,10 @@ namespace seam {
 /// TOML value; and for a key that is set twice.
 std::vector<std::string> SplitSettings(const std::string& text);
 
-/// The inverse: with ';' between them.
+/// Joins the settings with ';' between them: the inverse.
 std::string JoinSettings(const std::vector<std::string>& settings);
 
-/// The scene file's text with those settings: the line of each key is replaced, or one is added.
+/// Returns the scene's text with those settings: replaces the line of each key, or adds one.
 /// Throws OperatorError when the text has the key in a revision that cannot be replaced.
 std::string WithSettings(const std::string& text, const std::vector<std::string>& settings,
                          const std::string& file);

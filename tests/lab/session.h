@@ -13,10 +13,10 @@
 
 namespace seam {
 
-/// The program's behaviour, for rows that must be comparable: "seam2d-" and the version.
+/// Version of the program's behaviour, for rows that must be comparable: "seam2d-" and the version.
 inline const std::string kLabVersion = std::string("seam2d-") + kVersion;
 
-/// What a session depends on; equal settings give equal bytes.
+/// All settings of a session; equal settings give equal bytes.
 struct SessionSettings {
   std::string scene;  ///< path of a scene file
   std::string mode = "buffer";
@@ -27,8 +27,8 @@ struct SessionSettings {
   int send_hz = 30;              ///< at most the scene's tick_hz is used
   double duration_s = 0;         ///< after tick 0; 0: the scene's own
   std::string drive = "script";  ///< script | bot
-  int players = 0;  ///< the first so many of the scene's join, and the others are absent; 0: all
-  std::string publish = "all";   ///< of server and clients
+  int players = 0;  ///< the first so many of the scene's join, the rest are absent; 0: all
+  std::string publish = "all";   ///< for server and clients
   std::string smooth = "on";     ///< on | off | a rate, 1/s
   std::vector<std::string> set;  ///< of the scene: "solver.substeps=2", "buffer=5"
 };
@@ -36,10 +36,10 @@ struct SessionSettings {
 /// Largest value of --seed, as seam-server's.
 constexpr std::int64_t kSeedMax = 1000000000;
 
-/// Reads the scene, with its settings, and checks everything that can be wrong before anything is
-/// run or written. Throws OperatorError. The recorder is not set.
+/// Reads the scene, with its settings, and checks all settings before anything is run or written.
+/// Throws OperatorError. The recorder is not set.
 ClusterConfig Configure(const SessionSettings& settings);
-/// The same with the scene already read, its settings in it.
+/// Like above, with the scene already read and its settings applied.
 ClusterConfig Configure(const SessionSettings& settings, const Scene& scene);
 
 struct SessionResult {
@@ -47,7 +47,7 @@ struct SessionResult {
   std::int64_t ticks = 0;  ///< since tick 0
 };
 
-/// Told now and then: ticks done, and in all.
+/// Called now and then: ticks done, and in all.
 using TicksDone = std::function<void(std::int64_t, std::int64_t)>;
 
 /// Runs to the end; the recording, if wanted and kept, goes to `recording`. Throws OperatorError

@@ -1,5 +1,5 @@
 #pragma once
-/// What a sweep file says, checked: the list of each thing that varies.
+/// The checked content of a sweep file: the list of values of each parameter.
 
 #include <cstdint>
 #include <string>
@@ -9,8 +9,8 @@ namespace seam {
 
 struct SweepFile {
   std::vector<std::string> scenes;  ///< paths
-  /// What is set in the scenes, every combination: {"solver.substeps=2", "buffer=5"}. At least one,
-  /// which may be empty.
+  /// Settings of the scenes, every combination: {"solver.substeps=2", "buffer=5"}. At least one
+  /// entry, which may be empty.
   std::vector<std::vector<std::string>> settings;
   std::vector<std::string> methods;   ///< "strict", "buffer/fade", "central/own"
   std::vector<std::string> networks;  ///< every combination, as FindProfile reads them
@@ -21,8 +21,8 @@ struct SweepFile {
   bool limit = false;
 };
 
-/// Throws OperatorError "file:line: ..." for what is wrong with the file by itself; scenes are not
-/// read, methods and networks not looked up.
+/// Throws OperatorError "file:line: ..." for mistakes in the file by itself; scenes are not read,
+/// methods and networks not looked up.
 SweepFile ReadSweepFile(const std::string& path);
 
 }  // namespace seam

@@ -34,13 +34,13 @@ class Digest : public Recorder {
 };
 
 /// Six digits; counts are whole.
-std::string Number(double value) {
+std::string Digits6(double value) {
   const bool whole = value == std::floor(value) && std::fabs(value) < 1e15;
   return whole ? fmt::format(",{:.0f}", value) : fmt::format(",{:.6g}", value);
 }
 
 /// A column's name, and its value if it applies.
-struct Column {
+struct SweepColumn {
   const char* name;
   std::optional<double> value;
 };
@@ -52,12 +52,12 @@ struct Floors {
 };
 
 /// What it took, of all peers.
-struct Work {
+struct StepWork {
   std::int64_t stepped_again = 0, deferred = 0;
 };
 
 /// All columns of the measures, in order.
-std::vector<Column> Columns(const Measures& m, const Floors& floors, const Work& work) {
+std::vector<SweepColumn> Columns(const Measures& m, const Floors& floors, const StepWork& work) {
   const auto given = [](bool applies, double value) {
     return applies ? std::optional<double>(value) : std::nullopt;
   };
@@ -111,11 +111,11 @@ std::vector<Column> Columns(const Measures& m, const Floors& floors, const Work&
 }
 
 /// `valid` empty: with their figures.
-std::string Values(const Measures& measures, const Floors& floors, const Work& work,
+std::string Values(const Measures& measures, const Floors& floors, const StepWork& work,
                    const std::string& valid) {
   std::string line;
-  for (const Column& column : Columns(measures, floors, work)) {
-    line += column.value && valid.empty() ? Number(*column.value) : ",";
+  for (const SweepColumn& column : Columns(measures, floors, work)) {
+    line += column.value && valid.empty() ? Digits6(*column.value) : ",";
   }
   return line;
 }
@@ -144,7 +144,7 @@ std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster*
     floors.barrier_m = OracleDistance(recording, plain, *with_barriers);
   }
   if (options.limit && reason.empty()) floors.limit_m = InformationLimit(recording);
-  const Work work{cluster->ticks_stepped_again(), cluster->replays_deferred()};
+  const StepWork work{cluster->ticks_stepped_again(), cluster->replays_deferred()};
   return Values(measures, floors, work, reason) + (barriers ? ",barrier," : ",plain,") +
          CsvField(reason);
 }
@@ -153,7 +153,7 @@ std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster*
 
 std::string SweepHeader() {
   std::string header = GridHeader() + "," + PointHeader();
-  for (const Column& column : Columns({}, {}, {})) header += std::string(",") + column.name;
+  for (const SweepColumn& column : Columns({}, {}, {})) header += std::string(",") + column.name;
   return header + ",oracle,valid,digest,cpu_s,server_cpu_s,server_us_per_body";
 }
 

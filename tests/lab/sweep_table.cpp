@@ -24,7 +24,7 @@ Fields FieldsOr(const std::string& line) {
   }
 }
 
-[[noreturn]] void Refuse(const std::string& path, const std::string& why) {
+[[noreturn]] void RefuseTable(const std::string& path, const std::string& why) {
   throw OperatorError(path + ": " + why + "; choose another name, or --force to begin anew");
 }
 
@@ -55,7 +55,7 @@ void SweepTable::Load(const std::string& text, int key_columns,
   std::size_t at = text.find('\n');
   const std::string first = text.substr(0, at);
   if (at == std::string::npos ? header_.rfind(first, 0) != 0 : first != header_) {
-    Refuse(path_, "is not a sweep's table of this program");
+    RefuseTable(path_, "is not a sweep's table of this program");
   }
   for (int number = 2; at != std::string::npos; ++number) {
     const std::size_t begin = at + 1;
@@ -67,7 +67,7 @@ void SweepTable::Load(const std::string& text, int key_columns,
     if (whole) fields.resize(static_cast<std::size_t>(key_columns));
     const auto row = whole ? rows.find(fields) : rows.end();
     if (row == rows.end() || Has(row->second)) {
-      Refuse(path_, "line " + std::to_string(number) +
+      RefuseTable(path_, "line " + std::to_string(number) +
                         " is not of this sweep (scene, settings or version differ)");
     }
     lines_[row->second] = line;

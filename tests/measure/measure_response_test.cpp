@@ -61,12 +61,12 @@ Recording Pressed() {
 }
 
 /// What a screen has of the puck at a tick.
-using Screening = std::function<Pose(const Oracle&, std::int64_t)>;
+using Screening = std::function<DoublePose(const Oracle&, std::int64_t)>;
 
 /// The puck as it was `ticks` ago.
 Screening Past(std::int64_t ticks) {
   return [ticks](const Oracle& oracle, std::int64_t tick) {
-    return Pose(*oracle.At(std::max<std::int64_t>(0, tick - ticks), 0));
+    return DoublePose(*oracle.At(std::max<std::int64_t>(0, tick - ticks), 0));
   };
 }
 
@@ -74,7 +74,7 @@ Screening Past(std::int64_t ticks) {
 Screening Guessed(std::int64_t ticks) {
   return [ticks](const Oracle& oracle, std::int64_t tick) {
     const std::int64_t pressed = tick / 100 * 100;
-    Pose pose(*oracle.At(tick, 0));
+    DoublePose pose(*oracle.At(tick, 0));
     if (pressed < 100 || tick >= pressed + ticks) return pose;
     const BodyState before = *oracle.At(pressed - 1, 0);
     const double s = static_cast<double>(tick - pressed + 1) * kH;
@@ -92,7 +92,7 @@ void Show(Recording* run, const Oracle& oracle, int peer, std::int64_t late_us,
     view.id = {0};
     view.role = {0};
     view.authority = {0};
-    const Pose pose = screening(oracle, tick);
+    const DoublePose pose = screening(oracle, tick);
     view.x = {static_cast<float>(pose.position.x())};
     view.y = {static_cast<float>(pose.position.y())};
     view.angle = {0};
@@ -146,7 +146,7 @@ TEST(Response, AnInputThatActsLaterWasReadEarlier) {
 
 TEST(Response, IsNotGivenWhereAScreenNeverAnswersOrThereAreNoTimes) {
   const Screening straight = [](const Oracle& oracle, std::int64_t tick) {
-    return Pose({Pose(*oracle.At(tick, 0)).position.x(), 0}, 0);
+    return DoublePose({DoublePose(*oracle.At(tick, 0)).position.x(), 0}, 0);
   };
   const Measures m = Response(Past(0), Past(0), straight);
   EXPECT_TRUE(m.response_own_ms);

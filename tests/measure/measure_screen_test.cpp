@@ -34,28 +34,28 @@ const char* const kDisc = "[[part]]\nname = \"one\"\ncircle = 0.5\n";
 
 TEST(Extent, AShiftDisplacesEveryPointByItself) {
   for (const char* shape : {kBox, kDisc}) {
-    EXPECT_DOUBLE_EQ(ExtentOf(shape).Displacement(Pose({3, 5}, 1), Pose({0, 1}, 1)), 5);
+    EXPECT_DOUBLE_EQ(ExtentOf(shape).Displacement(DoublePose({3, 5}, 1), DoublePose({0, 1}, 1)), 5);
   }
 }
 
 TEST(Extent, AQuarterTurnOfABoxDisplacesItsCornersMost) {
   // A corner at 2.5 m moves along a chord of 2 sin(45 degrees) times that.
-  EXPECT_NEAR(ExtentOf(kBox).Displacement(Pose({7, 1}, kPi / 2), Pose({7, 1}, 0)),
+  EXPECT_NEAR(ExtentOf(kBox).Displacement(DoublePose({7, 1}, kPi / 2), DoublePose({7, 1}, 0)),
               2.5 * std::sqrt(2.0), 1e-12);
 }
 
 TEST(Extent, TheMaterialOfADiscTurnsThoughItsOutlineDoesNot) {
   const Extent disc = ExtentOf(kDisc);
-  EXPECT_NEAR(disc.Displacement(Pose({0, 0}, 0.2), Pose({0, 0}, 0)), std::sin(0.1), 1e-12);
-  EXPECT_NEAR(disc.Displacement(Pose({1, 0}, kPi), Pose({0, 0}, 0)), 2, 1e-12);
-  EXPECT_NEAR(disc.Displacement(Pose({0, 0}, 4 * kPi), Pose({0, 0}, 0)), 0, 1e-12);
+  EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 0.2), DoublePose({0, 0}, 0)), std::sin(0.1), 1e-12);
+  EXPECT_NEAR(disc.Displacement(DoublePose({1, 0}, kPi), DoublePose({0, 0}, 0)), 2, 1e-12);
+  EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 4 * kPi), DoublePose({0, 0}, 0)), 0, 1e-12);
 }
 
 TEST(Extent, IsTheLargestOverAllPointsOfTheShape) {
   // Points all over the box, by brute force, for turns and shifts of all sizes.
   const Extent box = ExtentOf(kBox);
   for (int k = 0; k < 20; ++k) {
-    const Pose a({0.1 * k, -0.3 * k}, 0.37 * k), b({1, 2}, -0.11 * k);
+    const DoublePose a({0.1 * k, -0.3 * k}, 0.37 * k), b({1, 2}, -0.11 * k);
     double most = 0;
     for (int i = -30; i <= 30; ++i) {
       for (int j = -30; j <= 30; ++j) {
@@ -84,7 +84,7 @@ a = "one"
 b = "ball"
 )");
   EXPECT_NEAR(body.radius(), 4.5, 1e-6);
-  EXPECT_NEAR(body.Displacement(Pose({0, 0}, 0.1), Pose({0, 0}, 0)), 2 * std::sin(0.05) * 4.5,
+  EXPECT_NEAR(body.Displacement(DoublePose({0, 0}, 0.1), DoublePose({0, 0}, 0)), 2 * std::sin(0.05) * 4.5,
               1e-6);
 }
 

@@ -57,8 +57,8 @@ TEST(ViewAge, IsTheTurnsWhereABodyOnlyTurns) {
   BodyPath truth(0, 300), shown(0, 300);
   for (std::int64_t tick = 0; tick <= 300; ++tick) {
     const auto turn = [](double t) { return 0.002 * t * t; };
-    truth.Set(tick, Pose({5, 5}, turn(static_cast<double>(tick))), true);
-    shown.Set(tick, Pose({5, 5}, turn(static_cast<double>(tick) - 9)), true);
+    truth.Set(tick, DoublePose({5, 5}, turn(static_cast<double>(tick))), true);
+    shown.Set(tick, DoublePose({5, 5}, turn(static_cast<double>(tick) - 9)), true);
   }
   const ViewAge age = FitAge(shown, truth, 1, 100, 131, 64);
   EXPECT_TRUE(age.told);
@@ -144,8 +144,8 @@ TEST(Seen, AVelocityThatIsATenthOffForHalfASecondIsAndOneThatIsATwentiethIsNot) 
 struct Made {
   Made(const Path& true_path, const Path& shown_path) : truth(0, 256), shown(0, 256) {
     for (std::int64_t tick = 0; tick <= 256; ++tick) {
-      truth.Set(tick, Pose(true_path(tick)), true);
-      shown.Set(tick, Pose(shown_path(tick)), true);
+      truth.Set(tick, DoublePose(true_path(tick)), true);
+      shown.Set(tick, DoublePose(shown_path(tick)), true);
     }
     ages.emplace(shown, truth, 0, 64);
   }

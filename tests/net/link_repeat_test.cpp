@@ -17,7 +17,7 @@ constexpr std::int64_t kTickUs = 16'667, kOneWayUs = 50'000;
 
 Bytes Text(const std::string& text) { return Bytes(text.begin(), text.end()); }
 
-struct UnderWay {
+struct InFlight {
   std::int64_t due_us = 0;
   Bytes datagram;
 };
@@ -42,9 +42,9 @@ struct Path {
     });
   }
 
-  void Hear(Link& link, std::vector<UnderWay>* queue) {
-    std::vector<UnderWay> left;
-    for (const UnderWay& each : *queue) {
+  void Hear(Link& link, std::vector<InFlight>* queue) {
+    std::vector<InFlight> left;
+    for (const InFlight& each : *queue) {
       if (each.due_us > now_us) {
         left.push_back(each);
         continue;
@@ -69,7 +69,7 @@ struct Path {
   }
 
   Link a{kSession}, b{kSession};
-  std::vector<UnderWay> to_a, to_b;
+  std::vector<InFlight> to_a, to_b;
   std::int64_t now_us = 0, heard_us = -1;
   int full_datagrams = 0, answers = 0;
   std::size_t sent_bytes = 0;

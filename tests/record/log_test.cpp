@@ -11,7 +11,7 @@
 #include "common/base/random.h"
 #include "common/codec/codec.h"
 #include "common/record/log_file.h"
-#include "tests/support/count_allocations.h"
+#include "tests/support/allocations/count_allocations.h"
 #include "tests/support/temporary_file.h"
 
 namespace seam {

@@ -240,7 +240,7 @@ TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
   before.protocol = 6;  // its bodies had ids of 16 bits
   EXPECT_EQ(refusal(Encode(before)),
             file.path() + ": recorded with protocol 6; this program reads protocol 8 to 12");
-  before.protocol = kOldestRecorded;
+  before.protocol = kOldestReadableProtocol;
   EXPECT_EQ(refusal(Encode(before)), "read") << "on the bus nothing has changed since";
   // The beginning of protocol 2's room_t: hash, utime, sequence, protocol.
   const Bytes older = {0xfc, 0x29, 0x58, 0x2c, 0x30, 0xd1, 0x35, 0x4e, 0, 0, 0, 0, 0, 0,   0,

@@ -48,7 +48,7 @@ TEST_F(InterestLook, InASmallRoomAllIsCloseToEveryone) {
   Begin({0, 500}, 2);
   GiveAnn(0);
   EXPECT_TRUE(Look().empty());
-  EXPECT_EQ(interest_->Of(kAnn, 1), Concern::kClose);
+  EXPECT_EQ(interest_->Of(kAnn, 1), Relevance::kClose);
 }
 
 TEST_F(InterestLook, WhatIsWithinReachOfAnyThingThatAPeerHoldsIsNear) {
@@ -62,16 +62,16 @@ TEST_F(InterestLook, WhatIsWithinReachOfAnyThingThatAPeerHoldsIsNear) {
   Begin(places);
   for (int i = 0; i < 6; ++i) GiveAnn(i);
   Look();
-  for (int i = 0; i < 8; ++i) EXPECT_EQ(interest_->Of(kAnn, i), Concern::kNear) << i;
-  EXPECT_EQ(interest_->Of(kAnn, 8), Concern::kFar);
-  EXPECT_EQ(interest_->Of(kWatcher, 8), Concern::kNear) << "who only watches is near all";
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(interest_->Of(kAnn, i), Relevance::kNear) << i;
+  EXPECT_EQ(interest_->Of(kAnn, 8), Relevance::kFar);
+  EXPECT_EQ(interest_->Of(kWatcher, 8), Relevance::kNear) << "who only watches is near all";
 }
 
 TEST_F(InterestLook, WhatComesNearIsToldOnce) {
   Begin({0, 10, 80, 50});
   GiveAnn(0);
   Look();
-  EXPECT_EQ(interest_->Of(kAnn, 2), Concern::kFar);
+  EXPECT_EQ(interest_->Of(kAnn, 2), Relevance::kFar);
   EXPECT_TRUE(Look().empty());
   GiveAnn(3);
   const std::vector<Interest::Risen> risen = Look();
@@ -84,7 +84,7 @@ TEST_F(InterestLook, WhatComesNearIsToldOnce) {
 TEST_F(InterestLook, WhoCameAfterTheLastLookIsNearAll) {
   Begin({0, 500});
   Look();
-  EXPECT_EQ(interest_->Of(7, 1), Concern::kNear);
+  EXPECT_EQ(interest_->Of(7, 1), Relevance::kNear);
 }
 
 }  // namespace interest_look_test

@@ -21,7 +21,8 @@ class NewestStatesTest : public ::testing::Test {
         newest_(world_, kHz) {}
 
   /// The disc at x m after a tick, moving with vx m/s.
-  News Tell(std::int64_t tick, double x, double vx, int epoch = 1, double repeat_s = kNewsRepeat) {
+  News Tell(std::int64_t tick, double x, double vx, int epoch = 1,
+            double repeat_s = kStateRepeatS) {
     States states;
     states.tick = tick;
     states.id = {0};
@@ -65,8 +66,8 @@ TEST_F(NewestStatesTest, ItIsToldAgainNowAndThenAndWhenSomebodyElseSimulatesIt) 
 TEST_F(NewestStatesTest, WhatIsSaidForASilentHolderIsToldAllTwiceAsOften) {
   Tell(0, 0, 2);
   const int quarter = kHz / 4;
-  EXPECT_EQ(Tell(quarter - 1, 2.0 * (quarter - 1) / kHz, 2, 1, kNewsRepeatSilent), News::kNobody);
-  EXPECT_EQ(Tell(quarter, 0.5, 2, 1, kNewsRepeatSilent), News::kAll);
+  EXPECT_EQ(Tell(quarter - 1, 2.0 * (quarter - 1) / kHz, 2, 1, kStateRepeatSilentS), News::kNobody);
+  EXPECT_EQ(Tell(quarter, 0.5, 2, 1, kStateRepeatSilentS), News::kAll);
   EXPECT_EQ(Tell(2 * quarter, 1, 2), News::kNobody) << "its holder is heard again";
 }
 

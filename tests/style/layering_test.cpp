@@ -181,6 +181,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/draw", "render/(canvas|playback)"},
       {"render/export", "render/canvas"},
       {"render/page", "render/(canvas|draw|playback)"},
+      {"tests/support/allocations", "none"},
       {"tests/support/browser", "tests/support"},
       {"tests/support/plan", "none"},
       {"tests/support/soak", "tests/support"},

@@ -1,7 +1,7 @@
 #pragma once
-/// Watches, at every virtual instant of a cluster, who believes to have authority and whom the
-/// server names. Peers that have not applied the same edits count other mechanisms: they are left
-/// out until they have.
+/// Checks at every virtual instant of a cluster which peers believe to have authority, and which
+/// peer the server names. Peers with another revision number their mechanisms differently: they are
+/// skipped until they have applied the same edits.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace seam {
 
 struct AuthorityWatch {
-  std::int64_t instants = 0, one = 0, none = 0, several = 0;  ///< who believes to have a mechanism
+  std::int64_t instants = 0, one = 0, none = 0, several = 0;  ///< by the number of believed holders
   int two_holders_of_an_epoch = 0;  ///< clients that believed to have the same epoch
   int two_named_in_an_epoch = 0;    ///< peers that the server's own table named in the same epoch
   int longest_none = 0, current_none = 0;
@@ -45,7 +45,7 @@ struct AuthorityWatch {
   }
 
  private:
-  using Mechanism = std::pair<int, int>;                                    // revision, number
+  using Mechanism = std::pair<int, int>;                                    // revision, index
   using HolderOfEpoch = std::map<std::pair<Mechanism, std::int64_t>, int>;  // by epoch: peer
 
   static int Contradicts(HolderOfEpoch* known, Mechanism mechanism, std::int64_t epoch, int peer) {

@@ -19,8 +19,7 @@ chain = [[-200, 0], [200, 0]]
 friction = 0.8
 )";
 
-/// `character` are more lines of [[character]], which may be followed by other tables; `script` is
-/// what ann does.
+/// `character`: more lines of [[character]], which other tables may follow; `script`: ann's inputs.
 inline Scene CharacterScene(const std::string& character, const std::string& script = "[[0, {}]]",
                             const std::string& ground = kFlatGround) {
   const bool passive = character.find("\"passive\"") != std::string::npos;
@@ -30,7 +29,7 @@ inline Scene CharacterScene(const std::string& character, const std::string& scr
   return ParseScene(kCharacterSolver + player + ground + head + character, "hero.toml");
 }
 
-/// What can be seen of the hero.
+/// Visible state of the hero.
 struct Hero {
   Vec2 centre{0, 0}, velocity{0, 0};  ///< of mass, m and m/s
   float mass = 0;                     ///< kg
@@ -58,7 +57,7 @@ inline Hero Look(const ScriptedWorld& run) {
   return hero;
 }
 
-/// A blow of so many N s on the middle of the torso.
+/// Applies an impulse to the middle of the torso, N s.
 inline void Shove(ScriptedWorld* run, Vec2 impulse) {
   const int torso = run->Body("hero.torso");
   BodyState state = run->world.Read(torso);
@@ -66,7 +65,7 @@ inline void Shove(ScriptedWorld* run, Vec2 impulse) {
   run->world.Write(torso, state);
 }
 
-/// Whether it stands at rest 6 s after a blow of `impulse` N s, without its head ever having come
+/// True if the hero stands at rest 6 s after an impulse of `impulse` N s, and its head was never
 /// near the ground.
 inline bool StandsUnder(float impulse) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n"));
@@ -79,8 +78,8 @@ inline bool StandsUnder(float impulse) {
   return Look(run).upright() && Look(run).velocity.norm() < 0.1f;
 }
 
-/// N m by which the hero's motors turned in the last of the engine's steps. Requires a scene
-/// without other joints. Takes a barrier, by which the world is built anew.
+/// Returns the torques of the hero's motors in the engine's last step, N m. Requires a scene
+/// without other joints. Takes a barrier, so the world is rebuilt.
 inline std::vector<float> MotorTorques(ScriptedWorld* run) {
   const WorldSnapshot snapshot = run->world.Barrier();
   const Solver& solver = run->world.scene().solver;
@@ -93,7 +92,7 @@ inline std::vector<float> MotorTorques(ScriptedWorld* run) {
   return torques;
 }
 
-/// rad by which a joint of the scene is beyond its limits, at most.
+/// Returns the largest angle by which a joint of the scene exceeds its limits, rad.
 inline double BeyondLimits(const ScriptedWorld& run) {
   const Scene& scene = run.world.scene();
   double beyond = 0;

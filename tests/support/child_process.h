@@ -1,5 +1,5 @@
 #pragma once
-/// A program that a test starts, waits for within bounds, and ends by its process id.
+/// A program that a test starts, waits for with a timeout, and ends by its process id.
 
 #include <signal.h>
 #include <sys/mman.h>
@@ -14,7 +14,7 @@ namespace seam {
 
 class ChildProcess {
  public:
-  /// Starts argv[0] (looked up in PATH); what it writes is kept for output().
+  /// Starts argv[0] (looked up in PATH); keeps its output for output().
   explicit ChildProcess(const std::vector<std::string>& argv)
       : output_fd_(memfd_create("output", MFD_CLOEXEC)) {
     std::vector<char*> pointers;
@@ -35,7 +35,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Waits at most `seconds` for its end; true when it has ended.
+  /// Waits at most `seconds` for the program's end; returns true if it has ended.
   bool Wait(int seconds) {
     for (int i = 0; i < seconds * 100 && pid_ > 0; ++i) {
       int status = 0;
@@ -49,7 +49,7 @@ class ChildProcess {
     return pid_ <= 0;
   }
 
-  /// Sends `signal` and waits; kills it when that does not help.
+  /// Sends `signal` and waits; kills the program if it does not end.
   void Stop(int signal) {
     if (pid_ <= 0) return;
     kill(pid_, signal);
@@ -58,7 +58,7 @@ class ChildProcess {
     Wait(10);
   }
 
-  /// Of its exit, 128 + signal when it was killed, -1 while it runs.
+  /// Exit status; 128 + signal if the program was killed; -1 while it runs.
   int exit_status() const { return exit_status_; }
 
   std::string output() const {

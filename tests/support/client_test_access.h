@@ -1,5 +1,5 @@
 #pragma once
-/// A client's own voice, to say with it what no client of ours would say.
+/// Sends messages in a client's name that no honest client would send.
 
 #include "client/client.h"
 #include "common/codec/codec.h"
@@ -7,12 +7,12 @@
 namespace seam {
 
 struct ClientTestAccess {
-  /// Reliably, in its session, with its next Flush.
+  /// Sends a message reliably in the client's session, with its next Flush.
   template <class Message>
   static void Say(Client* client, const Message& message) {
     client->link_->SendReliable(Encode(message));
   }
-  /// Reliable messages that wait to be acknowledged.
+  /// Number of reliable messages not yet acknowledged.
   static std::size_t Waiting(const Client& client) {
     return client.link_ == nullptr ? 0 : client.link_->waiting();
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// A room for scripts that is not one: parts and players by name, and a list of what was asked for.
+/// A fake room for scripts: parts and players by name, and a list of the requested actions.
 
 #include <map>
 #include <string>

@@ -10,8 +10,8 @@
 
 namespace seam {
 
-/// Peer 0 is the authority, a world alone. Peer 1 has a copy: of all bodies but those in `own`
-/// (mechanism indices), which are its own and of which nothing is heard.
+/// Peer 0 is the authority: a world without a replica. Peer 1 follows all mechanisms except `own`
+/// (mechanism indices): over these it has authority itself, and receives no states.
 class FollowedCopy {
  public:
   FollowedCopy(const std::string& scene, const std::string& rule, std::int64_t late,
@@ -30,7 +30,7 @@ class FollowedCopy {
     copy.StartAt(0);
   }
 
-  /// One tick of both; a message every other tick.
+  /// Steps both by one tick; sends a message every other tick.
   void Step() {
     truth.Step();
     copy.Step();
@@ -43,24 +43,24 @@ class FollowedCopy {
   void Steps(int ticks) {
     for (int i = 0; i < ticks; ++i) Step();
   }
-  /// As the copy would say it now, after what was received has been worked in.
+  /// Returns the position error of the copy's body now, with the received states applied.
   Vec2 Apart(int body) const {
     return copy_world().Read(body).position - truth.Read(body).position;
   }
-  /// What the players see.
+  /// Returns a body's displayed position at the copy.
   Vec2 Shown(int body) const {
     const View view = copy.MakeView();
     return {view.x[static_cast<std::size_t>(body)], view.y[static_cast<std::size_t>(body)]};
   }
   const World& copy_world() const { return copy.world(); }
-  /// Behind the replica's back: its copy of a body is elsewhere, or moves otherwise.
+  /// Overwrites the state of the copy's body without the replica's knowledge.
   void PutCopy(int body, const BodyState& state) {
     ReplicaTestAccess::world(copy).Write(body, state);
   }
 
   World truth;
   Replica copy;
-  bool talking = true;  ///< false: messages wait
+  bool talking = true;  ///< false: messages are held back
 
  private:
   States Message() const {

@@ -1,5 +1,5 @@
 #pragma once
-/// scenes/gas.toml with another number of discs, by the rule that is written in it.
+/// scenes/gas.toml with another number of discs, by the rule stated in that file.
 
 #include <gtest/gtest.h>
 
@@ -14,15 +14,15 @@
 
 namespace seam {
 
-/// Of a room without gravity, J.
+/// Returns the mechanical energy of a room without gravity, J.
 inline double KineticEnergy(const World& world) {
   std::vector<BodyState> states;
   for (int b = 0; b < world.body_count(); ++b) states.push_back(world.Read(b));
   return MechanicalEnergy(world.scene(), world.composition(), states);  // without gravity
 }
 
-/// The scene's text for `discs` discs, a multiple of 20: the same density and the same speeds in a
-/// longer room. 200 is the file itself.
+/// Returns the scene's text for `discs` discs, a multiple of 20: the same density and speeds in a
+/// longer room. 200 gives the file itself.
 inline std::string GasRoomText(int discs) {
   EXPECT_EQ(discs % 20, 0);
   std::ifstream in("scenes/gas.toml");

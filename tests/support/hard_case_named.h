@@ -1,5 +1,5 @@
 #pragma once
-/// A hard case by its name, for tests.
+/// Finds a hard case by its name, for tests.
 
 #include <gtest/gtest.h>
 

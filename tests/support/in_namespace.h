@@ -10,12 +10,12 @@ namespace seam {
 
 class InNamespace : public ::testing::Test {
  protected:
-  /// Multicast over loopback, as docs/recordings.md says.
+  /// Sets up multicast over loopback, as in docs/recordings.md.
   static constexpr const char* kMulticast = "ip link set lo up; ip route add 224.0.0.0/4 dev lo";
 
-  /// True inside, where the test does its work. Outside it runs all wanted tests of this suite
-  /// inside, once, after typing `network` there, and returns false with this test's verdict given:
-  /// a failure, or skip_reason().
+  /// Returns true inside the namespace, where the test does its work. Outside, runs all selected
+  /// tests of this suite inside, once, after the shell commands `network`; then returns false with
+  /// this test's verdict given: a failure, or skip_reason().
   bool Enter(const std::string& network = kMulticast);
   const std::string& skip_reason() const { return skip_reason_; }
 
@@ -23,7 +23,7 @@ class InNamespace : public ::testing::Test {
   std::string skip_reason_;
 };
 
-/// Runs the rest of the test inside only; takes Enter's argument.
+/// Runs the rest of the test only inside the namespace; takes Enter's argument.
 #define SEAM_INSIDE_ONLY(...)                                  \
   if (!Enter(__VA_ARGS__)) {                                   \
     if (!skip_reason().empty()) GTEST_SKIP() << skip_reason(); \

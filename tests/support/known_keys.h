@@ -1,5 +1,5 @@
 #pragma once
-/// The keys that the scene loader knows, as it says itself.
+/// The keys that the scene loader knows, taken from its error messages.
 
 #include <exception>
 #include <sstream>
@@ -10,8 +10,8 @@
 
 namespace seam {
 
-/// The keys of the table that `scene` ends with, by the loader's complaint about one that it does
-/// not know. Empty when it complains about something else before.
+/// Returns the known keys of the last table in `scene`, from the loader's error about an unknown
+/// key. Empty if the loader reports another error first.
 inline std::vector<std::string> KnownKeys(const std::string& scene) {
   std::vector<std::string> keys;
   try {

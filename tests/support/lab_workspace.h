@@ -1,5 +1,5 @@
 #pragma once
-/// Files of a test of seam-lab: a folder gone with the object, and where the program is.
+/// Files of a test of seam-lab: a folder that is removed with the object, and the program's path.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ class LabWorkspace {
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(*this / name, std::ios::binary) << text;
   }
-  /// Of all files, in order.
+  /// Lists all files, in order.
   std::vector<std::string> Names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
@@ -45,7 +45,7 @@ class LabWorkspace {
   std::string folder_;
 };
 
-/// The seam-lab that was built with these tests: in $SEAM_BIN, or beside them.
+/// Returns the path of the seam-lab built with these tests: in $SEAM_BIN, or beside them.
 inline std::string LabProgram() {
   const char* const folder = std::getenv("SEAM_BIN");
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");

@@ -14,7 +14,7 @@
 namespace seam {
 
 struct SessionPlan {
-  std::string name;  ///< of its files
+  std::string name;  ///< base name of its files
   std::string scene = "scenes/crossing.toml";
   std::vector<std::string> server_flags;
   std::map<std::string, std::vector<std::string>> clients;  ///< flags by name
@@ -26,29 +26,29 @@ class LiveSession {
   /// its own for each session in the namespace.
   LiveSession(const Workspace& folder, int index, const SessionPlan& plan);
 
-  /// Waits until the logger listens, then starts the server and the clients; false when the logger
-  /// does not come.
+  /// Waits until the logger listens, then starts the server and the clients; returns false if the
+  /// logger does not start.
   bool Begin();
-  /// Starts a client, again if it has ended. `terminal`: its standard input, -1 for none.
+  /// Starts a client, or restarts one that has ended. `terminal`: its standard input, -1 for none.
   Program& Join(const std::string& name, const std::vector<std::string>& flags, int terminal = -1);
-  /// Waits for the server and the clients to end by themselves, then ends the logger. False when
-  /// one of them does not end within `seconds`.
+  /// Waits for the server and the clients to end by themselves, then ends the logger. Returns false
+  /// if one of them does not end within `seconds`.
   bool Finish(double seconds);
 
   Program& server() { return *server_; }
   Program& client(const std::string& name) { return *clients_.at(name); }
-  /// What the logger has captured so far.
+  /// Returns the messages captured by the logger so far.
   Recording Captured() const;
-  /// Waits at most `seconds` until what was captured is `enough`.
+  /// Waits at most `seconds` until the captured messages are `enough`.
   bool WaitUntil(const std::function<bool(const Recording&)>& enough, double seconds) const;
   std::string capture_path() const { return stem_ + ".lcm"; }
   const std::string& lcm_url() const { return lcm_url_; }
   std::string address() const { return "127.0.0.1:" + port_; }
-  /// For a failure's message: what all of them wrote.
+  /// Returns the output of all programs, for a failure's message.
   std::string Story() const;
 
  private:
-  /// Publishes on `channel` until the logger has written it; false when it does not.
+  /// Publishes on `channel` until the logger has written it; returns false if it never does.
   bool Probe(const std::string& channel);
 
   SessionPlan plan_;
@@ -57,11 +57,11 @@ class LiveSession {
   std::map<std::string, std::unique_ptr<Program>> clients_;
 };
 
-/// The whole number that stands before `word` in the last place where `text` has it, -1 for none:
+/// Returns the whole number before the last occurrence of `word` in `text`; -1: none.
 /// NumberBefore("12 ticks", " ticks") is 12.
 long NumberBefore(const std::string& text, const std::string& word);
 
-/// Number of the first event of `recording` whose text contains `text`, -1 when there is none.
+/// Returns the number of the first event of `recording` that contains `text`; -1: none.
 int FindEvent(const Recording& recording, const std::string& text);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// A world that does what it finds should change, like an oracle.
+/// A world that applies the edits that it proposes, like an oracle.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace seam {
 
-/// Steps, and applies what each step gives reason to. Returns all of it.
+/// Steps, and applies the edits that each step proposes. Returns all of them.
 inline std::vector<Edit> Live(World* world, int ticks) {
   std::vector<Edit> all;
   for (int i = 0; i < ticks; ++i) {

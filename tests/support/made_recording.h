@@ -1,5 +1,5 @@
 #pragma once
-/// Recordings made by hand: one moving body and one that stands, shown by peers who see it right.
+/// Recordings made by hand: one moving body and one that stands still, displayed without error.
 
 #include <cstdint>
 #include <functional>
@@ -15,7 +15,7 @@ constexpr double kH = 1.0 / kHz;
 /// A body as a function of the tick.
 using Path = std::function<BodyState(std::int64_t)>;
 
-/// A state by its numbers: m, m, m/s, m/s, rad.
+/// Makes a state from its numbers: m, m, m/s, m/s, rad.
 inline BodyState State(double x, double y, double vx = 0, double vy = 0, double angle = 0) {
   BodyState state;
   state.position = Vec2(static_cast<float>(x), static_cast<float>(y));
@@ -24,14 +24,14 @@ inline BodyState State(double x, double y, double vx = 0, double vy = 0, double 
   return state;
 }
 
-/// Moves along x at `speed`.
+/// Returns a motion along x at `speed`.
 inline Path Moving(double speed) {
   return [speed](std::int64_t tick) {
     return State(speed * kH * static_cast<double>(tick), 1, speed, 0);
   };
 }
 
-/// A view of bodies 3 and 7, of which 7 stands still; peer 0 has authority unless told otherwise.
+/// Returns a view of bodies 3 and 7; body 7 stands still. By default peer 0 has authority.
 inline View MakeView(int peer, std::int64_t tick, const BodyState& body) {
   View view;
   view.peer = peer;
@@ -50,7 +50,7 @@ inline View MakeView(int peer, std::int64_t tick, const BodyState& body) {
   return view;
 }
 
-/// Views of `peers` peers that all show `motion`, from tick 0 to `last_tick`.
+/// Returns the views of `peers` peers that all show `motion`, from tick 0 to `last_tick`.
 inline Recording MakeRecording(int peers, std::int64_t last_tick, const Path& motion) {
   Recording recording;
   recording.room.tick_hz = kHz;
@@ -65,7 +65,7 @@ inline Recording MakeRecording(int peers, std::int64_t last_tick, const Path& mo
   return recording;
 }
 
-/// The truth of `motion`.
+/// Returns the oracle's recording of `motion`.
 inline Oracle MakeOracle(std::int64_t last_tick, const Path& motion) {
   return OracleFromRecording(MakeRecording(1, last_tick, motion));
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Mistakes of an operator: a folder with bad scenes, logs and files, and the judge of what a
-/// program says of them.
+/// Mistakes of an operator: a folder with bad scenes, logs and files, and checks of the error lines
+/// that programs print for them.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -32,8 +32,8 @@ constexpr const char* kTail =
 constexpr const char* kCrate = "[[part]]\nname = \"crate\"\nposition = [0, 2]\n";
 constexpr const char* kAxle = "[[joint]]\nname = \"axle\"\nkind = \"revolute\"\na = \"ground\"\n";
 
-/// Scenes with one mistake each, and what must be said of it. (tests/scene/scene_mistakes_test.cpp
-/// has every kind; here is what reaches the operator.)
+/// Scenes with one mistake each, and the expected error text. (tests/scene/scene_mistakes_test.cpp
+/// has every kind; here are those that an operator sees.)
 struct BadScene {
   const char* name;
   std::string text;
@@ -65,7 +65,7 @@ inline const std::vector<BadScene>& BadScenes() {
   return scenes;
 }
 
-/// What is made once and copied into each mistake's folder.
+/// Files that are made once and copied into each mistake's folder.
 class BadInput : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -116,7 +116,7 @@ class BadInput : public ::testing::Test {
     sceneless.Publish("SEAM.r.view.0", 1, Encode(view));
   }
 
-  /// A command that is being judged, in a folder of its own.
+  /// A command under test, in a folder of its own.
   struct Running {
     explicit Running(const Mistake& m) : mistake(m) {
       fs::copy(made_->path(), folder.path(), fs::copy_options::recursive);
@@ -147,7 +147,7 @@ class BadInput : public ::testing::Test {
     std::unique_ptr<Program> program;
   };
 
-  /// A few at a time.
+  /// Runs a few commands at a time.
   static void Judge(const std::vector<Mistake>& mistakes) {
     std::deque<Running> running;
     for (const Mistake& mistake : mistakes) {
@@ -162,7 +162,7 @@ class BadInput : public ::testing::Test {
   static inline std::unique_ptr<Workspace> made_;
 };
 
-/// `words` after the program's name, and a good rest.
+/// Makes a mistake of `words` after the program's name; all other arguments are correct.
 inline Mistake Server(Words words, const std::string& says) {
   words.insert(words.begin(), "seam-server");
   if (std::count(words.begin(), words.end(), "--lcm-url") == 0) {

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene with many hand-overs, and how long each took.
+/// A scene with many hand-overs, and the duration of each.
 
 #include <string>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace seam {
 
-/// `count` pendulums that swing over the seam between ann and bob and do not touch; each changes
-/// hands about every three seconds, for 20 s.
+/// Makes a scene of `count` pendulums that swing over the seam between ann and bob and do not
+/// touch; each is handed over about every three seconds, for 20 s.
 std::string Pendulums(int count);
 
-/// Milliseconds from each revocation to the grant of the epoch after it, ascending.
+/// Returns the times from each revocation to the grant of the epoch after it, ms, ascending.
 std::vector<double> HandOverMs(const Recording& recording);
 
 }  // namespace seam

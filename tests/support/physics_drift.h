@@ -1,6 +1,6 @@
 #pragma once
-/// Watches how far the engine itself has opened the joints of each peer's world, tick by tick:
-/// views may be as open and no more.
+/// Records the joint error that the engine itself leaves in each peer's world, tick by tick: the
+/// joint error of views must not exceed it.
 
 #include <cstdint>
 #include <map>
@@ -24,7 +24,7 @@ class PhysicsDrift {
       Look(client->peer(), client->replica()->world());
     }
   }
-  /// The worst joint of a peer's world after that tick, m; 0 when it was not looked at.
+  /// Returns the largest joint error of a peer's world after that tick, m; 0: not recorded.
   double At(int peer, std::int64_t tick) const {
     const auto found = peers_.find(peer);
     if (found == peers_.end()) return 0;

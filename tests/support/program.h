@@ -1,6 +1,6 @@
 #pragma once
-/// A program that a test runs as a user would: its output and its errors apart, its folder and its
-/// terminal chosen, its end awaited within bounds, and stopped by its process id.
+/// A program that a test runs as a user would: with separate output and errors, a chosen folder and
+/// terminal, and a timeout; stopped by its process id.
 
 #include <memory>
 #include <string>
@@ -8,34 +8,34 @@
 
 namespace seam {
 
-/// "seam-server" -> the absolute path of the program that was built with these tests: in $SEAM_BIN,
-/// or beside the tests.
+/// Returns the absolute path of a program built with these tests, such as "seam-server": in
+/// $SEAM_BIN, or beside the tests.
 std::string BuiltProgram(const std::string& name);
 
 class Program {
  public:
-  /// Starts argv[0] (looked up in PATH) in `folder` ("": here). Its standard input is the open
-  /// `terminal`, or empty when that is -1.
+  /// Starts argv[0] (looked up in PATH) in `folder` ("": the current one). Its standard input is
+  /// the open `terminal`, or empty if that is -1.
   explicit Program(const std::vector<std::string>& argv, const std::string& folder = "",
                    int terminal = -1);
-  /// Kills it when it still runs.
+  /// Kills the program if it still runs.
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Waits at most `seconds` for its end; true when it has ended.
+  /// Waits at most `seconds` for the program's end; returns true if it has ended.
   bool Wait(double seconds);
-  /// Waits at most `seconds` until its errors contain `text`; true when they do.
+  /// Waits at most `seconds` until its errors contain `text`; returns true if they do.
   bool WaitForErrors(const std::string& text, double seconds);
   void Signal(int signal);
 
   /// -1 when it has ended.
   int pid() const { return pid_; }
-  /// Of its exit, 128 + signal when it was killed, -1 while it runs.
+  /// Exit status; 128 + signal if the program was killed; -1 while it runs.
   int status() const { return status_; }
-  std::string output() const;  ///< what it has written to stdout so far
-  std::string errors() const;  ///< and to stderr
-  /// For a failure's message: status and both texts.
+  std::string output() const;  ///< text written to stdout so far
+  std::string errors() const;  ///< text written to stderr so far
+  /// Returns the status and both texts, for a failure's message.
   std::string Story() const;
 
  private:
@@ -44,7 +44,7 @@ class Program {
   int status_ = -1;
 };
 
-/// A pseudo terminal: what is typed here is read by the program that has `terminal()` as its input.
+/// A pseudo terminal: the program that has `terminal()` as its input reads the text typed here.
 class PseudoTerminal {
  public:
   PseudoTerminal();
@@ -55,7 +55,7 @@ class PseudoTerminal {
   bool good() const { return terminal_ >= 0; }
   int terminal() const { return terminal_; }
   void Type(const std::string& keys);
-  /// Whether it commands over whole lines and echoes, as a shell's terminal does.
+  /// True if the terminal is in line mode with echo, as a shell's terminal is.
   bool IsCooked() const;
   /// Closes this end, as when the window is closed.
   void HangUp();
@@ -64,7 +64,7 @@ class PseudoTerminal {
   int keyboard_ = -1, terminal_ = -1;
 };
 
-/// A folder of a test, gone with the object.
+/// A temporary folder of a test, removed with the object.
 class Workspace {
  public:
   Workspace();
@@ -74,7 +74,7 @@ class Workspace {
   const std::string& path() const { return path_; }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
   void Write(const std::string& name, const std::string& text) const;
-  /// Every file and folder in it with its content: equal before and after when nothing was written.
+  /// Returns every file and folder with its content: equal before and after if nothing was written.
   std::vector<std::string> Content() const;
 
  private:

@@ -235,7 +235,7 @@ class RandomMessages {
   Random random_;
 };
 
-/// The fields of a message, tied: what comparison goes by.
+/// Returns the fields of a message as a tie, for comparison.
 template <class Message>
 auto Fields(const Message& m) {
   return MessageTraits<Message>::Fields(m);

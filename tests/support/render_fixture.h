@@ -1,5 +1,5 @@
 #pragma once
-/// What the renderer's tests share: pages and worlds of the synthetic session, and their pixels.
+/// Shared by the renderer's tests: pages and worlds of the synthetic session, and their pixels.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@
 
 namespace seam {
 
-/// A folder of one test, gone afterwards.
+/// A temporary folder of one test.
 class Folder {
  public:
   Folder() {
@@ -35,7 +35,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  /// Names in it, sorted.
+  /// Returns the file names in the folder, sorted.
   std::vector<std::string> List() const {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_))
@@ -74,7 +74,7 @@ inline Image RenderedPage(const Page& page, double now_s) {
   return Rendered(list);
 }
 
-/// The world of peer 1 at a tick on a page of its own.
+/// Draws the world of peer 1 at a tick on a page of its own.
 inline Image RenderedWorld(const Playback& playback, double tick, Viewport* viewport,
                            bool cull = true) {
   DrawList list(TestFont());
@@ -93,7 +93,7 @@ inline Colour PixelAt(const Image& image, const Vec2& px) {
   return {p[0], p[1], p[2], 255};
 }
 
-/// Pixels of the rectangle that differ.
+/// Counts the pixels of the rectangle that differ.
 inline int Differences(const Image& a, const Image& b, int x0, int y0, int x1, int y1) {
   int count = 0;
   for (int y = y0; y < y1; ++y)
@@ -115,7 +115,7 @@ class RenderLog : public ::testing::Test {
     synthetic::WriteLog(oracle_, synthetic::MakeOracleRecording());
   }
 
-  /// The frames of a folder, in order.
+  /// Returns the frames of a folder, in order.
   static std::vector<std::string> Frames(const std::string& folder) {
     std::set<std::string> paths;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -60,7 +60,7 @@ inline Scene MakeScene() {
   return scene;
 }
 
-/// Where a body is at a tick: carts run at 8 m/s, touch at kHitTick and go back at 5 m/s.
+/// Returns a body's pose at a tick: carts run at 8 m/s, touch at kHitTick and go back at 5 m/s.
 inline BodyState Truth(PartId id, double tick) {
   const Scene scene = MakeScene();
   BodyState state;
@@ -90,7 +90,7 @@ inline Oracle MakeOracle() {
   return oracle;
 }
 
-/// Views of peers 0 (server), 1 and 2; others' carts are shown `late_ticks` late.
+/// Views of peers 0 (server), 1 and 2; other players' carts are displayed `late_ticks` late.
 inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer",
                                const std::string& reconcile = "interleave") {
   Recording recording;
@@ -141,7 +141,7 @@ inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer
   return recording;
 }
 
-/// The same scene as a file would say it.
+/// Returns the same scene as the text of a scene file.
 inline std::string SceneText() {
   return R"(title = "Two carts meet"
 duration = 3
@@ -183,7 +183,7 @@ max = [18, 10]
 )";
 }
 
-/// What every peer's world would be, had they all been one.
+/// Returns the oracle's recording: the truth without any delay.
 inline Recording MakeOracleRecording() {
   Recording recording = MakeRecording(0, "oracle", "");
   recording.views.erase(1);
@@ -191,7 +191,7 @@ inline Recording MakeOracleRecording() {
   return recording;
 }
 
-/// Writes a recording as a session would have been logged, in the order of time.
+/// Writes a recording as the log of a session, in the order of time.
 inline void WriteLog(const std::string& path, Recording recording) {
   recording.room.scene_text = SceneText();
   LogWriter log(path);

@@ -1,6 +1,6 @@
 #pragma once
-/// For tests that make a replica's world go astray, as no caller of Replica may, and that watch
-/// what it keeps.
+/// Access for tests that corrupt a replica's world, as no caller of Replica may, and that watch its
+/// queues.
 
 #include <map>
 #include <string>
@@ -11,15 +11,15 @@ namespace seam {
 
 struct ReplicaTestAccess {
   static World& world(Replica& replica) { return replica.world_; }
-  /// Whether what is at `at` is shown to nobody here, and lies where it was when it was left
-  /// (Display::Leave).
+  /// True if the body is parked (Display::Leave) and `at` is outside the displayed area: its pose
+  /// here is old, and nobody sees it.
   static bool OutOfSight(const Replica& replica, int body, const Vec2& at) {
     const MovingBox& seen = replica.presence_.around();
     const bool within =
         (at.array() >= seen.min.array()).all() && (at.array() <= seen.max.array()).all();
     return replica.memory_.parked(body) && !within;
   }
-  /// Edits, states and rests that wait for something.
+  /// Returns the lengths of the queues of edits, states and rest commits, by name.
   static std::map<std::string, std::size_t> Queues(const Replica& replica) {
     return {{"edits ordered", replica.queued_.size()},
             {"edits found", replica.found_.size()},

@@ -1,6 +1,6 @@
 #pragma once
-/// One session until everything has come to rest, for tests: when it slept at its authorities, and
-/// when every peer had the same bits.
+/// One session until everything has come to rest, for tests: the tick at which all bodies slept at
+/// their authorities, and the tick at which all peers had the same bits.
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +13,15 @@ namespace seam {
 
 struct RestRun {
   bool all_awake_at_first = true;
-  bool owner_changed = false;     ///< of a mechanism that neither began nor ends with the server
+  bool owner_changed = false;     ///< some mechanism went from one client to another
   std::int64_t asleep_tick = -1;  ///< from this tick on all slept at their authorities; -1: never
   std::int64_t equal_tick = -1;   ///< from this tick on all peers had the same bits; -1: never
   float jump_m = 0;               ///< farthest that an authority's body moved when committed
-  bool agreed = false;            ///< all peers know the same to rest at the end
+  bool agreed = false;            ///< at the end the same bodies rest at all peers
   std::int64_t mismatches = 0;    ///< ticks with other hashes after a second of equal bits
   double quiet_bytes_per_s = -1;  ///< UDP payload of the busiest client, both ways, once all rest
 
-  /// From the last body's falling asleep to equality, s; -1: there was none.
+  /// Time from the last body's falling asleep to equality, s; -1: never equal.
   double seconds() const {
     if (asleep_tick < 0 || equal_tick < 0) return -1;
     return static_cast<double>(std::max<std::int64_t>(0, equal_tick - asleep_tick)) / 60.0;
@@ -33,7 +33,7 @@ class RestWatcher {
  public:
   explicit RestWatcher(Cluster& cluster) : cluster_(cluster) {}
 
-  /// Runs until all has rested for `quiet_s` after it was equal everywhere, or to `end_s`.
+  /// Runs until all bodies have rested for `quiet_s` with equal bits everywhere, or to `end_s`.
   RestRun Run(double end_s, double quiet_s) {
     const auto end = static_cast<std::int64_t>(end_s * 60);
     while (cluster_.server().tick() < end) {

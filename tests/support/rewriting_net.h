@@ -1,6 +1,6 @@
 #pragma once
-/// A client's network whose messages a test may change: the client is honest, what arrives from it,
-/// or at it, is not. All else of the conversation (sequences, acknowledgements) stays right.
+/// A client's network that lets a test change messages: the client is honest, the messages from it
+/// or to it are not. Sequence numbers and acknowledgements stay right.
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
-/// A world alone, whose players do what their scripts say: the single-world run of a scene file.
-/// What physics finds should change (what breaks, what joins) changes at once.
+/// A single world with scripted players: the single-world run of a scene file. Edits proposed by
+/// physics (breaks, bonds) are applied at once.
 
 #include <string>
 #include <vector>
@@ -13,11 +13,11 @@ class ScriptedWorld {
  public:
   explicit ScriptedWorld(const Scene& scene)
       : world(scene), before_(world.scene().players.size()) {}
-  /// Of scenes/`name`.toml; the tests run in the repository's root.
+  /// Loads scenes/`name`.toml; the tests run in the repository's root.
   explicit ScriptedWorld(const std::string& name)
       : ScriptedWorld(LoadScene("scenes/" + name + ".toml")) {}
 
-  /// Sets the inputs of the next tick, does what buttons going down do, and steps.
+  /// Sets the inputs of the next tick, applies the edits of newly pressed buttons, and steps.
   void Step() {
     const std::int64_t tick = world.tick() + 1;
     for (std::size_t p = 0; p < before_.size(); ++p) {
@@ -43,7 +43,7 @@ class ScriptedWorld {
     while (world.tick() < tick) Step();
   }
 
-  /// The body of a part that the scene names; -1 if there is none or it does not move.
+  /// Returns the body of a named part; -1 if there is none or it does not move.
   int Body(const std::string& part) const {
     for (const Part& p : world.scene().parts) {
       if (p.name != part) continue;

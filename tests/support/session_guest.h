@@ -1,5 +1,5 @@
 #pragma once
-/// The far end of a SessionTable: a player's half of the handshake and of the session, by hand.
+/// A client of a SessionTable: the player's half of the handshake and of the session, by hand.
 
 #include <memory>
 #include <optional>
@@ -16,7 +16,7 @@ namespace seam {
 struct Guest {
   static constexpr Address kServer{1, 7777};
 
-  /// At its own address of a network; its session's number is its port.
+  /// Makes a guest at an address of its own; its session number is its port.
   Guest(MemoryNetwork* network, std::uint16_t port, const std::string& guest)
       : Guest(network->Attach({0x7f000001, port}), port, guest) {}
   Guest(std::unique_ptr<Net> endpoint, std::uint64_t session, const std::string& guest)
@@ -36,11 +36,11 @@ struct Guest {
     join.key = key;
     SendLoose(Encode(join));
   }
-  /// What its link has to send.
+  /// Sends the queued messages of its link.
   void Flush(std::int64_t now_us) {
     link.Flush(now_us, [&](ByteView datagram) { net->Send(server, datagram); });
   }
-  /// Reads what came: tokens, keys and refusals; acknowledges it with the next Flush.
+  /// Reads the received datagrams for tokens, keys and refusals; the next Flush acknowledges them.
   void Read(std::int64_t now_us) {
     Address from;
     Bytes datagram;

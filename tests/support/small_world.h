@@ -9,8 +9,8 @@
 
 namespace seam {
 
-/// `solver` are lines of [solver]; `parts` the rest of the scene. No sleeping: nothing stops by
-/// rounding itself to rest.
+/// Makes a world: `solver` are lines of [solver], `parts` is the rest of the scene. Sleeping is
+/// off, so no slow body is stopped.
 inline std::unique_ptr<World> SmallWorld(const std::string& parts, const std::string& solver = "",
                                          const std::string& top = "") {
   const Scene scene =
@@ -22,7 +22,7 @@ inline void Steps(World* world, int ticks) {
   for (int i = 0; i < ticks; ++i) world->Step();
 }
 
-/// Enough digits for a float.
+/// Formats a number with enough digits for a float.
 inline std::string FloatDigits(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.9g", value);

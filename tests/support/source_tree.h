@@ -1,5 +1,5 @@
 #pragma once
-/// The sources of this repository as data, for tests of how they are written.
+/// The sources of this repository as data, for tests of their style and structure.
 
 #include <gtest/gtest.h>
 #include <regex.h>
@@ -24,7 +24,7 @@ class Regex {
   Regex& operator=(const Regex&) = delete;
 
   bool Matches(const std::string& text) const { return Find(text, 0).first; }
-  /// The first group of `text`; "" when it does not match.
+  /// Returns the first group of the match in `text`; "" if it does not match.
   std::string Group(const std::string& text) const { return Find(text, 1).second; }
 
  private:
@@ -32,18 +32,18 @@ class Regex {
   regex_t compiled_;
 };
 
-/// The repository: the nearest folder upwards that has the Makefile and lcmtypes/.
+/// Returns the repository's root: the nearest folder upwards with the Makefile and lcmtypes/.
 std::filesystem::path Root();
 
 struct Source {
-  std::string path;  ///< from the root, with slashes
+  std::string path;  ///< relative to the root, with slashes
   std::vector<std::string> lines;
-  std::vector<std::string> includes;  ///< what stands between the quotes or brackets
+  std::vector<std::string> includes;  ///< texts between the quotes or brackets
 };
 
 std::vector<std::string> Lines(const std::filesystem::path& path);
 
-/// All our files with one of `extensions` below `folders`, in order.
+/// Returns all our files with one of `extensions` below `folders`, in order.
 std::vector<Source> Sources(const std::vector<std::string>& folders,
                             const std::vector<std::string>& extensions);
 
@@ -52,7 +52,7 @@ inline const std::vector<std::string> kProduct = {"common", "server", "client", 
 
 inline std::vector<Source> Code() { return Sources(kCode, {".h", ".cpp"}); }
 
-/// Characters on the screen: a byte that continues a UTF-8 sequence takes no column.
+/// Returns the number of characters on the screen: UTF-8 continuation bytes take no column.
 inline std::size_t Columns(const std::string& line) {
   const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
   return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), begins));

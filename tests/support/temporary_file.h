@@ -1,5 +1,5 @@
 #pragma once
-/// A file for a test, gone afterwards.
+/// A temporary file for a test.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 
 namespace seam {
 
-/// A file name in a directory of this test alone; the directory goes with the object.
+/// A file name in a directory of this test alone; the directory is removed with the object.
 class TemporaryFile {
  public:
   TemporaryFile() {

@@ -14,14 +14,14 @@ namespace seam {
 inline const Address kHere{0x7f000001, 1}, kThere{0x7f000001, 2}, kOther{0x7f000001, 3};
 constexpr std::int64_t kSecondUs = 1'000'000;
 
-/// A datagram that says its number, padded to `bytes`.
+/// Makes a datagram that holds its number, padded to `bytes`.
 inline Bytes Numbered(int number, std::size_t bytes = 4) {
   Bytes data(bytes, 0);
   for (std::size_t i = 0; i < 4; ++i) data[i] = static_cast<std::uint8_t>(number >> (8 * i));
   return data;
 }
 
-/// What Numbered wrote.
+/// Reads the number that Numbered wrote.
 inline int NumberOf(const Bytes& data) {
   int number = 0;
   for (std::size_t i = 0; i < 4; ++i) number |= data[i] << (8 * i);
@@ -38,14 +38,14 @@ struct Arrived {
   }
 };
 
-/// How a run is driven; every field has a default for tests that do not care.
+/// Parameters of a run; every field has a default.
 struct Traffic {
   int count = 1000;  // datagrams sent here -> there
   std::int64_t period_us = 100'000;
   std::size_t bytes = 60;
   std::uint64_t seed = 1;
   bool incoming = false;  // impair at the receiver instead of the sender
-  int others = 0;         // per datagram, so many more from and to somebody else
+  int others = 0;         // per datagram, number of further ones between other addresses
 };
 
 /// Sends Traffic::count datagrams through `profile`, and steps from due time to due time, so that
@@ -81,14 +81,14 @@ inline std::vector<Arrived> Send(const ImpairProfile& profile, const Traffic& ru
   return arrived;
 }
 
-/// Share of the datagrams of which no copy arrived.
+/// Returns the share of datagrams without any arrived copy.
 inline double LossShare(const std::vector<Arrived>& arrived, const Traffic& run) {
   std::set<int> numbers;
   for (const Arrived& one : arrived) numbers.insert(one.number);
   return 1 - static_cast<double>(numbers.size()) / run.count;
 }
 
-/// Over all arrivals.
+/// Returns the mean delay over all arrivals, us.
 inline double MeanDelayUs(const std::vector<Arrived>& arrived, const Traffic& run) {
   double sum_us = 0;
   for (const Arrived& one : arrived) {

@@ -16,8 +16,8 @@ name = "bob"
 region = [[0, -1000], [1000, 1000]]
 )";
 
-/// How many clients think that they have a mechanism, at the server's own epoch, that the server
-/// thinks another has. Looks only at clients that have applied as many edits as the server.
+/// Counts the clients that believe to have a mechanism, at the server's own epoch, while the server
+/// names another peer. Skips clients with another revision than the server.
 inline int SecondAuthorities(Cluster* cluster) {
   const Replica& server = cluster->server().replica();
   int twice = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// A bare UDP socket on loopback that sends whatever it is told, of any size: what no Net would.
+/// A bare UDP socket on loopback that sends datagrams of any content and size, as no Net does.
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -30,13 +30,13 @@ class UdpSocket {
     EXPECT_EQ(getsockname(fd_, reinterpret_cast<sockaddr*>(&own), &bytes), 0);
     return ntohs(own.sin_port);
   }
-  /// False when the kernel does not take it.
+  /// Returns false if the kernel refuses the datagram.
   bool Send(std::uint16_t port, const Bytes& data) const {
     const sockaddr_in to = Loopback(port);
     return sendto(fd_, data.data(), data.size(), 0, reinterpret_cast<const sockaddr*>(&to),
                   sizeof to) == static_cast<ssize_t>(data.size());
   }
-  /// False when nothing has come.
+  /// Returns false if nothing has arrived.
   bool Receive(std::uint16_t* port, Bytes* data) const {
     data->resize(65536);
     sockaddr_in from{};

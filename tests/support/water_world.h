@@ -7,12 +7,12 @@
 
 namespace seam {
 
-/// 400 m wide, 50 m deep; `more` are lines of its [[water]].
+/// Makes a sea, 400 m wide and 50 m deep; `more` are lines of its [[water]].
 inline std::string Sea(const std::string& more = "") {
   return "[[water]]\nname = \"sea\"\nbox = [400, 50]\nposition = [0, -25]\n" + more + "\n";
 }
 
-/// Without any drag: what bobs bobs on.
+/// Makes a sea without drag: a floating body bobs for ever.
 inline std::string IdealSea(const std::string& more = "") {
   return Sea("viscosity = 0\ndrag_normal = 0\ndrag_tangent = 0\n" + more);
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Replicas of one scene, joined by wires with a fixed delay, tick by tick: who has what is set
-/// once, and players do what the test says.
+/// Replicas of one scene, connected with a fixed delay, tick by tick: authority is set once, and
+/// the test gives the players' inputs.
 
 #include <algorithm>
 #include <cstdint>
@@ -16,15 +16,15 @@
 
 namespace seam {
 
-/// Peer 0 plays nobody; peer 1 and those after it play the scene's players in their order.
+/// Peer 0 has no player; peers 1, 2, ... drive the scene's players in their order.
 class WiredReplicas {
  public:
-  /// What peer's player does for the tick.
+  /// Returns the input of the peer's player for the tick.
   using Play = std::function<Input(int peer, std::int64_t tick)>;
 
-  /// What is sent arrives `late` ticks after the step it was sent in; at 0 before the next step,
-  /// inputs even before their own. Mechanisms are their owners', the rest peer 0's; in mode buffer
-  /// everybody steps everything.
+  /// Messages arrive `late` ticks after the step in which they were sent; at 0 before the next
+  /// step, inputs even before their own. In mode buffer owners have authority over their
+  /// mechanisms, peer 0 over the rest, and every peer simulates everything; else peer 0 has all.
   WiredReplicas(const Scene& scene, const SyncConfig& config, std::int64_t late, Play play)
       : late_(late), play_(std::move(play)) {
     const int peers = 1 + static_cast<int>(scene.players.size());
@@ -42,7 +42,7 @@ class WiredReplicas {
   Replica& at(int peer) { return *all_[static_cast<std::size_t>(peer)]; }
   int count() const { return static_cast<int>(all_.size()); }
 
-  /// One tick of all.
+  /// Steps all replicas by one tick.
   void Step() {
     const std::int64_t next = at(0).tick() + 1;
     for (int peer = 1; peer < count(); ++peer) {
@@ -63,7 +63,7 @@ class WiredReplicas {
     while (at(0).tick() < tick) Step();
   }
 
-  /// Who has a mechanism, as that peer believes from now on; all others follow it, or nobody does.
+  /// Sets the authority over a mechanism in one peer's table; all other peers follow it, or none.
   void Give(int peer, int mechanism, int authority, bool followed) {
     AuthorityRecord record;
     record.epoch = 1;
@@ -76,7 +76,7 @@ class WiredReplicas {
     at(peer).RolesChanged();
   }
 
-  /// The peer's body of a part that the scene names.
+  /// Returns the peer's body of a named part; -1: none.
   int Body(int peer, const std::string& part) {
     const World& world = at(peer).world();
     for (const Part& p : world.scene().parts) {
@@ -91,7 +91,7 @@ class WiredReplicas {
   }
 
   std::function<void(int peer, const States& told)> each_states;
-  /// What is held up on its way for as long as this says so; nothing is lost.
+  /// Messages are held back while this returns true; none is lost.
   std::function<bool(int from, int to)> held_up = [](int, int) { return false; };
   bool states_flow = true;  ///< false: States are lost
 

@@ -9,7 +9,7 @@
 
 #include "common/sync/quantize.h"
 #include "common/sync/replica.h"
-#include "tests/support/count_allocations.h"
+#include "tests/support/allocations/count_allocations.h"
 
 namespace seam {
 namespace tick_work_test {

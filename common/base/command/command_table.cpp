@@ -7,7 +7,8 @@
 namespace seam {
 namespace {
 
-/// The members of a check's text, "{script,bot}"; CLI11 says what a check accepts in no other way.
+/// Returns the members listed in a check's text, "{script,bot}": CLI11 offers no other way to read
+/// the values that a check accepts.
 std::vector<std::string> WordsInBraces(const std::string& text) {
   const std::size_t begin = text.find('{'), end = text.find('}');
   std::vector<std::string> words;

@@ -1,5 +1,5 @@
-/// Completion in bash: one function for each program. It finds the subcommand among the words that
-/// are there, then completes the value of the flag before, or a flag, or a word.
+/// Completion in bash: one function per program. It finds the subcommand among the words typed so
+/// far, then completes the previous flag's value, or a flag, or a word.
 
 #include "common/base/command/pages.h"
 
@@ -12,14 +12,14 @@ std::string Joined(const std::vector<std::string>& words, const char* between) {
   return all;
 }
 
-/// "seam-lab" -> "_seam_lab".
+/// Returns "_seam_lab" for "seam-lab".
 std::string FunctionName(const std::string& program) {
   std::string name = "_";
   for (const char c : program) name += c == '-' ? '_' : c;
   return name;
 }
 
-/// Cases "COMMAND WORDBEFORE)" of the flags that take a value.
+/// Writes the cases "COMMAND WORDBEFORE)" for flags that take a value.
 void AddValues(const CommandEntry& command, const std::string& path, std::string* script) {
   for (const FlagEntry& flag : command.flags) {
     if (flag.names.empty() || !flag.takes_value) continue;
@@ -32,7 +32,7 @@ void AddValues(const CommandEntry& command, const std::string& path, std::string
   for (const CommandEntry& sub : command.commands) AddValues(sub, path + "/" + sub.name, script);
 }
 
-/// Cases "COMMAND)" of all else: flags, subcommands, positional words.
+/// Writes the cases "COMMAND)" for everything else: flags, subcommands, positional words.
 void AddWords(const CommandEntry& command, const std::string& path, std::string* script) {
   std::vector<std::string> words = FlagNames(command);
   for (const CommandEntry& sub : command.commands) words.push_back(sub.name);
@@ -47,7 +47,7 @@ void AddWords(const CommandEntry& command, const std::string& path, std::string*
   for (const CommandEntry& sub : command.commands) AddWords(sub, path + "/" + sub.name, script);
 }
 
-/// Cases "COMMAND WORD)" that lead to a subcommand.
+/// Writes the cases "COMMAND WORD)" that lead to a subcommand.
 void AddCommands(const CommandEntry& command, const std::string& path, std::string* script) {
   for (const CommandEntry& sub : command.commands) {
     const std::string next = path + "/" + sub.name;

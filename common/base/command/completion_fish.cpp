@@ -1,4 +1,4 @@
-/// Completion in fish: one `complete` for each flag, under the condition of its subcommand.
+/// Completion in fish: one `complete` line per flag, conditional on its subcommand.
 
 #include "common/base/command/pages.h"
 
@@ -18,7 +18,7 @@ std::string Joined(const std::vector<std::string>& words) {
   return all;
 }
 
-/// " -s o -l output" for "-o", "--output".
+/// Returns " -s o -l output" for "-o", "--output".
 std::string Names(const FlagEntry& flag) {
   std::string names;
   for (const std::string& name : flag.names) {

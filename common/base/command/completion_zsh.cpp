@@ -1,12 +1,11 @@
-/// Completion in zsh: a function for each command that hands its flags to _arguments.
+/// Completion in zsh: one function per command, which passes its flags to _arguments.
 
 #include "common/base/command/pages.h"
 
 namespace seam {
 namespace {
 
-/// Within single quotes of the shell, and within the brackets and between the colons of
-/// _arguments.
+/// Escapes text for single quotes of the shell and for the brackets and colons of _arguments.
 std::string Quoted(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -28,7 +27,7 @@ std::string Values(const FlagEntry& flag) {
   return "(" + all + ")";
 }
 
-/// The lines of _arguments for the flags and words of a command.
+/// Returns the lines of _arguments for a command's flags and words.
 std::string Arguments(const CommandEntry& command) {
   std::string lines;
   for (const FlagEntry& flag : command.flags) {

@@ -7,7 +7,8 @@
 namespace seam {
 namespace {
 
-/// Text as roff takes it: a backslash, a dash that is to be copied, and what begins a request.
+/// Escapes text for roff: backslashes, dashes (so that they can be copied) and characters that
+/// would begin a request.
 std::string Roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -58,7 +59,7 @@ std::string Synopsis(const CommandEntry& program) {
   return line + "[\\fIOPTIONS\\fR]\n";
 }
 
-/// As it stands, line by line.
+/// Returns the text unfilled, line by line.
 std::string Verbatim(const std::string& text) {
   std::string out = ".nf\n";
   std::istringstream in(text);

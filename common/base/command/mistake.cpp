@@ -18,15 +18,15 @@ std::vector<std::string> CommandNames(const CommandEntry& table) {
   return names;
 }
 
-/// The command that was named last: `tune gait` of seam-lab.
+/// Returns the innermost command on the command line: `gait` of `seam-lab tune gait`.
 const CLI::App& Innermost(const CLI::App& app) {
   const std::vector<const CLI::App*> parsed =
       app.get_subcommands([](const CLI::App* sub) { return sub->parsed(); });
   return parsed.empty() ? app : Innermost(*parsed.back());
 }
 
-/// "--drive: scrpt not in {script,bot}" -> the same, with what was probably meant.
-std::string WithMember(const std::string& text) {
+/// Appends the probable correction to "--drive: scrpt not in {script,bot}".
+std::string WithSuggestion(const std::string& text) {
   const std::string mark = " not in {";
   const std::size_t at = text.find(mark), from = text.find(": "), end = text.find('}');
   if (at == std::string::npos || from == std::string::npos || end == std::string::npos) return text;
@@ -52,7 +52,7 @@ std::string CommandMistake(const CLI::App& app, const CLI::ParseError& e) {
     const std::string& name = rest.front();
     return "there is no subcommand '" + name + "' (" + Suggestion(name, CommandNames(table)) + ")";
   }
-  return WithMember(e.what());
+  return WithSuggestion(e.what());
 }
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// A mistake on a command line, said in one line with what was probably meant.
+/// Describes a mistake on a command line in one line with the probable correction.
 
 #include <string>
 
@@ -10,8 +10,8 @@ class ParseError;
 
 namespace seam {
 
-/// "there is no flag --ipmair (did you mean --impair?)". `app` has just failed to parse with `e`;
-/// where nothing better is known it is e's own text.
+/// Returns "there is no flag --ipmair (did you mean --impair?)" after `app` failed to parse with
+/// `e`. Falls back to the text of `e`.
 std::string CommandMistake(const CLI::App& app, const CLI::ParseError& e);
 
 }  // namespace seam

@@ -1,6 +1,6 @@
 #pragma once
-/// What is installed beside a program for people and shells: its man page, and what completes its
-/// flags and words in bash, zsh and fish. Made from its table of flags, so that none is missing.
+/// Man page and completion scripts (bash, zsh, fish) that are installed with a program. Generated
+/// from its table of flags, so that none is missing.
 
 #include <string>
 
@@ -8,21 +8,22 @@
 
 namespace seam {
 
-/// What a page says besides the flags.
+/// Text of a man page besides the flags.
 struct PageText {
   std::string version;  ///< "0.7.0"
   std::string footer;   ///< the last lines of --help: examples, lists
 };
 
-/// In roff's man macros, section 1.
+/// Returns the man page in roff's man macros, section 1.
 std::string ManPage(const CommandEntry& program, const PageText& text);
 
-/// Scripts that the shell sources. Where a flag's values are no list, files are completed.
+/// Return scripts for the shell to source. Files complete a flag whose values are not a list.
 std::string BashCompletion(const CommandEntry& program);
 std::string ZshCompletion(const CommandEntry& program);
 std::string FishCompletion(const CommandEntry& program);
 
-/// One of the above by its name: "man", "bash", "zsh" or "fish". Throws OperatorError for another.
+/// Returns one of the above by name: "man", "bash", "zsh" or "fish". Throws OperatorError for any
+/// other name.
 std::string GeneratedPage(const std::string& kind, const CommandEntry& program,
                           const PageText& text);
 

@@ -1,6 +1,7 @@
 #pragma once
-/// Numbers as bits, the most significant of a byte first: fixed widths and exponential Golomb codes
-/// (Teuhola, "A Compression Method for Clustered Bit-Vectors", 1978) whose parameter learns.
+/// Writes and reads numbers as bits, most significant bit first: fixed widths and exponential
+/// Golomb codes (Teuhola, "A Compression Method for Clustered Bit-Vectors", 1978) with an adaptive
+/// parameter.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,10 +11,10 @@
 
 namespace seam {
 
-/// Bits that a number needs: 0 of 0.
+/// Returns the number of significant bits; 0 for 0.
 inline int BitWidth(std::uint64_t value) { return value == 0 ? 0 : 64 - __builtin_clzll(value); }
 
-/// Signed numbers in the order 0, -1, 1, -2, ...
+/// Maps signed numbers 0, -1, 1, -2, ... to 0, 1, 2, 3, ...
 inline std::uint32_t ZigZag(std::int32_t value) {
   return (static_cast<std::uint32_t>(value) << 1) ^ (value < 0 ? 0xffffffffu : 0u);
 }
@@ -23,25 +24,25 @@ inline std::int32_t UnZigZag(std::uint32_t code) {
 
 class BitWriter {
  public:
-  /// Of `value` the lowest `width` bits; 0..32.
+  /// Writes the lowest `width` bits of `value`; width 0..32.
   void Put(std::uint64_t value, int width) {
     held_ = held_ << width | (value & ((std::uint64_t{1} << width) - 1));
     bits_ += width;
     if (bits_ >= 32) PutHeld();
   }
-  /// `value` in exponential Golomb code with parameter `k`, 0..16: k + 1 bits if it is below 2^k.
+  /// Writes `value` in exponential Golomb code with parameter `k`, 0..16: k + 1 bits if below 2^k.
   __attribute__((always_inline)) void PutGolomb(std::uint32_t value, int k) {
     const std::uint64_t shifted = value + (std::uint64_t{1} << k);
-    const int rest = BitWidth(shifted) - 1;  // bits behind the leading one
+    const int rest = BitWidth(shifted) - 1;  // bits after the leading one
     const int zeros = rest - k;
     if (__builtin_expect(zeros + 1 + rest <= 32, 1)) return Put(shifted, zeros + 1 + rest);
     Put(0, zeros);
     Put(shifted >> rest, 1);
     Put(shifted, rest);
   }
-  /// Bytes so far, with the last begun one.
+  /// Returns the bytes so far, including an incomplete last one.
   std::size_t size() const { return size_ + static_cast<std::size_t>(bits_ + 7) / 8; }
-  /// All of it, the last byte filled with zeros; begins anew.
+  /// Returns all bytes, the last one padded with zeros, and clears the writer.
   Bytes Finish() {
     const std::size_t bytes = size();
     Put(0, (32 - bits_) % 32);
@@ -51,7 +52,7 @@ class BitWriter {
   }
 
  private:
-  /// Four bytes at once: one at a time is most of what packing costs.
+  /// Stores four bytes at once: one at a time would be most of the cost of packing.
   __attribute__((noinline)) void PutHeld() {
     bits_ -= 32;
     if (bytes_.size() < size_ + 4) bytes_.resize(2 * size_ + 64);
@@ -62,18 +63,18 @@ class BitWriter {
     size_ += 4;
   }
 
-  Bytes bytes_;             // its first size_ are written; it keeps its memory
+  Bytes bytes_;             // the first size_ are written; memory is kept
   std::size_t size_ = 0;    // a multiple of four
-  std::uint64_t held_ = 0;  // its lowest bits_ are not in bytes_ yet
+  std::uint64_t held_ = 0;  // the lowest bits_ are not in bytes_ yet
   int bits_ = 0;            // below 32
 };
 
-/// Reads what BitWriter wrote; past the end it reads zeros and is no longer ok().
+/// Reads the output of BitWriter. Past the end it returns zeros and is no longer ok().
 class BitReader {
  public:
   explicit BitReader(ByteView bytes) : bytes_(bytes) {}
 
-  /// 0..32 bits.
+  /// Reads `width` bits, 0..32.
   std::uint32_t Get(int width) {
     while (bits_ < width) {
       held_ = held_ << 8 | (at_ < bytes_.size ? bytes_.data[at_] : 0u);
@@ -93,7 +94,7 @@ class BitReader {
     return value > 0xffffffffu ? Fail() : static_cast<std::uint32_t>(value);
   }
   bool ok() const { return ok_ && at_ <= bytes_.size; }
-  /// Whether nothing is left but the zeros that fill the last byte.
+  /// Returns true if only the zero padding of the last byte is left.
   bool AtEnd() const {
     return ok() && at_ == bytes_.size && (held_ & ((std::uint64_t{1} << bits_) - 1)) == 0;
   }
@@ -106,17 +107,17 @@ class BitReader {
   }
 
   ByteView bytes_;
-  std::size_t at_ = 0;      // bytes taken, also past the end
-  std::uint64_t held_ = 0;  // its lowest bits_ were not given yet
+  std::size_t at_ = 0;      // bytes read, may exceed the end
+  std::uint64_t held_ = 0;  // the lowest bits_ are not returned yet
   int bits_ = 0;            // below 8 between calls
   bool ok_ = true;
 };
 
-/// A Golomb parameter that goes towards the middle width of what was coded: a rare large number
-/// hardly moves it. Writer and reader learn alike.
-class Learned {
+/// An adaptive Golomb parameter that follows the median width of the coded numbers, so that a rare
+/// large one hardly moves it. Writer and reader adapt identically.
+class AdaptiveGolomb {
  public:
-  explicit Learned(int k) : quarters_(4 * k + 2) {}
+  explicit AdaptiveGolomb(int k) : quarters_(4 * k + 2) {}
   int k() const { return quarters_ / 4; }
   void Note(std::uint32_t value) {
     const int width = BitWidth(value), now = k();

@@ -11,15 +11,15 @@ namespace {
 
 constexpr int kTickBits = 40;
 static_assert(kTickMax <= std::int64_t{1} << kTickBits);
-/// Golomb parameters: of how many players lie between, ticks apart, and ticks less one.
+/// Golomb parameters of the gap between players, the distance in ticks, and the ticks less one.
 constexpr int kGapBits = 1, kApartBits = 1, kTicksBits = 2;
-/// Most bits of an entry before its ticks, and of a tick.
+/// Most bits of an entry's head, and of one tick.
 constexpr std::size_t kEntryBitsMost = 1 + kTickBits + 17 + 25 + 13;
 constexpr std::size_t kTickBitsMost = 1 + 3 + 8 + 8 + 16;
-/// Players are apart by more than this only in different messages.
+/// Largest distance of the newest ticks of two players in one message.
 constexpr std::int64_t kApartMost = 1000;
 
-/// Of one tick; all are 0 before the first.
+/// Inputs of one tick; all 0 before the first.
 struct Held {
   std::int8_t drive = 0, lift = 0;
   std::int16_t buttons = 0;
@@ -49,7 +49,8 @@ Held GetTick(const Held& before, BitReader* bits) {
   return now;
 }
 
-/// The entry behind one of `player`, without more than kInputsMax ticks.
+/// Reads the entry after that of `player`. The result's player is -1 if it has more than kInputsMax
+/// ticks or no valid player.
 Inputs GetEntry(int player, std::int64_t newest, BitReader* bits) {
   Inputs inputs;
   const std::uint32_t gap = bits->GetGolomb(kGapBits);

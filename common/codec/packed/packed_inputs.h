@@ -1,5 +1,5 @@
 #pragma once
-/// Inputs as bits: the message, its bound and its two ends.
+/// Inputs packed as bits: the message, its packer and its unpacker.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,33 +12,33 @@
 
 namespace seam {
 
-/// Server -> client: Inputs of other players, all that are news to it. They come 60 times a second
-/// of each, and as Inputs most of their bytes would say what is held and which message it is: 82
-/// bytes each, framed, 310 kB/s for a client among 63 others. InputsPacker writes and UnpackInputs
-/// reads them.
+/// Server -> client: all inputs of other players that the client does not have yet. As plain Inputs
+/// (60 per second and player) most bytes would be repeated values and message headers: 82 bytes
+/// each with framing, 310 kB/s for a client among 63 others. Written by InputsPacker, read by
+/// UnpackInputs.
 struct PackedInputs {
   std::vector<std::uint8_t> bits;  ///< 1..kPackedBytesMax bytes
 };
 
-/// Writes messages, each of which is understood by itself: any of them may be lost.
+/// Writes self-contained messages: any of the messages may be lost.
 class InputsPacker {
  public:
-  /// Of these inputs the newest so many ticks, all if there are less. False, and nothing is taken,
-  /// if the message has no room for it, or something of this player or of a later one: then Finish
-  /// first. Requires valid Inputs of a player below kPlayersMax, and at least one tick.
+  /// Adds the newest `newest` ticks of these inputs, or all if there are fewer. Returns false and
+  /// adds nothing if the message has no room or already has this player or one with a larger index:
+  /// call Finish first. Requires valid Inputs of a player below kPlayersMax with at least one tick.
   bool Add(const Inputs& inputs, std::size_t newest = kInputsMax);
   bool empty() const { return player_ < 0; }
-  /// The message with what was added, at least one; begins the next.
+  /// Returns the message and begins the next. Requires at least one Add.
   PackedInputs Finish();
 
  private:
   BitWriter bits_;
-  int player_ = -1;          // of the last that was added; -1: none
-  std::int64_t newest_ = 0;  // tick of the first that was added
+  int player_ = -1;          // last added player, -1: none
+  std::int64_t newest_ = 0;  // newest tick of the first added player
 };
 
-/// What the message tells, all valid, in the order of players, each at most once; utime and
-/// sequence are 0. Nothing when it is malformed.
+/// Returns the valid Inputs in the message, at most one per player, ordered by player; utime and
+/// sequence are 0. nullopt when the message is malformed.
 std::optional<std::vector<Inputs>> UnpackInputs(const PackedInputs& packed);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// States as bits: the message, and its bound.
+/// States packed as bits: the message and its bound.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace seam {
 
-/// Server -> client: States, as differences from those that the client is known to have got.
-/// StatesPacker writes and StatesUnpacker reads them.
+/// Server -> client: States, coded as differences from acknowledged states. Written by
+/// StatesPacker, read by StatesUnpacker.
 struct PackedStates {
   std::vector<std::uint8_t> data;  ///< 1..kPackedBytesMax bytes
 };
 
-/// Most bytes of data in one PackedStates: with 10 before them they must fit kMessageBytesMax.
+/// Most bytes of data in one PackedStates: with the 10 bytes before, it must fit kMessageBytesMax.
 constexpr std::size_t kPackedBytesMax = 1140;
 static_assert(10 + kPackedBytesMax <= kMessageBytesMax);
 

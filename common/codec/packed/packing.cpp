@@ -6,10 +6,10 @@
 namespace seam {
 namespace {
 
-constexpr double kVelocityUnits = 256;  // in 1 m/s
-constexpr double kFine = 65536;         // of a unit of velocity
+constexpr double kVelocityUnits = 256;  // per m/s
+constexpr double kFine = 65536;         // per velocity unit
 constexpr std::int64_t kTicksMost = 1024;
-/// Angle units in 1/512 rad, in 2^-16: 65536 / (2 pi) / 512 * 65536.
+/// Angle units per 1/512 rad, times 2^16: 65536 / (2 pi) / 512 * 65536.
 constexpr std::int64_t kTurn = 1335088;
 
 std::int64_t Ticks(std::int64_t from, std::int64_t to) {
@@ -31,8 +31,8 @@ PackedMotion::PackedMotion(float x, float y, int hz) : tick_hz(std::max(1, hz)) 
   gravity_y = fine(y);
 }
 
-PackedState GuessVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
-                          bool falls) {
+PackedState PredictVelocity(const PackedMotion& motion, const PackedState& from, std::int64_t tick,
+                            bool falls) {
   PackedState to = from;
   to.tick = tick;
   if (!falls) return to;
@@ -42,9 +42,10 @@ PackedState GuessVelocity(const PackedMotion& motion, const PackedState& from, s
   return to;
 }
 
-void GuessPlace(const PackedMotion& motion, const PackedState& from, PackedState* to) {
+void PredictPose(const PackedMotion& motion, const PackedState& from, PackedState* to) {
   const std::int64_t ticks = Ticks(from.tick, to->tick);
-  // Places are in 1/512 m and velocities in 1/256 m/s: the sum of two is twice their mean.
+  // Positions are in 1/512 m and velocities in 1/256 m/s, so the sum of two velocities is their
+  // mean in position units per second.
   const auto moved = [&](int v0, int v1) {
     return static_cast<std::uint32_t>((v0 + v1) * ticks / motion.tick_hz);
   };

@@ -8,21 +8,21 @@ namespace seam {
 namespace {
 
 constexpr std::uint32_t kQuantaPerMetre = 512;
-/// Messages whose contents are remembered until they are acknowledged.
+/// Most messages with contents remembered until they are acknowledged.
 constexpr std::size_t kSentMost = 256;
-/// From one repeat of what was lost to the next, us: at first, and at most.
-constexpr std::int64_t kAgainUs = 100000, kAgainUsMax = 400000;
-/// Of those that are not remembered any more, whose memory is kept for the next.
+/// Time between resends of a lost state, us: the first, and the longest.
+constexpr std::int64_t kResendUs = 100000, kResendUsMax = 400000;
+/// Most emptied records kept for reuse of their memory.
 constexpr std::size_t kSpareMost = 16;
-/// Bytes that an entry, a group's header and all ends take at most.
+/// Most bytes of an entry, a group's header and all end marks together.
 constexpr std::size_t kEntryBytesMost = 64;
 
-/// Codes in a row, put as one: the writer keeps what it holds in memory, this in registers. All of
-/// it is inlined, or it would not.
+/// Joins successive codes into one Put. Its bits stay in registers, while those of BitWriter are in
+/// memory; this requires that every function is inlined.
 class Run {
  public:
   explicit Run(BitWriter* bits) : bits_(bits) {}
-  /// As BitWriter's; `value` has no more than `width` bits.
+  /// Like BitWriter::Put, but `value` must have no more than `width` bits.
   __attribute__((always_inline)) void Put(std::uint64_t value, int width) {
     if (width_ + width > 32) End();
     held_ = held_ << width | value;
@@ -74,7 +74,7 @@ std::int32_t Difference(std::int16_t a, std::int16_t b) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
 }
 
-std::int32_t OffBy(const PackedState& state, const PackedState& guess) {
+std::int32_t VelocityError(const PackedState& state, const PackedState& guess) {
   return std::abs(Difference(state.vx, guess.vx)) + std::abs(Difference(state.vy, guess.vy));
 }
 
@@ -144,10 +144,10 @@ void StatesPacker::End() {
 }
 
 void StatesPacker::PutDifferences(const PackedState& state, const PackedState& guess,
-                                  std::array<Learned, kPackedFields>* learned) {
+                                  std::array<AdaptiveGolomb, kPackedFields>* learned) {
   Run run(&bits_);
   const auto put = [&](PackedField field, std::int32_t difference) __attribute__((always_inline)) {
-    Learned& with = (*learned)[field];
+    AdaptiveGolomb& with = (*learned)[field];
     const std::uint32_t code = ZigZag(difference);
     run.PutGolomb(code, with.k());
     with.Note(code);
@@ -187,13 +187,13 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
     run.Put(static_cast<std::uint64_t>(state.flags) & 7, 3);
   }
   if (kept) {
-    // What does not fall goes on as before.
-    const PackedState fallen = GuessVelocity(motion_, before, state.tick, true);
-    const bool falls = OffBy(state, fallen) < OffBy(state, before);
+    // Chooses the better prediction: free fall or constant velocity.
+    const PackedState fallen = PredictVelocity(motion_, before, state.tick, true);
+    const bool falls = VelocityError(state, fallen) < VelocityError(state, before);
     run.Put(falls ? 1 : 0, 1);
     run.End();
     PackedState now = state;
-    GuessPlace(motion_, before, &now);
+    PredictPose(motion_, before, &now);
     now.vx = falls ? fallen.vx : before.vx;
     now.vy = falls ? fallen.vy : before.vy;
     now.spin = before.spin;
@@ -244,27 +244,27 @@ void StatesPacker::Add(const PackedHeader& header, const PackedEntry* begin,
 
 std::vector<StatesPacker::Message> StatesPacker::Take(std::int64_t now_us) {
   End();
-  for (const Message& message : ready_) under_way_.push_back({message.number, now_us});
+  for (const Message& message : ready_) in_flight_.push_back({message.number, now_us});
   return std::exchange(ready_, {});
 }
 
-std::vector<StatesPacker::Sent>* StatesPacker::SentIn(std::int64_t number) {
+std::vector<StatesPacker::Sent>* StatesPacker::StatesSentIn(std::int64_t number) {
   const std::int64_t age = number_ - number;
   if (age < 0 || age >= static_cast<std::int64_t>(sent_.size())) return nullptr;
   return &sent_[sent_.size() - 1 - static_cast<std::size_t>(age)];
 }
 
-void StatesPacker::FindOwed(std::int64_t until_us) {
+void StatesPacker::FindLostStates(std::int64_t until_us) {
   const std::size_t before = owed_.size();
-  for (; !under_way_.empty() && under_way_.front().sent_us <= until_us; under_way_.pop_front()) {
-    const std::vector<Sent>* const bodies = SentIn(under_way_.front().number);
+  for (; !in_flight_.empty() && in_flight_.front().sent_us <= until_us; in_flight_.pop_front()) {
+    const std::vector<Sent>* const bodies = StatesSentIn(in_flight_.front().number);
     if (bodies == nullptr) continue;
     for (const Sent& sent : *bodies) {
-      if (KnownOf(sent.id).count < sent.count) owed_.push_back({sent.id, sent.count, 0, kAgainUs});
+      if (KnownOf(sent.id).count < sent.count) owed_.push_back({sent.id, sent.count, 0, kResendUs});
     }
   }
   if (owed_.size() == before) return;
-  // Of one that was owed before what was lost last counts.
+  // Merges entries of one body: the last lost state counts, the timer continues.
   std::stable_sort(owed_.begin(), owed_.end(),
                    [](const Owed& a, const Owed& b) { return a.id < b.id; });
   std::size_t left = 0;
@@ -280,7 +280,7 @@ void StatesPacker::FindOwed(std::int64_t until_us) {
 
 std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64_t late_us,
                                                  const Wanted& wanted) {
-  FindOwed(now_us - late_us);
+  FindLostStates(now_us - late_us);
   std::vector<std::int32_t> again;
   std::size_t left = 0;
   for (Owed owed : owed_) {
@@ -289,7 +289,7 @@ std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64
       if (!wanted(owed.id)) continue;
       again.push_back(owed.id);
       owed.due_us = now_us + owed.again_us;
-      owed.again_us = std::min(2 * owed.again_us, kAgainUsMax);
+      owed.again_us = std::min(2 * owed.again_us, kResendUsMax);
     }
     owed_[left++] = owed;
   }
@@ -298,7 +298,7 @@ std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64
 }
 
 void StatesPacker::Acknowledge(std::int64_t number) {
-  std::vector<Sent>* const bodies = SentIn(number);
+  std::vector<Sent>* const bodies = StatesSentIn(number);
   if (bodies == nullptr) return;
   for (const Sent& sent : *bodies) {
     Known& known = KnownOf(sent.id);

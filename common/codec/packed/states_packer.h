@@ -1,5 +1,5 @@
 #pragma once
-/// States for one receiver, as differences from those that it is known to have got.
+/// Packs States for one receiver as differences from acknowledged states.
 
 #include <array>
 #include <cstddef>
@@ -18,78 +18,80 @@ class StatesPacker {
  public:
   explicit StatesPacker(const PackedMotion& motion) : motion_(motion) {}
 
-  /// A message to be sent, and the number that Acknowledge knows it by.
+  /// A message to send, and its number for Acknowledge.
   struct Message {
     std::int64_t number = 0;
     std::size_t bodies = 0;
     PackedStates packed;
   };
-  /// Adds what a States tells, but for utime and sequence.
+  /// Adds the contents of a States except utime and sequence.
   void Add(const States& states);
-  /// The same of these bodies, whose ids ascend; the tick of their states is the header's.
+  /// Adds entries with ascending ids; their states must have the header's tick.
   void Add(const PackedHeader& header, const PackedEntry* begin, const PackedEntry* end);
   bool empty() const { return !open_ && ready_.empty(); }
-  /// What was added since, in its order, to be sent at `now_us`.
+  /// Returns the messages with everything added since the last call, in order, to be sent at
+  /// `now_us`.
   std::vector<Message> Take(std::int64_t now_us);
-  /// Bodies to be told again: those of messages that have not arrived `late_us` after they were
-  /// sent, as far as is known, while nothing newer of the body has. Each until something has, now,
-  /// 100 ms later, 200 ms after that, then every 400; one that is not `wanted` is forgotten.
+  /// Returns bodies to resend: their message is not acknowledged `late_us` after it was sent, nor
+  /// is any later state of the body. Each is returned at once, after 100 ms, after another 200 ms,
+  /// then every 400 ms, until a state is acknowledged; bodies not `wanted` are dropped.
   using Wanted = std::function<bool(std::int32_t id)>;
   std::vector<std::int32_t> TakeLost(std::int64_t now_us, std::int64_t late_us,
                                      const Wanted& wanted);
-  /// A message has arrived.
+  /// Marks a message as arrived.
   void Acknowledge(std::int64_t number);
 
  private:
   struct Sent {
     std::int32_t id = 0;
-    std::int32_t count = 0;  // which it was of the body's
+    std::int32_t count = 0;  // number of the state among those sent of the body, from 1
     PackedState state;
   };
-  /// A message that may have been lost.
-  struct UnderWay {
+  /// A message in flight or lost.
+  struct InFlight {
     std::int64_t number = 0, sent_us = 0;
   };
-  /// A body of which a state was lost, its `count`-th.
+  /// A body with a lost state, its `count`-th.
   struct Owed {
     std::int32_t id = 0, count = 0;
     std::int64_t due_us = 0, again_us = 0;
   };
-  /// The newest state of a body that has arrived, and how many of it were sent.
+  /// The newest acknowledged state of a body, and the number of states sent.
   struct Known {
-    std::int64_t number = -1;  // of the message that had it; -1: none has arrived
+    std::int64_t number = -1;  // message that carried the state; -1: none acknowledged
     std::int32_t count = 0, sent = 0;
     PackedState state;
   };
   void Begin(const PackedHeader& header);
   void BeginGroup(const PackedHeader& header);
-  /// An entry of a message of whose entries `*begun` says whether any is in the open group.
+  /// Adds an entry, in a new message if the open one is full. `*begun`: the open group is for these
+  /// entries; if not, begins a group and sets it.
   void AddEntry(const PackedHeader& header, std::int32_t id, const PackedState& state, bool* begun);
   void End();
   void Spare(std::vector<Sent>* bodies);
   void AddBody(const PackedState& state, std::int32_t id);
   void PutDifferences(const PackedState& state, const PackedState& guess,
-                      std::array<Learned, kPackedFields>* learned);
+                      std::array<AdaptiveGolomb, kPackedFields>* learned);
   Known& KnownOf(std::int32_t id);
-  /// What a message told, nothing once it is acknowledged; nullptr: forgotten.
-  std::vector<Sent>* SentIn(std::int64_t number);
-  /// Of what was sent until then what has not arrived.
-  void FindOwed(std::int64_t until_us);
+  /// Returns the states in a message, empty once acknowledged; nullptr if no longer recorded.
+  std::vector<Sent>* StatesSentIn(std::int64_t number);
+  /// Adds to owed_ the unacknowledged states that were sent by `until_us`.
+  void FindLostStates(std::int64_t until_us);
 
   const PackedMotion motion_;
   std::vector<Message> ready_;
-  std::int64_t number_ = -1;  // of the message that is being written, or was last
-  bool open_ = false;         // one is
-  bool group_ = false;        // and a group in it
+  std::int64_t number_ = -1;  // number of the open message, else of the last
+  bool open_ = false;         // a message is being written
+  bool group_ = false;        // the open message has an open group
   BitWriter bits_;
   PackedContext context_;
   std::int32_t revision_ = 0;
   std::int64_t composition_ = 0;
-  std::deque<std::vector<Sent>> sent_;    // of successive messages up to number_, the newest last
-  std::deque<UnderWay> under_way_;        // the oldest first, until it has arrived or is late
-  std::vector<Owed> owed_;                // ascending
-  std::vector<std::vector<Sent>> spare_;  // empty
-  std::vector<std::int32_t> place_;       // by id: in known_; -1: nothing was sent
+  std::deque<std::vector<Sent>> sent_;    // states in successive messages up to number_
+  std::deque<InFlight> in_flight_;        // oldest first, until checked for loss
+  std::vector<Owed> owed_;                // ascending by id
+  std::vector<std::vector<Sent>> spare_;  // empty vectors for reuse
+  std::vector<std::int32_t> place_;       // by id: index in known_; -1: nothing sent
   std::vector<Known> known_;
 };
 

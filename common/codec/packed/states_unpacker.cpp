@@ -12,17 +12,17 @@ namespace seam {
 namespace {
 
 constexpr std::int32_t kQuantaPerMetre = 512;
-/// Of an origin, in quanta: int16 reaches 64 m.
+/// Largest distance from an origin, in quanta (60 m; int16 reaches 64 m).
 constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
-/// What is told later is a difference from the same state or a newer one. A message may be
-/// overtaken by so many, at least.
+/// Messages by which another may be overtaken without harm. Differences in later messages refer to
+/// the same state or a newer one, so that older states are dropped only after this many.
 constexpr std::int64_t kOvertaken = 64;
 
 std::int16_t Low(std::uint32_t value) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(value & 0xffffu));
 }
 
-/// Whether the coordinate is within what an origin can be.
+/// Returns true if the coordinate is within the range of origins.
 bool InRange(std::uint32_t coordinate) {
   constexpr std::int64_t kMost = std::int64_t{kOriginMax} * kQuantaPerMetre;
   const std::int64_t value = static_cast<std::int32_t>(coordinate);
@@ -56,7 +56,7 @@ bool Fits(const States& states, const PackedState& state) {
 const PackedState* StatesUnpacker::Find(std::int32_t id, std::int64_t number) const {
   const auto i = static_cast<std::size_t>(id);
   if (i >= place_.size() || place_[i] < 0) return nullptr;
-  // Most differences are from what came shortly before.
+  // Searched from the newest: most reference states are recent.
   const std::vector<Kept>& all = kept_[static_cast<std::size_t>(place_[i])].all;
   auto at = all.rbegin();
   while (at != all.rend() && at->number > number) ++at;
@@ -80,7 +80,7 @@ void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
   auto at = all.end();
   while (at != all.begin() && (at - 1)->number > number) --at;
   if (at != all.begin() && (at - 1)->number == number) {
-    (at - 1)->state = entry.state;  // twice in one message: the later counts
+    (at - 1)->state = entry.state;  // the body is twice in one message: the later entry counts
     return;
   }
   all.insert(at, {number, entry.state});
@@ -117,7 +117,8 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
     state.epoch = static_cast<std::int32_t>(bits->GetGolomb(4));
     state.flags = static_cast<std::int8_t>(bits->Get(3));
   }
-  std::array<Learned, kPackedFields>& learned = from != nullptr ? context.known : context.fresh;
+  std::array<AdaptiveGolomb, kPackedFields>& learned =
+      from != nullptr ? context.known : context.fresh;
   const auto get = [&](PackedField field) {
     const std::uint32_t code = bits->GetGolomb(learned[field].k());
     learned[field].Note(code);
@@ -127,7 +128,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
     *value = Low(static_cast<std::uint32_t>(*value) + get(field));
   };
   if (from != nullptr) {
-    const PackedState guess = GuessVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
+    const PackedState guess = PredictVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
     state.vx = guess.vx;
     state.vy = guess.vy;
     state.spin = guess.spin;
@@ -136,7 +137,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   add(kPackedVy, &state.vy);
   add(kPackedSpin, &state.spin);
   if (from != nullptr) {
-    GuessPlace(motion_, *from, &state);
+    PredictPose(motion_, *from, &state);
   } else {
     state.x = context.last.x;
     state.y = context.last.y;
@@ -148,7 +149,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   return bits->ok() && InRange(state.x) && InRange(state.y);
 }
 
-/// The next States of a message, without bodies; its origin is where the first is to be.
+/// Begins the next States of a message, without bodies, with its origin at the first body.
 States* StatesUnpacker::Begin(const States& header, const PackedState& first) {
   if (spare_.empty()) spare_.emplace_back();
   told_.push_back(std::move(spare_.back()));

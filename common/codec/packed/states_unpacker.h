@@ -1,5 +1,5 @@
 #pragma once
-/// Reads what a StatesPacker wrote; distrusts every bit of it.
+/// Unpacks the messages of a StatesPacker; validates every bit.
 
 #include <cstdint>
 #include <vector>
@@ -15,28 +15,28 @@ class StatesUnpacker {
  public:
   explicit StatesUnpacker(const PackedMotion& motion) : motion_(motion) {}
 
-  /// The States that the message tells, all valid, in its order, until the next call; nullptr when
-  /// it is malformed or tells differences from what never came: then it is as if it had been lost.
-  /// Takes memory in proportion to what has come, and for a body of kPackedKept states at most:
-  /// mostly of those since what its newest differences are from.
+  /// Returns the valid States in the message, in order; they live until the next call. nullptr when
+  /// it is malformed or refers to a state that never came: it then counts as lost. Keeps at most
+  /// kPackedKept states per body, usually only those since the reference state of its newest
+  /// differences.
   const std::vector<States>* Take(const PackedStates& packed);
-  /// States that are kept, of all bodies together.
+  /// Returns the number of states kept, over all bodies.
   std::size_t kept() const;
 
  private:
   struct Kept {
-    std::int64_t number = 0;  // of the message
+    std::int64_t number = 0;  // number of its message
     PackedState state;
   };
   struct Body {
-    std::vector<Kept> all;  // those with the largest numbers, ascending
-    /// A message that came a while ago, and what its difference was from: of those sent since none
-    /// is from what is older. -1: from none.
+    std::vector<Kept> all;  // newest states, ascending by number
+    /// A past message and the number of its reference state (-1: none): no later message refers to
+    /// an older state.
     std::int64_t marked = -1, marked_from = -1;
   };
   struct Entry {
     std::int32_t id = 0;
-    std::int64_t from = -1;  // number of the message that it is a difference from; -1: of none
+    std::int64_t from = -1;  // message of its reference state; -1: none
     PackedState state;
   };
   States* Begin(const States& header, const PackedState& first);
@@ -46,10 +46,10 @@ class StatesUnpacker {
 
   const PackedMotion motion_;
   PackedContext context_;
-  std::int64_t newest_ = 0;          // number of a message
-  std::vector<std::int32_t> place_;  // by id: in kept_; -1: nothing came
+  std::int64_t newest_ = 0;          // largest message number so far
+  std::vector<std::int32_t> place_;  // by id: index in kept_; -1: nothing came
   std::vector<Body> kept_;
-  // Of the last message. A client takes one in every tick: their memory is used again.
+  // Contents of the last message. A client takes one in every tick, so their memory is reused.
   std::vector<States> told_, spare_;
   std::vector<Entry> entries_;
 };

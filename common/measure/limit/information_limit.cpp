@@ -141,8 +141,8 @@ class Guesser {
       const auto b = static_cast<std::size_t>(body);
       if (own[b]) continue;
       const double apart = guess.states.empty() ? 0
-                                                : extents_[b].Displacement(Pose(guess.states[b]),
-                                                                           Pose(world_.Read(body)));
+                                                : extents_[b].Displacement(DoublePose(guess.states[b]),
+                                                                           DoublePose(world_.Read(body)));
       apart_.Add(apart * apart);
     }
   }

@@ -24,7 +24,7 @@ std::optional<Trial> Try(const BodyPath& shown, const BodyPath& truth, double ra
   for (const std::int64_t tick : ticks) {
     const std::int64_t at = std::max(tick - age, truth.first());
     if (!truth.Has(at)) return std::nullopt;
-    const Pose& now = truth.At(at);
+    const DoublePose& now = truth.At(at);
     const Place3 d = Between(now, shown.At(tick), radius);
     const bool further = truth.Has(at - 1) && at == tick - age;
     const Place3 b = Between(now, further ? truth.At(at - 1) : now, radius);

@@ -124,9 +124,9 @@ Effect Counterfactual::Of(const InputChange& change, std::int64_t ticks, double 
   const std::vector<PartId>& own = own_->ByScene(edits, change.player);
   const auto velocity = [&](std::size_t body, double radius) {
     std::vector<Eigen::Vector3d> all;
-    Pose a(oracle_.ticks[row][body]), b = a;
+    DoublePose a(oracle_.ticks[row][body]), b = a;
     for (std::size_t t = 0; t < with.size(); ++t) {
-      const Pose next_a(with[t][body]), next_b(without[t][body]);
+      const DoublePose next_a(with[t][body]), next_b(without[t][body]);
       all.push_back((Between(a, next_a, radius) - Between(b, next_b, radius)) * hz);
       a = next_a;
       b = next_b;

@@ -67,7 +67,7 @@ void Extent::KeepHull(std::vector<Vector2d> corners) {
   }
 }
 
-double Extent::Displacement(const Pose& a, const Pose& b) const {
+double Extent::Displacement(const DoublePose& a, const DoublePose& b) const {
   const Vector2d t = a.position - b.position;
   if (discs_.empty() || a.angle == b.angle) return t.norm();
   const Rotation<double> ra(a.angle), rb(b.angle);

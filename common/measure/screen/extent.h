@@ -12,13 +12,13 @@
 namespace seam {
 
 /// A pose in double precision.
-struct Pose {
+struct DoublePose {
   Eigen::Vector2d position{0, 0};  ///< m
   double angle = 0;                ///< rad, not wrapped
 
-  Pose() = default;
-  Pose(const Eigen::Vector2d& at, double turn) : position(at), angle(turn) {}
-  explicit Pose(const BodyState& state)
+  DoublePose() = default;
+  DoublePose(const Eigen::Vector2d& at, double turn) : position(at), angle(turn) {}
+  explicit DoublePose(const BodyState& state)
       : position(state.position.cast<double>()), angle(double{state.angle}) {}
 };
 
@@ -33,7 +33,7 @@ class Extent {
   /// body is displaced by t + D p with D = R_A - R_B, which is a rotation times s = 2
   /// |sin(turn/2)|: a convex function of p, so the largest value is at a corner; over a disc with
   /// centre c and radius r it is |t + D c| + s r.
-  double Displacement(const Pose& a, const Pose& b) const;
+  double Displacement(const DoublePose& a, const DoublePose& b) const;
   /// m: of the point farthest from the origin.
   double radius() const { return radius_; }
   /// m: from a point of the root's frame to the body's farthest point.

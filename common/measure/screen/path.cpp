@@ -35,24 +35,24 @@ bool BodyPath::Whole(double from, double to) const {
                static_cast<std::int64_t>(std::ceil(to)));
 }
 
-const Pose& BodyPath::At(std::int64_t tick) const {
+const DoublePose& BodyPath::At(std::int64_t tick) const {
   const Sample* sample = Find(tick);
   SEAM_ASSERT(sample != nullptr);
   return sample->pose;
 }
 
-Pose BodyPath::At(double tick) const {
+DoublePose BodyPath::At(double tick) const {
   const double low = std::floor(tick);
   const auto at = static_cast<std::int64_t>(low);
-  const Pose& a = At(at);
+  const DoublePose& a = At(at);
   if (tick == low) return a;
-  const Pose& b = At(at + 1);
+  const DoublePose& b = At(at + 1);
   const double share = tick - low;
   return {a.position + share * (b.position - a.position),
           a.angle + share * WrapAngle(b.angle - a.angle)};
 }
 
-void BodyPath::Set(std::int64_t tick, const Pose& pose, bool same) {
+void BodyPath::Set(std::int64_t tick, const DoublePose& pose, bool same) {
   if (tick < first_ || tick > last()) return;
   if (!same || Find(tick - 1) == nullptr) ++form_;
   samples_[static_cast<std::size_t>(tick - first_)] = {pose, form_};
@@ -79,7 +79,7 @@ BodyPath ShownPath(const Recording& recording, const std::vector<const View*>& v
       const bool same =
           before != nullptr &&
           (revisions == nullptr || revisions->SameBody(view->revision, before->revision, id));
-      path.Set(view->tick, Pose(StateIn(*view, static_cast<std::size_t>(i))), same);
+      path.Set(view->tick, DoublePose(StateIn(*view, static_cast<std::size_t>(i))), same);
     }
     before = i >= 0 ? view : nullptr;
   }
@@ -91,7 +91,7 @@ BodyPath TruePath(const Recording& recording, const Oracle& oracle, PartId id) {
   BodyPath path(std::max(oracle.first_tick, recording.first_tick - before), recording.last_tick);
   for (std::int64_t tick = path.first(); tick <= path.last(); ++tick) {
     const std::optional<BodyState> truth = oracle.At(tick, id);
-    if (truth) path.Set(tick, Pose(*truth), oracle.SameBody(tick, tick - 1, id));
+    if (truth) path.Set(tick, DoublePose(*truth), oracle.SameBody(tick, tick - 1, id));
   }
   return path;
 }

@@ -25,18 +25,18 @@ class BodyPath {
   /// It is known in all these ticks, and of the same parts.
   bool Whole(std::int64_t from, std::int64_t to) const;
   /// Requires Has.
-  const Pose& At(std::int64_t tick) const;
+  const DoublePose& At(std::int64_t tick) const;
   /// Between two ticks, on the straight way. Requires Has at both.
-  Pose At(double tick) const;
+  DoublePose At(double tick) const;
   bool Has(double tick) const;
   bool Whole(double from, double to) const;
 
   /// `same`: of the same parts as in the tick before.
-  void Set(std::int64_t tick, const Pose& pose, bool same);
+  void Set(std::int64_t tick, const DoublePose& pose, bool same);
 
  private:
   struct Sample {
-    Pose pose;
+    DoublePose pose;
     int form = -1;  // rises whenever the body is not what it was; -1: not known
   };
   const Sample* Find(std::int64_t tick) const;
@@ -47,7 +47,7 @@ class BodyPath {
 };
 
 /// From `a` to `b`, the turn wrapped to half a turn either way and multiplied by `radius` (m).
-inline Place3 Between(const Pose& a, const Pose& b, double radius) {
+inline Place3 Between(const DoublePose& a, const DoublePose& b, double radius) {
   const Eigen::Vector2d d = b.position - a.position;
   return {d.x(), d.y(), radius * WrapAngle(b.angle - a.angle)};
 }

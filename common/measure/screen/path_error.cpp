@@ -4,7 +4,7 @@
 
 namespace seam {
 
-std::optional<Pose> TruthShown(const BodyPath& truth, const ViewAges& ages, std::int64_t tick) {
+std::optional<DoublePose> TruthShown(const BodyPath& truth, const ViewAges& ages, std::int64_t tick) {
   const double shown = static_cast<double>(tick) - ages.TicksAt(tick);
   const double at = std::max(shown, static_cast<double>(truth.first()));
   if (truth.Has(at)) return truth.At(at);
@@ -19,10 +19,10 @@ void PathErrors::Add(const std::vector<const View*>& views, const BodyPath& trut
     if (found < 0) continue;
     const auto i = static_cast<std::size_t>(found);
     if (screen.own.Has(*view, i)) continue;
-    const std::optional<Pose> due = TruthShown(truth, ages, view->tick);
+    const std::optional<DoublePose> due = TruthShown(truth, ages, view->tick);
     if (!due) continue;
     const double d =
-        screen.extents.Of(view->revision, id).Displacement(Pose(StateIn(*view, i)), *due);
+        screen.extents.Of(view->revision, id).Displacement(DoublePose(StateIn(*view, i)), *due);
     squares_.Add(d * d);
     const ViewAge& span = ages.SpanOf(view->tick);
     if (!span.told) continue;

@@ -12,7 +12,7 @@ namespace seam {
 
 /// Where the oracle has the body at the tick that is shown at `tick`; before its first tick where
 /// it was in that. nullopt where it is not known.
-std::optional<Pose> TruthShown(const BodyPath& truth, const ViewAges& ages, std::int64_t tick);
+std::optional<DoublePose> TruthShown(const BodyPath& truth, const ViewAges& ages, std::int64_t tick);
 
 /// path_error_rms_m and view_age_ms, body by body.
 class PathErrors {

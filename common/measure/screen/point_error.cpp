@@ -17,7 +17,7 @@ void MeasurePointError(const Recording& recording, const Oracle& oracle, Screen&
         const std::optional<BodyState> truth = oracle.At(tick, view.id[i]);
         if (!truth) continue;
         const Extent& extent = screen.extents.Of(view.revision, view.id[i]);
-        const double d = extent.Displacement(Pose(StateIn(view, i)), Pose(*truth));
+        const double d = extent.Displacement(DoublePose(StateIn(view, i)), DoublePose(*truth));
         MeanSquare& kind = peer == 0 ? server : screen.own.Has(view, i) ? own : others;
         kind.Add(d * d);
       }

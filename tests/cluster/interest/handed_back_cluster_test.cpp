@@ -39,7 +39,7 @@ TEST(HandedBackCluster, WhoIsNearHearsOfItWithinTwoSeconds) {
         const Client& client = *cluster.client(c);
         if (!client.running()) continue;
         const bool near =
-            ServerTestAccess::ConcernOf(cluster.server(), client.peer(), m) >= Concern::kNear;
+            ServerTestAccess::RelevanceOf(cluster.server(), client.peer(), m) >= Relevance::kNear;
         const bool knows = client.replica()->authority().at(m).epoch >= table.at(m).epoch;
         if (!near || knows) {
           stray_tick.erase({c, m});

@@ -1,6 +1,6 @@
 #pragma once
-/// What a scene says that runs but is surely not meant. Each question is a file of its own; a scene
-/// is answered for by the numbers of its file's lines.
+/// Finds likely mistakes in a scene that loads and runs. Each check is a file of its own; findings
+/// carry the line number in the scene file.
 
 #include <string>
 #include <vector>
@@ -11,16 +11,16 @@ namespace seam {
 
 struct Finding {
   int line = 0;      ///< in the scene file
-  std::string text;  ///< one line: what is wrong, and what to do where that is known
+  std::string text;  ///< one line: the mistake, and the remedy if known
 };
 
-/// All findings, by line. Left out are those on whose line, or on the one above it, the file has a
-/// comment with "check: meant".
+/// Returns all findings, by line, except those with a comment "check: meant" on their line or on
+/// the line above.
 std::vector<Finding> CheckMeaning(const Scene& scene);
 
-// Its questions; each adds what it finds.
+// The checks; each adds its findings.
 
-/// Bodies that begin in one another or in what is anchored.
+/// Bodies that begin in one another or in anchored parts.
 void FindOverlaps(const Scene& scene, std::vector<Finding>* findings);
 /// Bodies whose middle begins in a brick.
 void FindInBricks(const Scene& scene, std::vector<Finding>* findings);
@@ -31,7 +31,7 @@ void FindRegions(const Scene& scene, std::vector<Finding>* findings);
 /// Players without anything to drive, triggers that nothing can enter or that do nothing, seats
 /// that drive nothing.
 void FindUnused(const Scene& scene, std::vector<Finding>* findings);
-/// Limits of joints that what they join begins outside of, or can never come to.
+/// Joints that begin outside their limits, or with limits that can never be reached.
 void FindJointLimits(const Scene& scene, std::vector<Finding>* findings);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a part is from where it should be.
+/// Distance of a part from its wanted pose.
 
 #include <Eigen/Core>
 #include <optional>
@@ -8,15 +8,15 @@
 
 namespace seam {
 
-/// Where a part's frame should be; what is not said may be anything.
+/// Wanted pose of a part's frame; an unset value may be anything.
 struct WantedPose {
   std::optional<double> x, y;   ///< m
   std::optional<double> angle;  ///< rad; whole turns do not matter
 };
 
-/// The farthest that any point of the part's shape is from its place in the wanted pose, m: exact
-/// for all shapes. What is not wanted counts as right: with x and y alone it is the distance of the
-/// part's centre. NaN when the state is not finite.
+/// Returns the largest distance of a point of the part's shape from its place in the wanted pose,
+/// m: exact for all shapes. Unset values count as right: with x and y alone it is the distance of
+/// the part's centre. NaN if the state is not finite.
 double Displacement(const Part& part, const BodyState& state, const WantedPose& wanted);
 
 }  // namespace seam

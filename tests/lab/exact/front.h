@@ -1,6 +1,5 @@
 #pragma once
-/// What a user's own scene gets said beyond the table: how it is judged, and the front of error
-/// against cost.
+/// Output for a user's own scene besides the table: its judge, and the front of error against cost.
 
 #include <string>
 #include <vector>
@@ -9,11 +8,11 @@
 
 namespace seam {
 
-/// One line for each case: its name, seconds, and what the error is.
+/// One line for each case: its name, seconds, and the meaning of its error.
 std::string CaseLines(const std::vector<HardCase>& cases);
 
-/// Of each case in the CSV table at `path` the settings that no other beats, by rising cost, as
-/// lines to be printed. Throws OperatorError for a table that is not of `seam-lab physics`.
+/// Returns, as lines to print, the settings of each case in the CSV table at `path` that no other
+/// beats, by rising cost. Throws OperatorError for a table that is not of `seam-lab physics`.
 std::string FrontLines(const std::string& path);
 
 }  // namespace seam

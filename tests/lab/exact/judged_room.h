@@ -1,5 +1,5 @@
 #pragma once
-/// A world that is judged, as a script sees it: to be read only. There is no room around it.
+/// Read-only access of a script to a judged world. There is no room around it.
 
 #include <map>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace seam {
 
-/// What a script would change is ignored while it is being loaded, since a game's script may begin
-/// with that; afterwards it throws ScriptRefusal. Nobody has joined; values are 0.
+/// Changes by a script are ignored while it is loaded, since a game's script may begin with them;
+/// afterwards they throw ScriptRefusal. No player has joined; values are 0.
 class JudgedRoom : public ScriptHost {
  public:
   /// `scene`: its parts and players. It must outlive the room.
   explicit JudgedRoom(const Scene& scene);
 
-  /// What is read from now on; nullptr: nothing, there are no parts then.
+  /// Sets the world to read; nullptr: none, there are no parts then.
   void Look(const World* world) { world_ = world; }
   void EndLoading() { loading_ = false; }
   /// -1 when there is none of this name.

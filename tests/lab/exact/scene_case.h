@@ -9,7 +9,7 @@
 
 namespace seam {
 
-/// Longest run of a scene that does not say how long, s.
+/// Longest run of a scene by default, s.
 constexpr double kSceneSecondsMax = 60;
 
 /// The case of a scene's file; its name is the file's without folder and ".toml", with '-' for what

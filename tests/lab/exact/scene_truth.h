@@ -1,5 +1,5 @@
 #pragma once
-/// The exact answer that a scene carries: what its script's functions exact(t) and measured(t) say.
+/// The exact answer that a scene carries: its script's functions exact(t) and measured(t).
 /// docs/lab.md is their reference.
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace seam {
 
-/// What is right at one moment: poses of parts, or a number.
+/// The right answer at one moment: poses of parts, or a number.
 struct ExactMoment {
   std::vector<std::pair<PartId, WantedPose>> poses;  ///< ascending; empty: a number
   double value = 0;
@@ -31,7 +31,7 @@ class SceneTruth {
   SceneTruth(const SceneTruth&) = delete;
   SceneTruth& operator=(const SceneTruth&) = delete;
 
-  /// Whether a script of the scene has a function exact(t). The functions below require it.
+  /// True if a script of the scene has a function exact(t). The functions below require it.
   bool found() const { return script_ != nullptr; }
 
   /// exact(t), `t` in s. Throws OperatorError "file:line: exact(T): what" for anything that is
@@ -40,22 +40,23 @@ class SceneTruth {
   ExactMoment At(double t);
   /// Asks the first question of At again. Throws OperatorError when the answer is another.
   void AskAgain();
-  /// Whether it says a number; its unit, "" if it says none; and the number's name. Those of the
-  /// last call of At.
+  /// True if exact(t) returned a number in the last call of At; its unit, "" if there is none; and
+  /// the number's name.
   bool scalar() const { return scalar_; }
-  /// Whether there is a function measured(t).
+  /// True if there is a function measured(t).
   bool measures() const { return measures_; }
   const std::string& unit() const { return unit_; }
   const std::string& name() const { return name_; }
 
-  /// What the world has of the number: what measured(t) returns, else the mechanical energy, J. May
-  /// be NaN or infinite. Always of one world. Throws OperatorError when it is no number at all.
+  /// Returns the world's value of the number: the result of measured(t), else the mechanical
+  /// energy, J. May be NaN or infinite. Always of one world. Throws OperatorError if it is no
+  /// number at all.
   double Measured(const World& world);
 
  private:
   /// Throws "file:line: FUNCTION(T): complaint".
   [[noreturn]] void Fail(const char* function, double t, const std::string& complaint) const;
-  /// What the function returned; throws when the script stopped.
+  /// Returns the function's result; throws if the script stopped.
   std::vector<TomlNode> Ask(const char* function, double t, int results);
   ExactMoment Answer(double t);
   WantedPose PoseOf(double t, const std::string& part, const TomlNode& node) const;
@@ -67,7 +68,7 @@ class SceneTruth {
   std::unique_ptr<Script> script_;  // the one with exact(t)
   std::optional<EnergyMeter> energy_;
   double first_t_ = 0;
-  ExactMoment first_;  // what At said at first
+  ExactMoment first_;  // first answer of At
   bool known_ = false, scalar_ = false, measures_ = false;
   std::string unit_, name_;
 };

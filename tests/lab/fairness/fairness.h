@@ -1,6 +1,6 @@
 #pragma once
-/// A mirrored crash between a player who is near the server and one who is far from it: how much of
-/// it each of them receives. docs/metrics.md, "Fairness".
+/// Momentum that each player receives in a mirrored crash between a player near the server and one
+/// far from it. docs/metrics.md, "Fairness".
 
 #include <array>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct FairnessResult {
   std::array<double, 2> own_ns{};     ///< of the player's own car on the player's own screen
   std::array<double, 2> server_ns{};  ///< of the same car at the server
 
-  /// What the far player received more than the near one.
+  /// Momentum that the far player received more than the near one.
   double advantage_own_ns() const { return own_ns[1] - own_ns[0]; }
   double advantage_server_ns() const { return server_ns[1] - server_ns[0]; }
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// One player's own path, slower than the others': a network impaired in both directions.
+/// One player's own path, slower than the rest: a network impaired in both directions.
 
 #include <memory>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace seam {
 
-/// What goes through is impaired by one profile either way. In virtual time a datagram is taken up
-/// to 5 ms after it is due, because the cluster does not wake for it.
+/// Impairs datagrams by one profile either way. In virtual time a datagram is taken up to 5 ms
+/// after it is due, because the cluster does not wake for it.
 class LaggingNet : public Net {
  public:
   /// `profile` as FindProfile reads it; throws OperatorError.

@@ -1,6 +1,6 @@
 #pragma once
-/// A scene all of whose players do the same at random: in a mirrored scene nobody can know what the
-/// other will do, and yet both sides stay each other's mirror image.
+/// Gives all players of a scene the same random inputs: in a mirrored scene they are unpredictable,
+/// and yet both sides stay mirror images of each other.
 
 #include <cstdint>
 #include <string>

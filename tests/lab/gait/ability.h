@@ -1,6 +1,6 @@
 #pragma once
-/// What characters can do, each as a trial that begins at one of many starts: a world with one
-/// character, what its player does, and how well it went.
+/// Abilities of characters. Each is a trial from one of many starts: a world with one character,
+/// its player's inputs, and a score.
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// What an objective of `tune gait` says, checked: an ability, its starts, and the gains to search.
+/// The checked objective of `tune gait`: an ability, its starts, and the gains to search.
 
 #include <string>
 #include <vector>
@@ -36,7 +36,7 @@ struct GaitFile {
   std::vector<SearchedGain> gains;
 };
 
-/// Throws OperatorError "file:line: ..." for what is wrong.
+/// Throws OperatorError "file:line: ..." for mistakes.
 GaitFile ReadGaitFile(const std::string& path);
 
 }  // namespace seam

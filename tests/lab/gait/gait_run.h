@@ -1,6 +1,6 @@
 #pragma once
-/// One world with a character "hero" of a player, who does what a trial says, and what can be seen
-/// of it. What physics finds should change changes at once.
+/// One world with a player's character "hero", driven by a trial, and its visible state. Edits
+/// proposed by physics are applied at once.
 
 #include <memory>
 #include <string>
@@ -36,9 +36,9 @@ class GaitRun {
   void RunTo(double seconds, float drive, float lift = 0);
   double time() const;  ///< s
 
-  /// After the last step.
+  /// Returns the state after the last step.
   const GaitSight& Look() const { return sight_; }
-  /// A blow of so many N s on the middle of the torso.
+  /// Applies an impulse to the middle of the torso, N s.
   void Shove(Vec2 impulse);
   /// By a command, for so many seconds.
   void GoLimp(float seconds);

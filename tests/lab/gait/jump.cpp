@@ -12,7 +12,7 @@ namespace {
 
 /// m that the soles must come up.
 constexpr float kSolesMin = 0.25f;
-constexpr float kDrives[] = {0.3f, 0.6f, 1.0f};
+constexpr float kJumpDrives[] = {0.3f, 0.6f, 1.0f};
 /// s of a stride, over which the starts' phases are spread.
 constexpr double kStride = 0.6;
 
@@ -22,7 +22,7 @@ constexpr double kStride = 0.6;
 GaitTrial TryJump(const GaitSetup& setup, const CharacterGains& gains, int start) {
   Random random(static_cast<std::uint64_t>(start));
   const int index = start - 1;
-  float drive = kDrives[index % 3];
+  float drive = kJumpDrives[index % 3];
   double at = 2.5 + kStride * (index / 3) / 8;
   if (index >= 24) {
     drive = static_cast<float>(random.Uniform(0.3, 1.0));

@@ -12,7 +12,7 @@
 namespace seam {
 namespace {
 
-constexpr float kDrives[] = {1.0f, 0.6f, 0.3f, 0, -1.0f};
+constexpr float kSwimDrives[] = {1.0f, 0.6f, 0.3f, 0, -1.0f};
 /// m/s that a drive is to give, and the least that is good.
 constexpr float kWished[] = {0.8f, 0.5f, 0.3f, 0, -0.4f};
 constexpr float kLeast[] = {0.6f, 0.3f, 0.12f, 0, -0.3f};
@@ -46,7 +46,7 @@ namespace {
 GaitTrial Try(const GaitSetup& setup, const CharacterGains& gains, int start, int index,
               bool plunge) {
   Random random(static_cast<std::uint64_t>(start));
-  const float drive = kDrives[index];
+  const float drive = kSwimDrives[index];
   const double depth = random.Uniform(2.2, 6);
   const double lean = plunge ? kPi : 0.8;
   const double angle = random.Uniform(-lean, lean);

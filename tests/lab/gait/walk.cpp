@@ -12,9 +12,9 @@ namespace seam {
 
 /// Starts go through five drives; the friction of the ground and the moments are drawn.
 GaitTrial TryWalk(const GaitSetup& setup, const CharacterGains& gains, int start) {
-  constexpr float kDrives[] = {0.3f, 0.6f, 1.0f, -0.5f, -1.0f};
+  constexpr float kWalkDrives[] = {0.3f, 0.6f, 1.0f, -0.5f, -1.0f};
   Random random(static_cast<std::uint64_t>(start));
-  const float drive = kDrives[(start - 1) % 5];
+  const float drive = kWalkDrives[(start - 1) % 5];
   const std::string ground =
       fmt::format("[[part]]\nname = \"ground\"\nchain = [[-200, 0], [200, 0]]\nfriction = {:.3f}\n",
                   random.Uniform(0.6, 1));

@@ -1,5 +1,5 @@
 #pragma once
-/// A hard case for the solver: a scene of scenes/hard, how long it runs, and what is right.
+/// A hard case for the solver: a scene of scenes/hard, its duration, and its judge.
 
 #include <functional>
 #include <memory>
@@ -14,7 +14,7 @@ namespace seam {
 enum class Truth {
   kFormula,    ///< against an exact answer
   kConverged,  ///< against the scene's own run at 32 times the rate
-  kInvariant,  ///< against what must not happen
+  kInvariant,  ///< against a condition that must never be violated
 };
 
 /// Watches one run of one world.
@@ -25,7 +25,7 @@ class Judge {
   virtual void See(const World& world) = 0;
   /// >= 0, in the case's unit; infinite or NaN: it diverged. Asked for after the last tick.
   virtual double Error() const = 0;
-  /// Empty, or in a few words what happened that must not: "fell at 12.3 s".
+  /// Returns the failure in a few words, "fell at 12.3 s"; empty: none.
   virtual std::string Failure() const { return ""; }
 };
 

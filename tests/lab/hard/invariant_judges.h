@@ -1,5 +1,5 @@
 #pragma once
-/// The judges of the cases without an exact answer. What each one's error is, is said here once.
+/// The judges of the cases without an exact answer, each with its definition of the error.
 
 #include <memory>
 
@@ -45,7 +45,7 @@ std::unique_ptr<Judge> MakeRestlessJudge(const WatchLimits& limits, double from_
 std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, double overlap_m,
                                         const Scene& scene);
 
-/// Where a part should be, and from when on.
+/// Wanted height of a part, and the time from which it counts.
 struct Arrival {
   std::string part;
   double height_m = 0;  ///< y of its position

@@ -1,5 +1,6 @@
 #pragma once
-/// What no hard case may do, whatever else is asked of it: diverge, explode, leave its room.
+/// Conditions that every hard case must meet: no divergence, no explosion, no body outside its
+/// room.
 
 #include <limits>
 #include <string>
@@ -17,13 +18,13 @@ struct Room {
 };
 
 struct WatchLimits {
-  /// m/s: what is faster exploded. Well above all that the case can honestly reach, so that
-  /// whatever merely fell is not called an explosion.
+  /// m/s: a faster body counts as an explosion. Well above every speed that the case can reach
+  /// honestly, such as that of a fall.
   double speed_mps = kNoLimit;
   Room room;  ///< a body whose position is outside escaped
 };
 
-/// Reads every body once a tick, and keeps the first thing that happened that must not.
+/// Reads every body once a tick, and keeps the first violation.
 class Watch : public Judge {
  public:
   explicit Watch(const WatchLimits& limits) : limits_(limits) {}
@@ -34,7 +35,7 @@ class Watch : public Judge {
  protected:
   /// Called by See with finite states() only; `t` in s since tick 0.
   virtual void Look(const World& world, double t) = 0;
-  /// What Error says unless the world diverged.
+  /// Returns the error unless the world diverged.
   virtual double Value() const = 0;
 
   const std::vector<BodyState>& states() const { return states_; }

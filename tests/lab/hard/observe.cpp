@@ -78,9 +78,9 @@ class Meters {
 };
 
 /// What every run is watched for, whatever its case.
-class Watch {
+class ReachWatch {
  public:
-  Watch(const World& world, std::int64_t ticks) : meters_(world) {
+  ReachWatch(const World& world, std::int64_t ticks) : meters_(world) {
     const int hz = world.scene().solver.tick_hz;
     sample_ticks_ = hz / (world.body_count() > kCrowd ? std::gcd(hz, 10) : CommonHz(hz));
     rest_from_ = ticks - kRestSeconds * hz;
@@ -146,7 +146,7 @@ Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
   Trajectory path(scene);
   const int hz = scene.solver.tick_hz;
   const std::int64_t ticks = std::llround(seconds * hz);
-  Watch watch(world, ticks);
+  ReachWatch watch(world, ticks);
   Observation seen;
   double step_us = 0;
   while (true) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs a hard case once and says what became of it, and what its steps cost beside another's.
+/// Runs a hard case once and observes it; compares the cost of its steps with another scene's.
 
 #include <limits>
 #include <optional>
@@ -12,11 +12,11 @@ namespace seam {
 /// A body beyond this coordinate is lost: the run diverged. m
 constexpr double kLostBeyond = 1e6;
 
-/// What was seen of a run. Sampled 30 times a second (10 where more than 300 bodies move; else the
+/// Observations of a run. Sampled 30 times a second (10 if more than 300 bodies move; else the
 /// nearest rate that ticks fall on).
 struct Observation {
   double error = 0;          ///< the case's; infinite: it diverged
-  std::string failure;       ///< empty, or what happened that must not
+  std::string failure;       ///< the violation; empty: none
   double penetration_m = 0;  ///< deepest overlap, beyond that at the start
   double joint_drift_m = 0;  ///< worst separation at a joint, beyond that at the start
   /// Greatest rise of the mechanical energy above its start, in units of EnergyScale; empty where
@@ -30,8 +30,8 @@ struct Observation {
   bool diverged = false;           ///< a body was lost or is not a number; stopped there
 };
 
-/// What a gain of energy is compared with, J: the kinetic energy at the start, and what all that
-/// moves would gain by falling 1 m (or, without gravity and motion, have at 1 m/s).
+/// Unit for gains of energy, J: the kinetic energy at the start, plus the energy that all moving
+/// bodies would gain by falling 1 m (or, without gravity and motion, have at 1 m/s).
 double EnergyScale(const Scene& scene);
 
 /// Runs `scene` (the case's, with any solver) for `seconds`. `reference`: needed where the case has
@@ -47,7 +47,7 @@ struct Reference {
   /// The error of the stock setting against it, m: the size of what it is to judge.
   double stock_m = std::numeric_limits<double>::infinity();
 
-  /// Whether its own error is small enough to judge by it: at most a quarter of stock's, or 1e-5 m,
+  /// True if its own error is small enough to judge by it: at most a quarter of stock's, or 1e-5 m,
   /// where single precision ends.
   bool converged() const;
 };
@@ -56,8 +56,8 @@ Reference MakeReference(const Scene& scene, double seconds);
 /// The path of one run. `nudged`: this body begins 1e-6 m beside its place (or at the next float).
 Trajectory PathOf(const Scene& scene, double seconds, int nudged = -1);
 
-/// What World::Step takes, CPU us per simulated second, of two scenes stepped side by side: a
-/// quarter of a second in turn, in this process.
+/// Cost of World::Step, CPU us per simulated second, for two scenes stepped side by side: a quarter
+/// of a second in turn, in this process.
 struct Cost {
   double us_per_s = 0, stock_us_per_s = 0;
   double ratio = 0;

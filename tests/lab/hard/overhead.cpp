@@ -13,7 +13,7 @@ namespace seam {
 namespace {
 
 /// Ticks between two looks at the clock: its 0.3 us must be little beside them.
-constexpr int kStretch = 16;
+constexpr int kStepsPerLook = 16;
 
 /// A world of either kind with the hand that plays its scripts.
 template <typename AnyWorld>
@@ -37,7 +37,7 @@ struct Lane {
 Overhead MeasureOverhead(const Scene& given, int ticks, int repeats) {
   Scene scene = given;
   scene.solver.joints = JointSolving::kIterative;  // as the engine alone
-  const auto stretches = static_cast<std::size_t>((ticks + kStretch - 1) / kStretch);
+  const auto stretches = static_cast<std::size_t>((ticks + kStepsPerLook - 1) / kStepsPerLook);
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> raw_us(stretches, kNone), core_us(stretches, kNone);
   Overhead result;
@@ -47,7 +47,7 @@ Overhead MeasureOverhead(const Scene& given, int ticks, int repeats) {
     Lane<World> core(scene);
     result.bodies = core.world.body_count();
     for (std::size_t i = 0; i < stretches; ++i) {
-      const int count = std::min(kStretch, ticks - static_cast<int>(i) * kStretch);
+      const int count = std::min(kStepsPerLook, ticks - static_cast<int>(i) * kStepsPerLook);
       // In turn who goes first: the first finds the cache as the other left it.
       const bool raw_first = (i + static_cast<std::size_t>(repeat)) % 2 == 0;
       if (raw_first) raw_us[i] = std::min(raw_us[i], raw.Steps(scene, count));

@@ -1,5 +1,5 @@
 #pragma once
-/// What the core adds to a step of the engine, measured side by side.
+/// Time that the core adds to a step of the engine, measured side by side.
 
 #include "common/scene/scene.h"
 

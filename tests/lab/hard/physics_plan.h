@@ -1,5 +1,5 @@
 #pragma once
-/// Which settings are tried on which hard case, within a bounded cost.
+/// Chooses the settings to try on each hard case, within a bounded cost.
 
 #include <string>
 #include <vector>
@@ -20,10 +20,10 @@ struct PhysicsPlan {
   /// By case; in each the stock setting, the scene's, the grid, and where it has joints the scene's
   /// with iterative joints (unless they are that) and with exact ones.
   std::vector<PhysicsPoint> points;
-  std::vector<std::string> left_out;  ///< what of the grid was too dear, a line each
+  std::vector<std::string> left_out;  ///< settings of the grid that cost too much, a line each
 };
 
-/// Whether the engine has joints in it.
+/// True if the engine has joints in the scene.
 bool HasJoints(const Scene& scene);
 
 /// CPU seconds for a case's grid; what exceeds it is left out. The stock and the scene's setting

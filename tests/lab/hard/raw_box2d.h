@@ -1,5 +1,5 @@
 #pragma once
-/// A scene in a b2World that nothing of ours steps: what World::Step's cost is compared with.
+/// A scene in a plain b2World, stepped without our core: the baseline for World::Step's cost.
 
 #include <memory>
 
@@ -18,7 +18,7 @@ class RawBox2d {
 
   void SetInput(int player, const Input& input);
   void Act(int player, int action);
-  /// As many engine steps as the scene has substeps.
+  /// Does as many engine steps as the scene has substeps.
   void Step();
   std::int64_t tick() const;
   /// Over the same bytes as World::Hash: equal hashes, equal worlds.

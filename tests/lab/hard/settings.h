@@ -1,5 +1,5 @@
 #pragma once
-/// Solver settings to try on a scene: which, in what order, and what they will about cost.
+/// Solver settings to try on a scene: their choice, their order, and their approximate cost.
 
 #include <string>
 #include <vector>
@@ -16,8 +16,8 @@ enum class GridSize {
 
 bool SameSolver(const Solver& a, const Solver& b);
 
-/// "60 Hz x2 4/1 skin 2.5 mm": ticks, substeps, velocity/position iterations, then what is not as
-/// everybody has it.
+/// "60 Hz x2 4/1 skin 2.5 mm": ticks, substeps, velocity/position iterations, then all settings
+/// that differ from the stock setting.
 std::string SolverWords(const Solver& solver);
 
 /// "auto", "exact" or "iterative", as in scenes.
@@ -33,8 +33,8 @@ Scene WithSolver(const Scene& scene, const Solver& solver);
 /// 8/3 iterations, as a pyramid takes on a machine of 2020. Single bodies take less.
 double PredictedCpu(const Scene& scene, const Solver& solver, double seconds);
 
-/// What to try besides the stock and the scene's own setting, most telling first, none twice. What
-/// is not varied (continuous collision, sleep, welds) is as in `own`; joints are iterative.
+/// Settings to try besides the stock and the scene's own one, most telling first, none twice. All
+/// else (continuous collision, sleep, welds) is as in `own`; joints are iterative.
 std::vector<Solver> GridSettings(GridSize size, const Solver& own);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// CPU time of the calling thread: what other programs do on the machine does not count.
+/// CPU time of the calling thread: other programs on the machine do not count.
 
 #include <time.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a scene's parts were at common times: what runs at different rates are compared by.
+/// Places of a scene's parts at common times, to compare runs at different rates.
 
 #include <vector>
 
@@ -7,7 +7,8 @@
 
 namespace seam {
 
-/// How often per second ticks of `tick_hz` fall on multiples of 1/30 s: 30 at 60 Hz, 10 at 50 Hz.
+/// Returns the number of ticks a second, at `tick_hz`, that fall on multiples of 1/30 s: 30 at
+/// 60 Hz, 10 at 50 Hz.
 int CommonHz(int tick_hz);
 
 /// The paths of all moving parts, sampled at multiples of 1/30 s from 0 on. Parts, not bodies:

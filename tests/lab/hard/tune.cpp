@@ -17,7 +17,7 @@ constexpr std::size_t kMeasuredMax = 12, kPredictedMax = 3;
 constexpr double kSameCost = 1.05;
 /// From how many of the cheapest the search goes on to their neighbours, and how often.
 constexpr std::size_t kClimbers = 3, kClimbs = 4;
-constexpr float kSmallSkin = 0.0025f;  // m
+constexpr float kTunedSkin = 0.0025f;  // m
 
 class Search {
  public:
@@ -75,7 +75,7 @@ class Search {
     std::vector<int> rates = {20, 30, 60, 120, 240};
     if (problem_.keep_hz) rates = {problem_.own.tick_hz};
     const std::vector<std::pair<int, int>> iterations = {{1, 1}, {2, 1}, {4, 1}, {8, 3}, {16, 4}};
-    for (const float skin : {0.0f, kSmallSkin}) {
+    for (const float skin : {0.0f, kTunedSkin}) {
       for (const int hz : rates) {
         for (const int substeps : {1, 2, 3, 4, 6, 8}) {
           for (const auto& [velocity, position] : iterations) {
@@ -144,7 +144,7 @@ class Search {
       more.velocity_iterations = std::min(64, from.velocity_iterations * 5 / 4 + 1);
       neighbours.push_back(more);
       more = from;
-      more.skin = kSmallSkin;
+      more.skin = kTunedSkin;
       neighbours.push_back(more);
       for (const Solver& solver : neighbours) {
         if (!Try(solver)) return;

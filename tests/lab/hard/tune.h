@@ -10,13 +10,13 @@
 
 namespace seam {
 
-/// What a setting gave.
+/// Result of a setting.
 struct Trial {
   Solver solver;
   double predicted = 0;        ///< cost, in the unit of the problem's `predicted`
   double error = 0;            ///< infinite: it diverged
-  std::string failure;         ///< what happened that must not: it does not pass then
-  double run_cost = 0;         ///< what its run took, in any unit: a first idea of its cost
+  std::string failure;         ///< the violation, with which it does not pass; empty: none
+  double run_cost = 0;         ///< cost of its run, in any unit: a first idea of its cost
   std::optional<double> cost;  ///< measured, where it mattered
 };
 
@@ -26,7 +26,7 @@ struct TuneProblem {
   std::function<double(const Solver&)> predicted;
   /// Asked for the cheapest that pass and for the front.
   std::function<double(const Solver&)> measured_cost;
-  Solver own;            ///< tried too; what is not searched is as here
+  Solver own;            ///< tried too; settings that are not searched are as here
   double limit = 0;      ///< of the error
   bool keep_hz = false;  ///< tick_hz is as in `own`
   /// The scene has joints: exact ones are tried with 1, 2 and 4 substeps of their own, and the grid

@@ -1,6 +1,6 @@
 #pragma once
-/// What a session costs whom: CPU time of the server and of a client, bytes, and how much of the
-/// work the clients do.
+/// Cost of a session: CPU time of the server and of a client, bytes, and the clients' share of the
+/// work.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace seam {
 struct SessionLoad {
   int players = 0;
   int bodies = 0;               ///< that move, in the scene
-  double awake = 0;             ///< of them, on average, at whoever has them
+  double awake = 0;             ///< moving bodies awake at their authority, on average
   double stepped = 0;           ///< bodies in the server's steps, on average, displayed ones too
   double server_us = 0;         ///< CPU time a tick, network included; sockets are not
   double server_p99_us = 0;     ///< of the ticks
@@ -23,8 +23,8 @@ struct SessionLoad {
   double split_share = 0;       ///< of the clients' pairs that touch: two have authority
 };
 
-/// Runs the session to its end. Figures of CPU time are this machine's and noisy; the others
-/// are a function of the configuration. Throws OperatorError as Cluster does.
+/// Runs the session to its end. Figures of CPU time are this machine's and noisy; all else is a
+/// function of the configuration. Throws OperatorError as Cluster does.
 SessionLoad MeasureLoad(ClusterConfig config);
 
 }  // namespace seam

@@ -1,6 +1,6 @@
 #pragma once
-/// What distribution must show, as figures beside their bars: each with its precondition, without
-/// which it says nothing.
+/// Figures of distribution beside their bars (limits), each with a precondition: a figure is valid
+/// only if that holds.
 
 #include <string>
 #include <vector>
@@ -10,12 +10,12 @@
 namespace seam {
 
 struct BarRow {
-  std::string figure;    ///< what was measured, and of what
+  std::string figure;    ///< the quantity and its subject
   std::string measured;  ///< for people
   std::string must;      ///< the bar for people; "": printed, no bar
-  std::string given;     ///< what had to be so, and was or was not; "": nothing
-  bool valid = true;     ///< it was so
-  bool met = true;       ///< the bar was held; nothing where there is none
+  std::string given;     ///< the precondition and its value; "": none
+  bool valid = true;     ///< the precondition held
+  bool met = true;       ///< the bar was held; meaningless without a bar
 };
 
 /// A value of that unit ("": a ratio), at most `most`; `detail` stands behind it in brackets.

@@ -1,6 +1,6 @@
 #pragma once
-/// What distribution takes off the server, and what it must not cost: seam-lab relief NAME. One
-/// file per bench, each a table of rows.
+/// Benches of the load that distribution takes off the server, and of its cost: seam-lab relief
+/// NAME. One file per bench, each a table of rows.
 
 #include <vector>
 

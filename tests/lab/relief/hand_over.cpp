@@ -16,7 +16,7 @@ namespace {
 /// Of the network `demo`, in the mean.
 constexpr double kRoundTripMs = 120;
 
-struct Case {
+struct HandOverCase {
   std::string name;
   std::string scene;  // of scenes/
   std::string text;   // instead, if not empty
@@ -26,7 +26,7 @@ struct Case {
   double per_s_min = 0.5;  // changes, or it says nothing
 };
 
-std::vector<Case> Cases() {
+std::vector<HandOverCase> HandOverCases() {
   ReliefRoom row;
   row.players = 16;
   row.each = 15;
@@ -44,7 +44,7 @@ std::vector<Case> Cases() {
 TextTable ReliefHandOverBench(bool quick) {
   const double seconds = quick ? 3 : 8;
   std::vector<BarRow> rows;
-  for (const Case& of : Cases()) {
+  for (const HandOverCase& of : HandOverCases()) {
     if (quick && of.players > 8) continue;
     ClusterConfig config;
     config.scene = of.scene;

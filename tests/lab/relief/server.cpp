@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPairs = 3;
 
-struct Case {
+struct ServerCase {
   const char* name;
   ReliefRoom room;
   double cpu_most;     // of `buffer` by `central`; 0: no bar
@@ -26,7 +26,7 @@ struct Case {
   double client_most;  // us a tick of a client; 0: no bar
 };
 
-std::vector<Case> Cases() {
+std::vector<ServerCase> ServerCases() {
   ReliefRoom crates, balls;
   crates.sleep = true;
   balls.things = ReliefThings::kBalls;
@@ -40,7 +40,7 @@ std::vector<Case> Cases() {
           {"30 players, a sled and 29 balls each", balls, 0.35, 25, 683.0 / 5}};
 }
 
-ClusterConfig ConfigOf(const Case& of, bool central, std::int64_t seed, double seconds) {
+ClusterConfig ConfigOf(const ServerCase& of, bool central, std::int64_t seed, double seconds) {
   ClusterConfig config;
   config.scene = "relief";
   config.scene_text = ReliefText(of.room);
@@ -79,7 +79,7 @@ struct Pairs {
   }
 };
 
-void AddRows(const Case& of, const Pairs& pairs, std::vector<BarRow>* rows) {
+void AddRows(const ServerCase& of, const Pairs& pairs, std::vector<BarRow>* rows) {
   const std::string given = fmt::format(
       "clients hold {:.0f} % (≥ 80); awake {:.0f} and {:.0f} of {} (10 % apart at most)",
       100 * pairs.held_least, pairs.last.awake, pairs.last_central.awake, pairs.last.bodies);
@@ -105,7 +105,7 @@ void AddRows(const Case& of, const Pairs& pairs, std::vector<BarRow>* rows) {
 }
 
 /// How far clients show the bodies of others from the oracle's, m.
-double ErrorOf(const Case& of, bool central, double seconds) {
+double ErrorOf(const ServerCase& of, bool central, double seconds) {
   ClusterConfig config = ConfigOf(of, central, 1, seconds);
   config.publish = Publish::kAll;
   Cluster cluster(config);
@@ -119,7 +119,7 @@ double ErrorOf(const Case& of, bool central, double seconds) {
 TextTable ReliefServerBench(bool quick) {
   const double seconds = quick ? 2 : 4;
   std::vector<BarRow> rows;
-  for (const Case& of : Cases()) {
+  for (const ServerCase& of : ServerCases()) {
     const bool many = of.room.players > 9;  // each of whom simulates all of it in mode central
     if (quick && many) continue;
     Pairs pairs;

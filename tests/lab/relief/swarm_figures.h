@@ -1,12 +1,12 @@
 #pragma once
-/// The numbers in what seam-swarm prints.
+/// The numbers in seam-swarm's output.
 
 #include <string>
 
 namespace seam {
 
 struct SwarmFigures {
-  std::string failed;                       ///< why there are none; set by who ran it
+  std::string failed;                       ///< why there are none; set by the caller
   double server_cpu = 0;                    ///< % of a core
   double tick_p99_ms = 0, late_p99_ms = 0;  ///< of the server
   double slowest_clock = 0;                 ///< of its rooms, %

@@ -7,12 +7,6 @@
 #include "tests/lab/report/hurry_section.h"
 
 namespace seam {
-namespace {
-
-std::string Text(const std::optional<double>& value) { return value ? Digits(*value) : "–"; }
-
-}  // namespace
-
 Section CasesSection(const std::vector<ReportCase>& all) {
   Section section;
   section.id = "cases";
@@ -40,11 +34,11 @@ Section CasesSection(const std::vector<ReportCase>& all) {
       std::vector<std::string> row = {method.name};
       for (const SweepMeasure& measure : measures) {
         const auto median = MedianOf(&method, measure);
-        row.push_back(row.size() == 1 ? CellOf(&method, median) : Text(median));
+        row.push_back(row.size() == 1 ? CellOf(&method, median) : DigitsOrDash(median));
       }
-      if (limit) row.push_back(Text(MedianOf(&method, LimitMeasure())));
+      if (limit) row.push_back(DigitsOrDash(MedianOf(&method, LimitMeasure())));
       for (const char* column : {"energy_ratio_min", "energy_ratio_max", "hottest_ratio"}) {
-        if (energy) row.push_back(Text(MedianOf(&method, column)));
+        if (energy) row.push_back(DigitsOrDash(MedianOf(&method, column)));
       }
       table.rows.push_back(std::move(row));
     }

@@ -16,8 +16,6 @@ constexpr double kAsGood = 1.1;
 /// As exact, for choosing by cost.
 constexpr double kNearly = 1.25;
 
-std::string Text(const std::optional<double>& value) { return value ? Digits(*value) : "–"; }
-
 std::vector<std::string> MethodsOf(const std::vector<ReportCase>& cases) {
   std::vector<std::string> methods;
   for (const ReportCase& at : cases) {
@@ -214,7 +212,7 @@ TextTable WhichTable(const std::vector<Sweep>& sweeps) {
           const auto q = Summary(sweep.table, MeasureNamed("info-limit"), found->second);
           if (q) limit = q->median;
         }
-        row.push_back(Text(limit));
+        row.push_back(DigitsOrDash(limit));
         table.rows.push_back(std::move(row));
         any = true;
       }

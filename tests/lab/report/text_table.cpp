@@ -84,6 +84,10 @@ std::string Digits(double value) {
   return fmt::format("{:.3g}", value);
 }
 
+std::string DigitsOrDash(const std::optional<double>& value) {
+  return value ? Digits(*value) : "–";
+}
+
 std::string Digits(const std::optional<Quartiles>& value) {
   if (!value) return "–";
   const std::string median = Digits(value->median), low = Digits(value->low),

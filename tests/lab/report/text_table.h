@@ -29,6 +29,8 @@ std::string EscapeHtml(const std::string& text);
 
 /// Three significant digits: 0.0123, 12.3, 1230, 1.2e-07; "failed" for infinity and NaN.
 std::string Digits(double value);
+/// The same, or a dash if there is no value.
+std::string DigitsOrDash(const std::optional<double>& value);
 /// "median (low–high)", or "–" for nothing.
 std::string Digits(const std::optional<Quartiles>& value);
 

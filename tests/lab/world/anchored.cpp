@@ -38,10 +38,10 @@ std::string Wall(int columns, int rows, double pitch) {
   return text;
 }
 
-enum class Kind { kSingle, kWelded };
+enum class AnchoredKind { kSingle, kWelded };
 
 /// The bricks as parts, alone or welded in rows; all of it, gravity too, turned about the origin.
-Scene AsParts(Scene scene, Kind kind, float angle) {
+Scene AsParts(Scene scene, AnchoredKind kind, float angle) {
   scene.gravity = Turned(scene.gravity, angle);
   for (Part& part : scene.parts) {
     part.position = Turned(part.position, angle);
@@ -53,10 +53,10 @@ Scene AsParts(Scene scene, Kind kind, float angle) {
     EachBrick(field, [&](int x, int y) {
       Part part = BrickPart(field, x, y);
       part.id = static_cast<PartId>(scene.parts.size());
-      part.anchored = kind != Kind::kWelded || first;
+      part.anchored = kind != AnchoredKind::kWelded || first;
       part.position = Turned(part.position, angle);
       part.angle = angle;
-      if (kind == Kind::kWelded && !first) {
+      if (kind == AnchoredKind::kWelded && !first) {
         Joint weld;
         weld.name = part.name;
         weld.kind = JointKind::kWeld;
@@ -85,17 +85,17 @@ TextTable AnchoredBench(bool quick) {
   table.header = {"", "build", "a tick", "a barrier", "build and a second"};
   struct Row {
     const char* name;
-    Kind kind;
+    AnchoredKind kind;
     float angle;  // rad
     double pitch = kApart;
   };
   for (const Row& row :
-       {Row{"single parts", Kind::kSingle, 0}, Row{"turned by 0.02", Kind::kSingle, 0.02f},
-        Row{"turned by 0.8", Kind::kSingle, 0.8f}, Row{"welded in rows", Kind::kWelded, 0},
-        Row{"welded, turned by 0.3", Kind::kWelded, 0.3f},
-        Row{"welded, turned by 0.8", Kind::kWelded, 0.8f},
-        Row{"single, no room, turned by 0.3", Kind::kSingle, 0.3f, kClose},
-        Row{"single, no room, turned by 0.8", Kind::kSingle, 0.8f, kClose}}) {
+       {Row{"single parts", AnchoredKind::kSingle, 0}, Row{"turned by 0.02", AnchoredKind::kSingle, 0.02f},
+        Row{"turned by 0.8", AnchoredKind::kSingle, 0.8f}, Row{"welded in rows", AnchoredKind::kWelded, 0},
+        Row{"welded, turned by 0.3", AnchoredKind::kWelded, 0.3f},
+        Row{"welded, turned by 0.8", AnchoredKind::kWelded, 0.8f},
+        Row{"single, no room, turned by 0.3", AnchoredKind::kSingle, 0.3f, kClose},
+        Row{"single, no room, turned by 0.8", AnchoredKind::kSingle, 0.8f, kClose}}) {
     const Scene bricks = ParseScene(Wall(columns, rows, row.pitch), "wall.toml");
     const Scene parts = AsParts(bricks, row.kind, row.angle);
     const auto build = [](const Scene& scene) { return [&scene] { World world(scene); }; };

@@ -15,7 +15,7 @@
 namespace seam {
 namespace {
 
-constexpr int kMovers = 100, kCars = 20, kPitch = 20;  // a car: three bodies; pitch in m
+constexpr int kBodiesOnBricks = 100, kCars = 20, kPitch = 20;  // a car: three bodies; pitch in m
 constexpr float kRoad = 60;                            // m: the road over the roofs
 
 /// What rolls on the road and falls on roofs (or on the ground alone), and never rests.
@@ -42,12 +42,12 @@ std::string Movers(float left, float right, bool city) {
       text += line;
     }
   }
-  for (int i = 0; i < kMovers - 3 * kCars; ++i) {
+  for (int i = 0; i < kBodiesOnBricks - 3 * kCars; ++i) {
     std::snprintf(line, sizeof line,
                   "[[part]]\nname = \"ball%d\"\n%s\nposition = [%g, %g]\nrestitution = 0.8\n"
                   "velocity = [%d, 0]\n",
                   i, i % 2 == 0 ? "circle = 0.4" : "box = [0.8, 0.6]",
-                  static_cast<double>(at(i, kMovers - 3 * kCars)),
+                  static_cast<double>(at(i, kBodiesOnBricks - 3 * kCars)),
                   static_cast<double>(city ? kRoad - 3 : 3), i % 9 - 4);
     text += line;
   }
@@ -166,7 +166,7 @@ TextTable FeatherweightBench(bool quick) {
 
   TextTable table;
   table.name = "featherweight";
-  table.title = std::to_string(bricks) + " anchored bricks under " + std::to_string(kMovers) +
+  table.title = std::to_string(bricks) + " anchored bricks under " + std::to_string(kBodiesOnBricks) +
                 " moving bodies";
   table.header = {"", "no city", "featherweight", "static bodies"};
   const auto row = [&](const char* name, const std::string& a, double b, double c) {

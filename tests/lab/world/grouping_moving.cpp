@@ -34,7 +34,7 @@ std::string Ship(bool quick) {
   return text;
 }
 
-void Live(World* world, int ticks) {
+void PlayAndApply(World* world, int ticks) {
   for (int i = 0; i < ticks; ++i) {
     for (std::size_t p = 0; p < world->scene().players.size(); ++p) {
       world->SetInput(static_cast<int>(p), world->scene().players[p].script.front().input);
@@ -45,7 +45,7 @@ void Live(World* world, int ticks) {
   }
 }
 
-double Apart(const World& one, const World& other) {
+double LargestDistance(const World& one, const World& other) {
   double most = 0;
   for (const Part& part : one.scene().parts) {
     const Vec2 apart = PartPose(one, part.id).position - PartPose(other, part.id).position;
@@ -68,15 +68,15 @@ TextTable GroupingMovingBench(bool quick) {
     Scene ungrouped = scene;
     ungrouped.grouping.Set(Grouping{});
     World grouped(scene), single(ungrouped);
-    Live(&grouped, 100);
-    Live(&single, 100);
+    PlayAndApply(&grouped, 100);
+    PlayAndApply(&single, 100);
     const std::string bodies = std::to_string(single.body_count());
     const std::string left = std::to_string(grouped.body_count());
     const int ticks = quick ? 10 : 20;
     const double cost =
-        CostRatio([&] { Live(&single, ticks); }, [&] { Live(&grouped, ticks); }, quick ? 3 : 9);
+        CostRatio([&] { PlayAndApply(&single, ticks); }, [&] { PlayAndApply(&grouped, ticks); }, quick ? 3 : 9);
     table.rows.push_back(
-        {carrier.name, bodies, left, Digits(cost), Digits(Apart(grouped, single))});
+        {carrier.name, bodies, left, Digits(cost), Digits(LargestDistance(grouped, single))});
   }
   table.note =
       "Sixty crates in a pile; the cart is scenes/freight.toml, which rolls at 6 m/s, the ship a "

@@ -13,13 +13,13 @@
 namespace seam {
 namespace {
 
-struct Kind {
+struct JointCase {
   const char* name;
   const char* first;  // TOML of the two joints but name, a and b
   const char* second;
 };
 
-const Kind kKinds[] = {
+const JointCase kKinds[] = {
     {"hinge", "kind = \"hinge\"\nanchor = [0, 9.5]", "kind = \"hinge\"\nanchor = [1, 9.5]"},
     {"weld joint", "kind = \"weld\"\nanchor = [0, 9.5]", "kind = \"weld\"\nanchor = [1, 9.5]"},
     {"prismatic", "kind = \"prismatic\"\nanchor = [0, 9.5]\naxis = [1, 1]\nlimits = [-1, 1]",
@@ -31,7 +31,7 @@ const Kind kKinds[] = {
     {"rope", "kind = \"rope\"\nanchor_a = [0, 10]\nanchor_b = [0.5, 9.5]",
      "kind = \"rope\"\nanchor_a = [0.5, 9.5]\nanchor_b = [1.5, 9.5]"}};
 
-std::string TextOf(const Kind& kind, int load, int substeps) {
+std::string TextOf(const JointCase& kind, int load, int substeps) {
   const std::string welds = std::string(kind.name) == "weld joint" ? "welds = \"joint\"\n" : "";
   return "[solver]\nsleep = false\n" + welds + fmt::format("substeps = {}\n", substeps) +
          "[[part]]\nname = \"post\"\nbox = [0.5, 0.5]\nposition = [0, 10]\nanchored = true\n"
@@ -77,7 +77,7 @@ TextTable JointsBench(bool quick) {
                   "10x, 4 substeps",
                   "100x, 4 substeps",
                   "cost of 4 substeps"};
-  for (const Kind& kind : kKinds) {
+  for (const JointCase& kind : kKinds) {
     std::vector<std::string> row = {kind.name};
     for (const int substeps : {1, 4}) {
       for (const int load : {1, 10, 100}) {

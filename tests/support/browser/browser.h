@@ -1,7 +1,7 @@
 #pragma once
-/// A headless Chromium that a test drives as a person would: a page opened from disk, the mouse and
-/// the keys, what stands in the page; and everything that went wrong in it or left the file. It is
-/// spoken to over two pipes (the DevTools protocol), so that no port is opened.
+/// A headless Chromium that a test drives as a person would: opens a page from disk, uses mouse and
+/// keys, and reads the page, its errors, and its requests outside the file. Controlled over two
+/// pipes (the DevTools protocol), so that no port is opened.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace seam {
 
 class Browser {
  public:
-  /// The program's name; "" where there is none: then a test is skipped.
+  /// Returns the program's name; "" if there is none: then a test is skipped.
   static std::string Find();
 
   /// Starts it with a window of that size, px.
@@ -22,27 +22,27 @@ class Browser {
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
 
-  /// Opens a file's page, with what stands behind # in its address, and waits until `ready` (an
-  /// expression) is true; false when it never is.
+  /// Opens a file's page, with the part of its address after #, and waits until `ready` (an
+  /// expression) is true; returns false if it never is.
   bool Open(const std::string& path, const std::string& fragment, const std::string& ready);
-  /// The value of an expression, as text.
+  /// Returns the value of an expression, as text.
   std::string Evaluate(const std::string& expression);
-  /// The same as a number.
+  /// Returns the value of an expression, as a number.
   double Number(const std::string& expression);
-  /// Waits for the next picture after what was done.
+  /// Waits for the next frame after the last action.
   void Settle();
   /// Clicks the middle of the first element that a selector finds.
   void Click(const std::string& selector);
-  /// Presses the mouse at one place of an element (shares of its size), moves, lets go at another.
+  /// Drags the mouse from one place of an element (shares of its size) to another.
   void Drag(const std::string& selector, double from_x, double to_x, double y = 0.5);
-  /// One key down and up: "ArrowRight", " ", "w".
+  /// Presses and releases a key: "ArrowRight", " ", "w".
   void Press(const std::string& key);
 
-  /// Console errors, exceptions, and requests for anything that is not in the file.
+  /// Console errors, exceptions, and requests for anything outside the file.
   const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:
-  /// Sends a command and waits for its answer, which it gives whole.
+  /// Sends a command and waits; returns its whole answer.
   std::string Call(const std::string& method, const std::string& parameters);
   std::string NextMessage();
   void Listen(const std::string& message);

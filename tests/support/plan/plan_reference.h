@@ -1,6 +1,6 @@
 #pragma once
-/// The rules of plan.h for rectangles once more, without grid and sweep: what the fast plan must be
-/// equal to.
+/// Reference implementation of plan.h for rectangles, without grid and sweep: the fast plan must be
+/// equal to it.
 
 #include "server/authority/plan.h"
 
@@ -12,7 +12,7 @@ struct ReferenceEntry {
 };
 using ReferencePlan = std::vector<ReferenceEntry>;
 
-/// Of a view whose players have regions; players x boxes.
+/// Computes the plan of a view with players' regions; players x boxes.
 ReferencePlan PlanSlowly(const AuthorityView& view);
 
 }  // namespace seam

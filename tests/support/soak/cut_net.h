@@ -1,5 +1,5 @@
 #pragma once
-/// A network that can be cut for a while: what is sent meanwhile, either way, is lost.
+/// A network that can be cut for a while: datagrams sent meanwhile, either way, are lost.
 
 #include <memory>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
-/// What goes wrong in one session, all of it drawn from its seed: the network, and what happens to
-/// each client when.
+/// The faults of one session, drawn from its seed: the network, and the faults of each client with
+/// their times.
 
 #include <cstdint>
 #include <string>
@@ -35,13 +35,13 @@ struct FaultPlan {
 /// The last faults are over so long before the end, s.
 constexpr double kCalmSeconds = 10;
 
-/// What sessions are drawn from.
+/// Range from which sessions are drawn.
 struct FaultChoice {
   std::vector<std::string> scenes;
   double seconds = 20;
   int players = 8;  ///< at most so many of the scene's are there
-  /// In half of the sessions a room is as narrow for what is in it as a large one is for much more:
-  /// nobody follows it whole, and in some clients get few bytes.
+  /// In half of the sessions the limits are so low that a small room behaves like a large one: no
+  /// client follows it whole, and in some sessions clients get few bytes.
   bool narrow = false;
 };
 

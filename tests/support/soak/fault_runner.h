@@ -1,5 +1,5 @@
 #pragma once
-/// Lets a plan's faults happen to a cluster's clients, at the room's time.
+/// Applies a plan's faults to a cluster's clients, at the room's time.
 
 #include <memory>
 #include <vector>
@@ -13,14 +13,14 @@ class FaultRunner {
   /// `plan` must outlive this, and this the cluster made of `Config()`.
   explicit FaultRunner(const FaultPlan& plan);
 
-  /// The plan's, with networks that can be cut.
+  /// Returns the plan's configuration, with networks that can be cut.
   ClusterConfig Config();
-  /// To be called after every virtual instant: begins and ends what is due.
+  /// Begins and ends faults that are due. To be called after every virtual instant.
   void Act(Cluster& cluster);
 
-  /// Its process does not run, or there is none.
+  /// True if the client's process does not run, or there is none.
   bool Stopped(int client) const { return at(client).stopped; }
-  /// Since when nothing is wrong with it, us of virtual time; -1: something is.
+  /// Time since which the client has no fault, us of virtual time; -1: it has one.
   std::int64_t WellSince(int client) const { return at(client).well_since_us; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Prints what happens to a session's clients, for whoever looks for the cause of a failing seed.
+/// Prints the events of a session's clients, to find the cause of a failing seed.
 
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +22,8 @@ class FaultTrace {
     if (watch != nullptr) std::sscanf(watch, "%d:%lf:%lf", &body_, &from_s_, &to_s_);
   }
 
-  /// After every virtual instant: who is in, plays, or joins again.
+  /// Prints changes: clients that are in, play, or join again. To be called after every virtual
+  /// instant.
   void Look(Cluster& cluster) {
     seen_.resize(static_cast<std::size_t>(cluster.client_count()));
     for (int c = 0; c < cluster.client_count(); ++c) {

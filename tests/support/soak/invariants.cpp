@@ -15,7 +15,7 @@ namespace {
 /// kToldUs.
 constexpr std::int64_t kHandedOverUs = 9000000;
 /// What is nothing to a peer it is told of so much later, us.
-constexpr std::int64_t kNothingUs = GrantNews::kOwedNothingS * std::int64_t{1000000};
+constexpr std::int64_t kNothingUs = GrantAudience::kGrantPendingDistantS * std::int64_t{1000000};
 /// Edits, states and links that wait: what is more grows without end. A Link gives up at 4096.
 constexpr std::size_t kLinkMax = 1500, kEditsMax = 300, kQueueMax = 600;
 /// A body may be faster than the scene's limit for so many ticks on end: a correction of a rule
@@ -177,7 +177,7 @@ void Invariants::LookForStrays() {
     Peer& peer = peers_[p];
     if (peer.replica == nullptr || !Well(p, kToldUs)) {
       peer.stray_us.clear();
-      peer.stray_concern_us.clear();
+      peer.stray_relevant_us.clear();
       continue;
     }
     if (peer.replica->revision() != server.revision()) continue;
@@ -191,10 +191,10 @@ void Invariants::LookForStrays() {
       stray_us[id] = since == peer.stray_us.end() ? cluster_.now_us() : since->second;
       // What was nothing to the peer is told of when it comes to concern it, or much later.
       const bool nothing =
-          ServerTestAccess::ConcernOf(cluster_.server(), peer.self, m) == Concern::kNone;
-      const auto rose = peer.stray_concern_us.find(id);
+          ServerTestAccess::RelevanceOf(cluster_.server(), peer.self, m) == Relevance::kNone;
+      const auto rose = peer.stray_relevant_us.find(id);
       concern_us[id] =
-          nothing || rose == peer.stray_concern_us.end() ? cluster_.now_us() : rose->second;
+          nothing || rose == peer.stray_relevant_us.end() ? cluster_.now_us() : rose->second;
       if (cluster_.now_us() - concern_us[id] <= kHandedOverUs &&
           cluster_.now_us() - stray_us[id] <= kHandedOverUs + kNothingUs) {
         continue;
@@ -206,7 +206,7 @@ void Invariants::LookForStrays() {
                                std::to_string(ours.epoch));
     }
     peer.stray_us = std::move(stray_us);
-    peer.stray_concern_us = std::move(concern_us);
+    peer.stray_relevant_us = std::move(concern_us);
   }
 }
 

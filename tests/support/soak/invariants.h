@@ -1,6 +1,6 @@
 #pragma once
-/// What must hold at every virtual instant of a session, whatever goes wrong in it.
-/// docs/metrics.md, "Soak", names each.
+/// Invariants that must hold at every virtual instant of a session, with any faults.
+/// docs/metrics.md, "Soak", lists them.
 
 #include <cstdint>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace seam {
 
-/// One that did not hold: how often that was seen, and what was first.
+/// A violated invariant: the number of violations, and the first one.
 struct Broken {
   long times = 0;
   std::string first;
@@ -21,26 +21,26 @@ struct Broken {
 
 class Invariants {
  public:
-  /// Both must outlive this. `strict`: the room's mode, which is there to show what happens where
-  /// what others have has infinite mass; things may explode there.
+  /// Both must outlive this. `strict`: the room's mode, in which other peers' bodies have infinite
+  /// mass; bodies may explode there.
   Invariants(Cluster& cluster, const FaultRunner& faults, bool strict);
 
   /// To be called after every virtual instant, before FaultRunner::Act.
   void Look();
 
-  /// By invariant; empty: all held.
+  /// Violations by invariant; empty: all held.
   const std::map<std::string, Broken>& broken() const { return broken_; }
-  long compared() const { return compared_; }  ///< records and poses that were looked at
-  /// Longest seen of each queue, by name.
+  long compared() const { return compared_; }  ///< number of compared records and poses
+  /// Longest observed length of each queue, by name.
   const std::map<std::string, std::size_t>& queues() const { return queues_; }
   float fastest() const { return fastest_; }          ///< m/s, of any body at any peer
-  int reached_rest() const { return reached_rest_; }  ///< bodies at rest that were compared
+  int reached_rest() const { return reached_rest_; }  ///< compared bodies at rest
 
  private:
-  /// A client with which nothing is wrong plays within this long, us: it may have to notice that it
-  /// was dropped (Client::kLostUs) and to join again, three of ten datagrams lost.
+  /// A client without a fault plays within this time, us: it may have to notice that it was dropped
+  /// (Client::kLostUs) and to join again, with three of ten datagrams lost.
   static constexpr std::int64_t kBackUs = 10000000;
-  /// What is told reliably is known within this long, us.
+  /// Reliable messages have taken effect within this time, us.
   static constexpr std::int64_t kToldUs = 4000000;
 
   struct Record {
@@ -48,12 +48,12 @@ class Invariants {
     int authority = 0;
     std::int32_t epoch = -1;
   };
-  /// A body's pose, and since when it has not changed.
+  /// A body's pose, and the time of its last change.
   struct Still {
     BodyState pose;
     std::int64_t since_us = 0;
   };
-  /// One peer as it was when looked at last; the first is the server.
+  /// One peer as of the last check; the first is the server.
   struct Peer {
     const Replica* replica = nullptr;  // nullptr: it has none, or is stopped
     int self = 0;
@@ -62,7 +62,7 @@ class Invariants {
     std::map<PartId, int> fast_ticks;         // bodies: ticks on end beyond the speed limit
     std::int64_t behind_us = -1;              // since when its revision is not the server's
     std::map<PartId, std::int64_t> stray_us;  // mechanisms: since when it knows another owner
-    std::map<PartId, std::int64_t> stray_concern_us;  // and since when they concern it
+    std::map<PartId, std::int64_t> stray_relevant_us;  // and since when they concern it
     std::map<PartId, Still> still_elsewhere;          // bodies that lie still otherwise
     std::map<PartId, std::int64_t> far_us;            // bodies: since when it has them elsewhere
     std::map<PartId, std::int64_t> rest_other_us;     // bodies: since when it knows other rest

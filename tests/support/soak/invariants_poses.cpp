@@ -144,7 +144,7 @@ void Invariants::LookAtPoses() {
       // Of what is nothing to it a peer is told now and then.
       const int m = server.world().mechanism(body);
       const bool nothing =
-          p > 0 && ServerTestAccess::ConcernOf(cluster_.server(), peer.self, m) == Concern::kNone;
+          p > 0 && ServerTestAccess::RelevanceOf(cluster_.server(), peer.self, m) == Relevance::kNone;
       if (lies && !nothing && !SameBits(there, truth) && IslandLies(*holder, body)) {
         const auto seen = peer.still_elsewhere.find(id);
         const bool stays = seen != peer.still_elsewhere.end() && SameBits(seen->second.pose, there);

@@ -1,12 +1,12 @@
 #pragma once
-/// Boxes in pairs that are bonded and broken again, for rooms that have many edits behind them.
+/// Boxes in pairs that are bonded and broken again, for rooms with a long edit history.
 
 #include "common/physics/part_places.h"
 #include "tests/lab/cluster.h"
 
 namespace seam {
 
-/// Of a scene: the boxes, two by two, so far away that nobody is near to them.
+/// Returns the scene text of the boxes, two by two, so far away that no player is near.
 inline const char* const kPairedBoxes = R"(
 [[part]]
 name = "box"

@@ -1,5 +1,5 @@
 #pragma once
-/// How much a server keeps waiting, and what it thinks concerns whom: for tests that watch it.
+/// Access to a server's queue lengths and relevances, for tests that watch it.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 namespace seam {
 
 struct ServerTestAccess {
-  /// Reliable messages that wait, of the session that has most of them.
+  /// Returns the largest number of unacknowledged reliable messages of a session.
   static std::size_t WaitingOfLinks(Server& server) {
     std::size_t most = 0;
     server.sessions_.ForEachReady(
@@ -16,9 +16,9 @@ struct ServerTestAccess {
     return most;
   }
   static const AuthorityManager& Authority(const Server& server) { return server.authority_; }
-  /// How much a mechanism concerns a peer, as the server sees it.
-  static Concern ConcernOf(const Server& server, int peer, int mechanism) {
-    return server.broadcast_.ConcernOf(peer, mechanism);
+  /// Returns the relevance of a mechanism to a peer, as the server has it.
+  static Relevance RelevanceOf(const Server& server, int peer, int mechanism) {
+    return server.broadcast_.RelevanceOf(peer, mechanism);
   }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_.waiting(); }
 };

@@ -1,4 +1,4 @@
-#include "server/interest/outbox.h"
+#include "server/interest/send_queue.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,24 +9,24 @@ namespace seam {
 namespace {
 
 constexpr std::int32_t kQuantaPerMetre = 512;
-/// Of an origin, in quanta: int16 reaches 64 m.
+/// Largest distance of a body from its message's origin, in quanta: int16 reaches 64 m.
 constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
-/// Bytes that a message costs besides its bodies: with the headers of link and datagram.
+/// Bytes of a message besides its bodies, with the headers of link and datagram.
 constexpr double kMessageCost = static_cast<double>(kStatesBytes.empty) + 30;
 
-/// Of what the bodies of a message have to be, beside who and when: near its first one.
+/// Origin of a message: all its bodies have to be near the first one.
 struct Origin {
   std::int32_t x, y;
 
-  explicit Origin(const HeardState& first)
+  explicit Origin(const ReceivedState& first)
       : x(first.x / kQuantaPerMetre * kQuantaPerMetre),
         y(first.y / kQuantaPerMetre * kQuantaPerMetre) {}
-  bool Reaches(const HeardState& state) const {
+  bool Reaches(const ReceivedState& state) const {
     return std::abs(state.x - x) < kReach && std::abs(state.y - y) < kReach;
   }
 };
 
-PackedHeader HeaderOf(const HeardState& state) {
+PackedHeader HeaderOf(const ReceivedState& state) {
   return {state.peer, state.tick, state.revision, state.composition};
 }
 
@@ -35,7 +35,7 @@ bool Same(const PackedHeader& a, const PackedHeader& b) {
          a.composition == b.composition;
 }
 
-PackedState Packed(const HeardState& state) {
+PackedState Packed(const ReceivedState& state) {
   PackedState packed;
   packed.tick = state.tick;
   packed.epoch = state.epoch;
@@ -51,7 +51,7 @@ PackedState Packed(const HeardState& state) {
 
 }  // namespace
 
-void Outbox::Add(std::int64_t now_us, PartId id, Urgency urgency) {
+void SendQueue::Add(std::int64_t now_us, PartId id, Urgency urgency) {
   const auto i = static_cast<std::size_t>(id);
   pressing_ = pressing_ || urgency == Urgency::kFollowed;
   if (place_.size() <= i) place_.resize(i + 1, -1);
@@ -64,27 +64,27 @@ void Outbox::Add(std::int64_t now_us, PartId id, Urgency urgency) {
   waiting_.push_back({id, urgency, now_us});
 }
 
-void Outbox::Fill(std::int64_t now_us) {
+void SendQueue::Fill(std::int64_t now_us) {
   const double most = std::max(kBurst * bytes_per_s_, 2.0 * kDatagramBytesMax);
   if (filled_us_ < 0) credit_ = most;
   const double passed_s = filled_us_ < 0 ? 0 : 1e-6 * static_cast<double>(now_us - filled_us_);
   filled_us_ = now_us;
-  // What came before the states, such as the room, does not keep them back for longer than a burst.
+  // Messages sent before the states, such as the room, delay them by no more than a burst.
   credit_ = std::min(std::max(credit_, -most) + passed_s * bytes_per_s_, most);
 }
 
-bool Outbox::Affords(std::int64_t now_us, std::size_t bodies) {
+bool SendQueue::Affords(std::int64_t now_us, std::size_t bodies) {
   if (bytes_per_s_ <= 0) return true;
   Fill(now_us);
   return credit_ >= kMessageCost + each_ * static_cast<double>(bodies);
 }
 
-void Outbox::NoteCost(std::size_t bytes, std::size_t bodies) {
+void SendQueue::NoteCost(std::size_t bytes, std::size_t bodies) {
   if (bodies == 0) return;
   each_ += (static_cast<double>(bytes) / static_cast<double>(bodies) - each_) / 16;
 }
 
-std::size_t Outbox::Affordable(std::int64_t now_us) {
+std::size_t SendQueue::Affordable(std::int64_t now_us) {
   Fill(now_us);
   const double bodies = (credit_ - kMessageCost) / each_;
   if (bodies >= static_cast<double>(waiting_.size())) return waiting_.size();
@@ -101,16 +101,16 @@ std::size_t Outbox::Affordable(std::int64_t now_us) {
   return count;
 }
 
-bool Outbox::Place::operator<(const Place& o) const {
+bool SendQueue::Place::operator<(const Place& o) const {
   return std::tie(peer, tick, id) < std::tie(o.peer, o.tick, o.id);
 }
 
-void Outbox::ComposeInOrder(const NewestStates& newest) {
-  bodies_.resize(order_.size());  // pointers into it hold
-  Origin origin{HeardState{}};
+void SendQueue::ComposeInOrder(const NewestStates& newest) {
+  bodies_.resize(order_.size());  // before any pointer into it is taken
+  Origin origin{ReceivedState{}};
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const PartId id = order_[i].id;
-    const HeardState& state = newest.at(id);
+    const ReceivedState& state = newest.at(id);
     const PackedHeader header = HeaderOf(state);
     const bool fits = !composed_.empty() && composed_.back().size() < kStatesBodiesMax &&
                       Same(composed_.back().header, header) && origin.Reaches(state);
@@ -123,8 +123,8 @@ void Outbox::ComposeInOrder(const NewestStates& newest) {
   }
 }
 
-const std::vector<Outbox::Message>& Outbox::Compose(std::int64_t now_us,
-                                                    const NewestStates& newest) {
+const std::vector<SendQueue::Message>& SendQueue::Compose(std::int64_t now_us,
+                                                          const NewestStates& newest) {
   composed_.clear();
   std::size_t count = waiting_.size();
   if (bytes_per_s_ > 0) count = Affordable(now_us);
@@ -133,8 +133,8 @@ const std::vector<Outbox::Message>& Outbox::Compose(std::int64_t now_us,
   for (std::size_t i = 0; i < count; ++i) {
     const PartId id = waiting_[i].id;
     place_[static_cast<std::size_t>(id)] = -1;
-    if (!newest.has(id)) continue;  // an edit has changed it meanwhile
-    const HeardState& state = newest.at(id);
+    if (!newest.has(id)) continue;  // an edit has changed the body since
+    const ReceivedState& state = newest.at(id);
     order_.push_back({state.peer, state.tick, id});
   }
   std::sort(order_.begin(), order_.end());

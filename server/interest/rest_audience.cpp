@@ -1,4 +1,4 @@
-#include "server/interest/rest_news.h"
+#include "server/interest/rest_audience.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace seam {
 
-void RestNews::Take(const Rest& rest) {
+void RestAudience::Take(const Rest& rest) {
   rest_ = rest;
   head_ = Rest{};
   head_.utime = rest.utime;
@@ -24,28 +24,28 @@ void RestNews::Take(const Rest& rest) {
   }
 }
 
-void RestNews::Owe(int peer, int mechanism) {
+void RestAudience::MarkPending(int peer, int mechanism) {
   const auto m = static_cast<std::size_t>(mechanism);
   if (m >= owed_.size()) owed_.resize(m + 1);
   owed_[m].Add(peer);
 }
 
-bool RestNews::Owes(int peer, const RestBlock& at) const {
+bool RestAudience::IsPendingFor(int peer, const RestBlock& at) const {
   if (owed_.empty()) return false;
   const World& world = replica_.world();
   const int count = world.body_count();
   for (int body = at.begin(count); body < at.end(count); ++body) {
     const bool rests = replica_.rest().record(body).committed;
-    if (rests && Owes(peer, world.mechanism(body))) return true;
+    if (rests && IsPendingFor(peer, world.mechanism(body))) return true;
   }
   return false;
 }
 
-std::vector<Rest> RestNews::Owed(int peer, const std::vector<int>& mechanisms) {
+std::vector<Rest> RestAudience::Owed(int peer, const std::vector<int>& mechanisms) {
   const World& world = replica_.world();
   std::vector<int> bodies;
   for (const int mechanism : mechanisms) {
-    if (!Owes(peer, mechanism)) continue;
+    if (!IsPendingFor(peer, mechanism)) continue;
     owed_[static_cast<std::size_t>(mechanism)].Remove(peer);
     EachIdOf(world.composition(), mechanism, [&](PartId id) {
       const int body = world.BodyOfId(id);
@@ -54,19 +54,19 @@ std::vector<Rest> RestNews::Owed(int peer, const std::vector<int>& mechanisms) {
       if (replica_.rest().Holds(body)) {
         bodies.push_back(body);
       } else {
-        Owe(peer, mechanism);  // it may move: its authority has not said so
+        MarkPending(peer, mechanism);  // the copy here may move; its authority has not sent so yet
       }
     });
   }
-  std::sort(bodies.begin(), bodies.end());  // as turns come, mechanisms do not ascend
+  std::sort(bodies.begin(), bodies.end());  // the mechanisms may come in any order
   return bodies.empty() ? std::vector<Rest>{} : replica_.rest().Again(bodies);
 }
 
-void RestNews::NoteTold(int peer) {
+void RestAudience::NoteTold(int peer) {
   for (PeerSet& owed : owed_) owed.Remove(peer);
 }
 
-void RestNews::Remap(const std::vector<std::vector<int>>& from) {
+void RestAudience::Remap(const std::vector<std::vector<int>>& from) {
   if (owed_.empty()) return;
   std::vector<PeerSet> owed(from.size());
   for (std::size_t m = 0; m < from.size(); ++m) {

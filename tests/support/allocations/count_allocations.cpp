@@ -1,4 +1,4 @@
-#include "tests/support/count_allocations.h"
+#include "tests/support/allocations/count_allocations.h"
 
 #include <cstdlib>
 #include <new>

@@ -1,6 +1,6 @@
 /// What waits for one receiver: the most urgent first, never more than the budget, nothing lost.
 
-#include "server/interest/outbox.h"
+#include "server/interest/send_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,13 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace outbox_test {
+namespace send_queue_test {
 
 constexpr int kBodies = 200;
 constexpr std::int64_t kTickUs = 16667;
 
 /// As a States, which is what a budget counts with at first.
-std::size_t BytesOf(const Outbox::Message& message) {
+std::size_t BytesOf(const SendQueue::Message& message) {
   return kStatesBytes.empty + kStatesBytes.each * message.size();
 }
 
@@ -53,10 +53,10 @@ repeat = {count = [20, 10], step = [1, 1]}
 };
 
 TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
-  Outbox outbox(0);
-  for (int id = 0; id < kBodies; ++id) outbox.Add(0, id, Urgency::kFar);
+  SendQueue send_queue(0);
+  for (int id = 0; id < kBodies; ++id) send_queue.Add(0, id, Urgency::kFar);
   std::set<int> told;
-  for (const Outbox::Message& message : outbox.Compose(0, newest_)) {
+  for (const SendQueue::Message& message : send_queue.Compose(0, newest_)) {
     EXPECT_LE(message.size(), kStatesBodiesMax);
     int before = -1;
     for (const PackedEntry* body = message.begin; body != message.end; ++body) {
@@ -66,23 +66,23 @@ TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
     }
   }
   EXPECT_EQ(told.size(), static_cast<std::size_t>(kBodies));
-  EXPECT_TRUE(outbox.empty());
+  EXPECT_TRUE(send_queue.empty());
 }
 
 TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
   constexpr double kBudget = 8000;  // bytes/s: about 330 bodies
-  Outbox outbox(kBudget);
-  outbox.Spend(2 * static_cast<std::size_t>(kBudget));  // the room was just sent
+  SendQueue send_queue(kBudget);
+  send_queue.Spend(2 * static_cast<std::size_t>(kBudget));  // the room was just sent
   for (int id = 0; id < kBodies; ++id) {
-    outbox.Add(0, id, id % 10 == 3 ? Urgency::kFollowed : Urgency::kFar);
+    send_queue.Add(0, id, id % 10 == 3 ? Urgency::kFollowed : Urgency::kFar);
   }
   std::vector<int> told;
   std::size_t bytes = 0;
   std::int64_t now_us = 0;
-  for (; !outbox.empty() && now_us < 10'000'000; now_us += kTickUs) {
-    for (const Outbox::Message& message : outbox.Compose(now_us, newest_)) {
+  for (; !send_queue.empty() && now_us < 10'000'000; now_us += kTickUs) {
+    for (const SendQueue::Message& message : send_queue.Compose(now_us, newest_)) {
       const std::size_t size = BytesOf(message);
-      outbox.Spend(size);
+      send_queue.Spend(size);
       bytes += size;
       for (const PackedEntry* body = message.begin; body != message.end; ++body) {
         told.push_back(body->id);
@@ -95,25 +95,25 @@ TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
     }
     EXPECT_LE(
         static_cast<double>(bytes),
-        kBudget * (1e-6 * static_cast<double>(now_us) + 2 * Outbox::kBurst) + kDatagramBytesMax);
+        kBudget * (1e-6 * static_cast<double>(now_us) + 2 * SendQueue::kBurst) + kDatagramBytesMax);
   }
-  EXPECT_TRUE(outbox.empty()) << "what waits becomes urgent";
+  EXPECT_TRUE(send_queue.empty()) << "what waits becomes urgent";
   ASSERT_EQ(told.size(), static_cast<std::size_t>(kBodies)) << "each once";
 }
 
 TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
-  Outbox outbox(2000);
-  EXPECT_TRUE(outbox.Compose(0, newest_).empty());
-  outbox.Spend(4000);  // the room
-  for (int i = 0; i < kBodies; ++i) outbox.Add(0, i * 77 % kBodies, Urgency::kFar);
+  SendQueue send_queue(2000);
+  EXPECT_TRUE(send_queue.Compose(0, newest_).empty());
+  send_queue.Spend(4000);  // the room
+  for (int i = 0; i < kBodies; ++i) send_queue.Add(0, i * 77 % kBodies, Urgency::kFar);
   std::int64_t now_us = 0;
-  for (; now_us < 100'000; now_us += kTickUs) EXPECT_TRUE(outbox.Compose(now_us, newest_).empty());
+  for (; now_us < 100'000; now_us += kTickUs) EXPECT_TRUE(send_queue.Compose(now_us, newest_).empty());
   std::set<int> raised, told;
   for (int id = 7; id < kBodies; id += 20) raised.insert(id);
-  for (const int id : raised) outbox.Add(now_us, id, Urgency::kFollowed);
+  for (const int id : raised) send_queue.Add(now_us, id, Urgency::kFollowed);
   for (; told.size() < raised.size() && now_us < 10'000'000; now_us += kTickUs) {
-    for (const Outbox::Message& message : outbox.Compose(now_us, newest_)) {
-      outbox.Spend(BytesOf(message));
+    for (const SendQueue::Message& message : send_queue.Compose(now_us, newest_)) {
+      send_queue.Spend(BytesOf(message));
       for (const PackedEntry* body = message.begin; body != message.end; ++body) {
         told.insert(body->id);
       }
@@ -122,5 +122,5 @@ TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
   for (const int id : raised) EXPECT_EQ(told.count(id), 1u) << id;
 }
 
-}  // namespace outbox_test
+}  // namespace send_queue_test
 }  // namespace seam

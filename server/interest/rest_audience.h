@@ -1,0 +1,62 @@
+#pragma once
+/// Decides which clients receive a rest commit now and which later (large rooms only). For a client
+/// to which the bodies are out of interest the commit is pending until their turn comes
+/// (Broadcast::RefreshDistant) or they come into interest.
+
+#include <cstddef>
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "common/sync/peer_set.h"
+#include "common/sync/replica.h"
+#include "server/interest/pose_entry.h"
+
+namespace seam {
+
+class RestAudience {
+ public:
+  /// `replica` must outlive this object.
+  explicit RestAudience(const Replica& replica) : replica_(replica) {}
+
+  /// Takes a rest commit that is about to be sent.
+  void Take(const Rest& rest);
+  /// Returns the part of the last commit to send to a peer now: the mechanisms for which
+  /// `hears(mechanism)` is true. The other mechanisms become pending for the peer.
+  template <class Hears>
+  Rest For(int peer, const Hears& hears) {
+    Rest told = head_;
+    for (std::size_t i = 0; i < mechanisms_.size(); ++i) {
+      if (mechanisms_[i] < 0) continue;
+      if (hears(mechanisms_[i])) {
+        AddPose(rest_, i, &told);
+      } else {
+        MarkPending(peer, mechanisms_[i]);
+      }
+    }
+    return told;
+  }
+  /// True if a rest commit of the mechanism, or of a mechanism in the block, is pending for the
+  /// peer.
+  bool IsPendingFor(int peer, int mechanism) const {
+    const auto m = static_cast<std::size_t>(mechanism);
+    return m < owed_.size() && owed_[m].Has(peer);
+  }
+  bool IsPendingFor(int peer, const RestBlock& at) const;
+  /// Returns the pending commits of these mechanisms, for bodies that still rest, and clears them.
+  /// A commit stays pending while the server's copy of its body may move.
+  std::vector<Rest> Owed(int peer, const std::vector<int>& mechanisms);
+  /// Clears all pending commits of a peer that was sent everything at rest.
+  void NoteTold(int peer);
+  /// Renumbers after an edit; see BodyRemap.
+  void Remap(const std::vector<std::vector<int>>& from);
+
+ private:
+  void MarkPending(int peer, int mechanism);
+
+  const Replica& replica_;
+  Rest rest_, head_;             // the last Take; its head without bodies
+  std::vector<int> mechanisms_;  // by its entries; -1: the body is gone
+  std::vector<PeerSet> owed_;    // by mechanism: peers with a pending commit; beyond the end: none
+};
+
+}  // namespace seam
