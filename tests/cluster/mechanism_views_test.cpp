@@ -113,7 +113,7 @@ TEST(MechanismViews, JointsAreNoFurtherOpenThanInTheOracle) {
     const char* impair;
     double allowed_m;
   };
-  for (const Method& method : {Method{"buffer", "retrospect"}, Method{"buffer", "resimulate"},
+  for (const Method& method : {Method{"buffer", "retrospect"}, Method{"buffer", "rollback"},
                                Method{"central", ""}, Method{"strict", ""}}) {
     // Where it crashes otherwise than in truth, a copy's own engine opens the doll's joints: strict
     // knows nothing of the others, and central steps again what a late input has changed.

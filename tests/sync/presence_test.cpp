@@ -179,7 +179,7 @@ a = "car"
 b = "wheel"
 frequency = 5
 )",
-            "resimulate");
+            "rollback");
   constexpr int kCar = 1, kWheel = 2;
   line.Steps(10);
   line.Hear(kCar, {60, 0}, {0, 0});

@@ -1,4 +1,4 @@
-/// resimulate: exact to the wire's rounding wherever both worlds felt the same.
+/// rollback: exact to the wire's rounding wherever both worlds felt the same.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/support/followed_copy.h"
 
 namespace seam {
-namespace reconcile_resimulate_test {
+namespace reconcile_rollback_test {
 
 /// The copy is put wrong at tick 30; the largest distance from the truth from 30 ticks after the
 /// first message about it until `ticks`, m.
@@ -36,21 +36,21 @@ BodyState By(float x, float vx) {
   return by;
 }
 
-TEST(Resimulate, IsExactToQuantisationInFreeFlight) {
+TEST(ReconcileRollback, IsExactToQuantisationInFreeFlight) {
   FollowedCopy f(
       "[[part]]\nname = \"a\"\nbox = [1, 0.5]\nposition = [0, 50]\n"
       "velocity = [6, 8]\nspin = 3\n",
-      "resimulate", 12);
+      "rollback", 12);
   // A state as heard is wrong by half a quantum, and its velocity for the 13 ticks after it.
   const float rounding = kPositionQuantum + 13 * kVelocityQuantum / 60 * 1.5f;
   EXPECT_LT(WorstAfter(&f, By(0.5f, 2), 150), rounding + 1e-4f);
 }
 
-TEST(Resimulate, IsExactToQuantisationThroughABounce) {
+TEST(ReconcileRollback, IsExactToQuantisationThroughABounce) {
   FollowedCopy f(
       "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
       "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 3]\nrestitution = 0.9\n",
-      "resimulate", 12);
+      "rollback", 12);
   // It lands at tick 42 at 7 m/s. Rounding may move a bounce to the next tick: 2 v h / n of way.
   EXPECT_LT(WorstAfter(&f, By(0.2f, 0.5f), 240), 0.05f);
 }
@@ -91,9 +91,9 @@ float RoundingAlone(const char* scene, int ahead, int ticks) {
   return worst;
 }
 
-TEST(Resimulate, IsAsExactAsRoundingLetsItBetweenAMovingBodyAndAPile) {
+TEST(ReconcileRollback, IsAsExactAsRoundingLetsItBetweenAMovingBodyAndAPile) {
   // The ram, put wrong at tick 30, hits the pile at about tick 47: the copy goes back to before it.
-  FollowedCopy f(kRampage, "resimulate", 12), other(kRampage, "fade", 12);
+  FollowedCopy f(kRampage, "rollback", 12), other(kRampage, "fade", 12);
   const float ours = WorstAfter(&f, By(0.1f, 0.5f), 150);
   const float rounding = RoundingAlone(kRampage, 14, 150);
   std::printf("[          ] off by %.4f m, rounding alone by %.4f m\n", ours, rounding);
@@ -101,9 +101,9 @@ TEST(Resimulate, IsAsExactAsRoundingLetsItBetweenAMovingBodyAndAPile) {
   EXPECT_GT(WorstAfter(&other, By(0.1f, 0.5f), 150), 1.5f * ours);
 }
 
-TEST(Resimulate, OneReplayFromTheOldestOfManyMessages) {
+TEST(ReconcileRollback, OneReplayFromTheOldestOfManyMessages) {
   // Half a second of silence, then all at once.
-  FollowedCopy f(kRampage, "resimulate", 4);
+  FollowedCopy f(kRampage, "rollback", 4);
   f.Steps(20);
   f.talking = false;
   f.PutCopy(3, PlusScaled(f.copy.world().Read(3), By(0.3f, 1), 1));
@@ -114,11 +114,11 @@ TEST(Resimulate, OneReplayFromTheOldestOfManyMessages) {
   EXPECT_LT(f.Apart(3).norm(), 0.02f);
 }
 
-TEST(Resimulate, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
+TEST(ReconcileRollback, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
   FollowedCopy f(
       "gravity = [0, 0]\n[solver]\nsleep = false\n"
       "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [3, 0]\n",
-      "resimulate", 70);
+      "rollback", 70);
   f.Steps(30);
   BodyState kicked = f.truth.Read(0);
   kicked.velocity = Vec2(0, 8);
@@ -127,9 +127,9 @@ TEST(Resimulate, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
   EXPECT_LT(f.Apart(0).norm(), 0.26f);
 }
 
-TEST(Resimulate, OwnBodiesStayWhereTheyAreWhileOthersAreSteppedAgain) {
+TEST(ReconcileRollback, OwnBodiesStayWhereTheyAreWhileOthersAreSteppedAgain) {
   // Peer 1 has the ram itself; what it told of it stays true through every replay.
-  FollowedCopy f(kRampage, "resimulate", 12, {3});
+  FollowedCopy f(kRampage, "rollback", 12, {3});
   f.Steps(30);
   f.PutCopy(0, PlusScaled(f.copy.world().Read(0), By(0.05f, 0.2f), 1));
   BodyState before = f.copy.world().Read(3);
@@ -144,5 +144,5 @@ TEST(Resimulate, OwnBodiesStayWhereTheyAreWhileOthersAreSteppedAgain) {
   EXPECT_LT(worst, 2e-2f) << "by its velocity and what pushes it out, never by a replay";
 }
 
-}  // namespace reconcile_resimulate_test
+}  // namespace reconcile_rollback_test
 }  // namespace seam

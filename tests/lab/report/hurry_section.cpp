@@ -146,10 +146,10 @@ TextTable GlanceTable(const std::vector<ReportCase>& all) {
 }
 
 TextTable ShortTable(const std::vector<ReportCase>& all) {
-  TextTable table = ErrorTable(PlainCases(all), {"strict", kCentralMethod, "fade", "retrospect",
-                                                 "resimulate", kDefaultMethod});
+  TextTable table = ErrorTable(
+      PlainCases(all), {"strict", kCentralMethod, "fade", "retrospect", kDefaultMethod});
   table.name = "short";
-  table.title = "error_others_m of six methods";
+  table.title = "error_others_m of five methods";
   return table;
 }
 
