@@ -167,8 +167,9 @@ LINKED = $(filter-out %/.sources,$^)
 $(CODEC): private ALL_CXXFLAGS += $(CODEC_CXXFLAGS)
 $(CODEC): $(GEN)/.stamp
 $(TESTS): private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
+# A class of a unit may have members of an unnamed namespace: the warning is for headers.
 $(OUT)/unity/%.o: $(OUT)/unity/%.cpp $(OUT)/.flags | build/.deps-build
-	$(CXX) $(ALL_CXXFLAGS) $(if $(PRECOMPILED),-include $(PRECOMPILED)) -c $< -o $@
+	$(CXX) $(ALL_CXXFLAGS) -Wno-subobject-linkage $(if $(PRECOMPILED),-include $(PRECOMPILED)) -c $< -o $@
 $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) $(if $(PRECOMPILED),-include $(PRECOMPILED)) -c $< -o $@

@@ -48,38 +48,38 @@ struct Flags {
   bool quiet = false;
 };
 
-void Define(CLI::App& app, Flags& f) {
-  app.add_option("server", f.server, "host:port of seam-server (port 7777 if left out)");
-  app.add_option("--name", f.name, "player of the scene to be");
-  app.add_flag("--watch", f.watch, "only look on, as a guest or under --name");
-  app.add_flag("--show", f.show,
+void Define(Command& app, Flags& f) {
+  app.Option("server", f.server, "host:port of seam-server (port 7777 if left out)");
+  app.Option("--name", f.name, "player of the scene to be");
+  app.Switch("--watch", f.watch, "only look on, as a guest or under --name");
+  app.Switch("--show", f.show,
                "draw the world in this terminal (--drive keyboard does that too)");
-  app.add_option("--drive", f.drive,
+  app.Option("--drive", f.drive,
                  "none | bot | keyboard | name of the player whose script to play");
-  app.add_option("--impair", f.impair, "impair this client's network, both directions");
-  app.add_option("--seed", f.seed, "of the impairment")->check(CLI::Range(0, 1000000000));
-  app.add_option("--smooth", f.smooth,
+  app.Option("--impair", f.impair, "impair this client's network, both directions");
+  app.Option("--seed", f.seed, "of the impairment").Range(0, 1000000000);
+  app.Option("--smooth", f.smooth,
                  "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
-      ->check(CLI::IsMember({"on", "off"}) | CLI::Range(kSmoothRateMin, kSmoothRateMax));
-  app.add_option("--duration", f.duration_s, "seconds to run (0: until stopped)")
-      ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
-      ->check(CLI::Range(0.1, 1e6));
-  app.add_option("--cpu-throttle", f.throttle,
+      .OneOfOrRange({"on", "off"}, kSmoothRateMin, kSmoothRateMax);
+  app.Option("--duration", f.duration_s, "seconds to run (0: until stopped)")
+      .Range(0.0, 1e6);
+  app.Option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
+      .Range(0.1, 1e6);
+  app.Option("--cpu-throttle", f.throttle,
                  "be a machine that is so many times slower: the server gives it less to simulate")
-      ->check(CLI::Range(1.0, 100.0));
-  app.add_option("--key", f.key,
+      .Range(1.0, 100.0);
+  app.Option("--key", f.key,
                  "keep the secret of our place in this file (mode 0600): after a restart the "
                  "place, with its car, is ours again at once");
-  app.add_option("--record", f.record, "write an LCM log of the bus to this file");
-  app.add_flag("--force", f.force, "overwrite the --record file");
-  app.add_option("--room", f.room, "the room to join (default: the server's first)");
-  app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
-  app.add_option("--publish", f.publish,
+  app.Option("--record", f.record, "write an LCM log of the bus to this file");
+  app.Switch("--force", f.force, "overwrite the --record file");
+  app.Option("--room", f.room, "the room to join (default: the server's first)");
+  app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.Option("--publish", f.publish,
                  "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
                  "at most " +
                      std::to_string(kPublishAllMost) + " bodies, else own)");
-  app.add_flag("--quiet", f.quiet, "no progress line");
+  app.Switch("--quiet", f.quiet, "no progress line");
 }
 
 void CheckName(const std::string& flag, const std::string& name) {
@@ -228,5 +228,5 @@ int main(int argc, char** argv) {
                          "",
                          {{"--impair", ProfileNames()}, {"--drive", {"none", "bot", "keyboard"}}}};
   return RunCommandLine(
-      text, argc, argv, [&](CLI::App& app) { Define(app, flags); }, [&] { return Play(flags); });
+      text, argc, argv, [&](Command& app) { Define(app, flags); }, [&] { return Play(flags); });
 }

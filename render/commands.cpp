@@ -30,7 +30,7 @@
 namespace seam {
 namespace {
 
-/// Says how far a sequence is, and at the end how fast it was.
+/// Shows the progress of a sequence, and at the end its speed.
 class FrameCount {
  public:
   FrameCount(int total, const std::string& path)
@@ -56,7 +56,7 @@ int ThreadsOf(const RenderOptions& options) {
 
 constexpr double kBeforeMoment_s = 0.5, kAfterMoment_s = 1;  ///< of --around
 
-/// The moment that --around names, and what it is about.
+/// Returns the moment that --around names, with its bodies.
 ShownMoment AroundWhat(const std::string& around, const std::vector<Playback>& playbacks) {
   std::optional<ShownMoment> moment;
   if (around == "contact") {
@@ -72,7 +72,7 @@ ShownMoment AroundWhat(const std::string& around, const std::vector<Playback>& p
   throw OperatorError("--around " + around + ": nothing of that kind was recorded");
 }
 
-/// The wanted part of the page's time, which must not be empty.
+/// Sets the requested time range of the page. Throws OperatorError when it is empty.
 void ChooseTimes(const RenderOptions& options, const std::vector<Playback>& playbacks, Page* page,
                  CameraWish* wish) {
   double from_s = std::isnan(options.from_s) ? page->from_s : options.from_s;
@@ -93,7 +93,7 @@ void ChooseTimes(const RenderOptions& options, const std::vector<Playback>& play
   page->to_s = to_s;
 }
 
-/// A scene as it begins: all that can move is in the picture, and it says what there is.
+/// Shows a scene at its start: fits all movable bodies, with a summary of the scene as subtitle.
 void ShowScene(const Scene& scene, Page* page, CameraWish* wish) {
   page->subtitle =
       fmt::format("as it begins  ·  {} parts, {} joints, {} players  ·  {} Hz", scene.parts.size(),
@@ -102,7 +102,7 @@ void ShowScene(const Scene& scene, Page* page, CameraWish* wish) {
     if (!assembly.anchored) wish->bodies.insert(assembly.id);
 }
 
-/// The page that was asked for, with its camera.
+/// Makes the requested page, with its camera.
 Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks) {
   const int peer =
       options.view_name.empty() ? options.peer : PeerNamed(playbacks.front(), options.view_name);
@@ -199,7 +199,7 @@ int RenderMain(int argc, const char* const* argv) {
                          "Draws recordings of Seam2D sessions as PNG pictures, without a display.",
                          VersionLine("seam-render"), kRenderExamples};
   return RunCommandLine(
-      text, argc, argv, [&](CLI::App& app) { DefineRenderOptions(&app, &options); },
+      text, argc, argv, [&](Command& app) { DefineRenderOptions(&app, &options); },
       [&] {
         CheckRenderOptions(&options);
         if (options.list) {

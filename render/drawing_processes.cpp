@@ -19,13 +19,13 @@
 namespace seam {
 namespace {
 
-/// What a child writes for each item, in one piece: shorter than PIPE_BUF.
+/// Message of a child for each item; shorter than PIPE_BUF, so that writes are atomic.
 struct Report {
   bool failed = false;
   char message[511] = "";
 };
 
-/// A number that all processes see.
+/// A counter in memory shared by all processes.
 class SharedCounter {
  public:
   SharedCounter()
@@ -53,7 +53,7 @@ void Send(int to, const Report& report) {
   } while (written < 0 && errno == EINTR);
 }
 
-/// A child's life.
+/// Runs a child: draws the next free item until none is left.
 [[noreturn]] void DrawNext(int count, const std::function<void(int)>& draw,
                            std::atomic<int>* next, int to) {
   Report report;
@@ -71,7 +71,7 @@ void Send(int to, const Report& report) {
   _exit(0);  // the buffers and exit handlers are the parent's
 }
 
-/// The children; killed and waited for at the end, whatever happens.
+/// The child processes. The destructor kills and reaps them in any case.
 class Children {
  public:
   ~Children() {
@@ -93,7 +93,7 @@ class Children {
     work();
   }
 
-  /// The signal that ended one of them, or 0.
+  /// Waits for all children. Returns a signal that ended one of them, or 0.
   int Wait() {
     int signal = 0;
     for (const pid_t child : running_) {
@@ -129,7 +129,7 @@ class Pipe {
     ends_[1] = -1;
   }
 
-  /// False when all that could write are gone.
+  /// Reads the next report. Returns false when all children have closed the pipe.
   bool Read(Report* report) const {
     std::size_t have = 0;
     while (have < sizeof *report) {

@@ -5,16 +5,16 @@
 
 namespace seam {
 
-/// Calls `draw` with 0 to `count - 1`, each number in one of `processes` children of this one: the
-/// next that is free. A child has what this process has made so far, and leaves nothing but files.
-/// Here `progress` is called after each item with the number done.
+/// Calls `draw` with 0 to `count - 1`, each number in the next free one of `processes` child
+/// processes. A child is a fork: it inherits this process's memory, and its only results are files.
+/// Calls `progress` in this process after each item with the number done.
 ///
-/// Processes, not threads: OSMesa's contexts share one screen, and llvmpipe (Mesa 22.3,
-/// `llvmpipe_flush_resource`) looks through the unfinished work of all of them without locking it:
-/// two that draw at a time can crash.
+/// Uses processes, not threads: OSMesa's contexts share one screen, and llvmpipe (Mesa 22.3,
+/// `llvmpipe_flush_resource`) reads the unfinished work of all contexts without a lock, so two
+/// threads that draw at a time can crash.
 ///
-/// The children end with this process. Throws OperatorError with the message of the first that
-/// throws (the others stop), and when one is killed.
+/// The children end with this process. Throws OperatorError with the message of the first child
+/// that throws (the others stop), and when a child is killed.
 void DrawInProcesses(int count, int processes, const std::function<void(int item)>& draw,
                      const std::function<void(int done)>& progress);
 

@@ -62,6 +62,6 @@ int main(int argc, char** argv) {
       "  seam-export session.lcm --mcap -o session.mcap           for Foxglove and Rerun\n"
       "  seam-export session.lcm --trace -o session.json          for ui.perfetto.dev"};
   return RunCommandLine(
-      text, argc, argv, [&](CLI::App& app) { DefineExportOptions(&app, &options); },
+      text, argc, argv, [&](Command& app) { DefineExportOptions(&app, &options); },
       [&] { return Run(options); });
 }

@@ -22,7 +22,7 @@ std::string TitleOf(const Playback& playback) {
 
 Colour CurveColour(const Playback& playback, int peer) { return Darker(ColourOf(playback, peer)); }
 
-/// What a panel's corner says.
+/// Returns the text about the error in a panel's corner.
 std::string ErrorText(const Panel& panel, double now_s) {
   const double tick = panel.playback->TickAt(now_s);
   const auto error = panel.playback->ErrorAt(panel.error_peer, tick);
@@ -61,7 +61,7 @@ std::vector<Figure> Figures(const Page& page, double now_s) {
 
 constexpr float kInsetShare = 0.34f;  ///< of the panel's width and height
 
-/// Where an inset hides least: the upper corner that is further from what it shows.
+/// Returns the area of an inset: the upper corner that is farther from the enlarged place.
 Rect InsetArea(const Rect& panel, const Vec2& shown_px, float scale) {
   const float width = kInsetShare * panel.width, height = kInsetShare * panel.height;
   const bool left = shown_px.x() > panel.x + panel.width / 2;
@@ -69,7 +69,7 @@ Rect InsetArea(const Rect& panel, const Vec2& shown_px, float scale) {
   return {std::round(x), std::round(panel.y + 28 * scale), std::round(width), std::round(height)};
 }
 
-/// The contact once more, larger; nothing where the panel already shows it as large.
+/// Draws the contact enlarged; nothing where the panel already shows it about as large.
 void DrawInset(DrawList& list, const Page& page, const Panel& panel, const Viewport& whole,
                const WorldLook& look, double now_s) {
   if (!page.inset || now_s < page.inset->from_s || now_s > page.inset->to_s) return;
@@ -90,7 +90,7 @@ void DrawInset(DrawList& list, const Page& page, const Panel& panel, const Viewp
                   {1.6f * scale, kFaintInk, 0});
 }
 
-/// What of a panel's area is the world; below are the lines of the regions.
+/// Returns the part of a panel's area for the world; below are the lines of the regions.
 Rect WorldArea(const Panel& panel, const Rect& area, float scale) {
   return {area.x, area.y, area.width, area.height - RegionLinesHeight(*panel.playback, scale)};
 }
@@ -136,7 +136,7 @@ Curve CurveOf(const Playback& playback, int peer, Colour colour, const std::stri
   return curve;
 }
 
-/// Where things are on a page.
+/// Layout of a page.
 struct Areas {
   Areas(const Page& page, float scale) {
     const float margin = 18 * scale, width = static_cast<float>(page.width_px) - 2 * margin;
@@ -154,7 +154,7 @@ struct Areas {
 };
 
 void DrawPanels(DrawList& list, const Page& page, const Areas& areas, double now_s) {
-  // Worlds first: the canvas is fast with large areas that nothing lies under.
+  // Worlds first: the canvas is fast with large areas if nothing was drawn under them.
   for (std::size_t i = 0; i < page.panels.size(); ++i)
     DrawPanelWorld(list, page, page.panels[i], areas.panels[i], now_s);
   for (std::size_t i = 0; i < page.panels.size(); ++i)
@@ -162,7 +162,7 @@ void DrawPanels(DrawList& list, const Page& page, const Areas& areas, double now
 }
 
 void DrawStillAround(DrawList& list, const Page& page, const Areas& areas) {
-  // Room for as many figures as there ever are: the title keeps its length.
+  // Room for the greatest number of figures, so that the title keeps its length.
   DrawHeader(list, areas.header, page.title, page.subtitle, Figures(page, page.to_s).size());
   const Playback& first = *page.panels.front().playback;
   DrawLegend(list, areas.legend, first, page.look, !first.recording().impacts.empty());

@@ -1,4 +1,4 @@
-// Frames of what the LCM bus brings, as it comes: from a session that runs or lcm-logplayer.
+// Draws frames from the LCM bus as messages arrive: from a running session or lcm-logplayer.
 
 #include <chrono>
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kQuiet_s = 2;       ///< the end of a session
-constexpr double kFirstWait_s = 30;  ///< for its beginning, unless --seconds says otherwise
+constexpr double kFirstWait_s = 30;  ///< time to wait for its beginning, unless --seconds is given
 
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -26,7 +26,7 @@ void RenderLive(const RenderOptions& options) {
   LiveRenderer live(options);
   Bus bus(options.lcm_url);
   Clock::time_point last_heard = Clock::now();
-  bool heard = false;  // in the last poll: after a slow frame some may wait
+  bool heard = false;  // in the last poll: after a slow frame messages may be queued
   bus.Subscribe("SEAM\\..*", [&](const std::string& channel, std::int64_t, ByteView message) {
     if (!live.Add(channel, message)) return;
     last_heard = Clock::now();

@@ -14,11 +14,11 @@ namespace seam {
 namespace {
 
 constexpr double kBehind_s = 0.5;           ///< frames further behind the bus than this are skipped
-constexpr std::int64_t kAheadTicks = 3600;  ///< a view further ahead than this is no next view
-constexpr std::int64_t kAgoTicks = 600;     ///< nor is one this long ago
-constexpr int kStraysMax = 30;              ///< so many in a row are a new session
+constexpr std::int64_t kAheadTicks = 3600;  ///< a view further ahead than this is a stray
+constexpr std::int64_t kAgoTicks = 600;     ///< as is a view this long ago
+constexpr int kStraysMax = 30;              ///< this many strays in a row are a new session
 
-/// Forgets what no frame will show any more.
+/// Removes data before a tick, which no frame will show any more.
 void Prune(Recording* recording, std::int64_t before_tick) {
   for (auto& [peer, views] : recording->views)
     while (views.size() > 1 && views.begin()->first < before_tick) views.erase(views.begin());
@@ -69,7 +69,7 @@ bool LiveRenderer::Add(const std::string& channel, ByteView message) {
 void LiveRenderer::DrawDue() {
   if (!builder_.has_room() || builder_.recording().views.empty()) return;
   if (!playback_) Begin();
-  // The viewing peer's newest tick; another peer's may be ahead of it.
+  // The displayed peer's newest tick; another peer's may be ahead of it.
   const auto views = builder_.recording().views.find(playback_->PeerOr(options_.peer));
   if (views == builder_.recording().views.end() || views->second.empty()) return;
   const double newest_s = static_cast<double>(views->second.rbegin()->first) / playback_->tick_hz();

@@ -1,6 +1,5 @@
 #pragma once
-/// Frames of a session while it arrives, message by message, whatever bus they come
-/// from.
+/// Draws frames of a running session from its messages, independent of the bus.
 
 #include <memory>
 #include <optional>
@@ -18,18 +17,19 @@ namespace seam {
 /// Seconds of a session on the strip's axis, and kept in memory.
 constexpr double kLiveWindow_s = 10;
 
+/// Collects the messages of a session and draws its frames.
 class LiveRenderer {
  public:
-  /// Of the options: out, force, room, oracle, fonts, fps, size and view. Writes nothing yet.
-  /// Throws OperatorError for a folder, font or oracle that will not do.
+  /// Uses the options out, force, room, oracle, fonts, fps, size and view. Writes nothing yet.
+  /// Throws OperatorError for an unusable folder, font or oracle.
   explicit LiveRenderer(const RenderOptions& options);
 
-  /// Takes a message of the bus; false when it is none of the session's. A view that is far from
-  /// the present is damage and is dropped, unless that goes on: then the session began anew.
+  /// Adds a message of the bus; returns false when it does not belong to the session. A view with a
+  /// tick far from the newest is dropped as damaged; many in a row mean that the session restarted.
   bool Add(const std::string& channel, ByteView message);
 
-  /// Draws every frame that is due: whose view of the viewing peer is there. Frames too far behind
-  /// the newest are skipped.
+  /// Draws every frame for which the displayed peer's view has arrived. Skips frames that are too
+  /// far behind the newest.
   void DrawDue();
 
   bool heard() const { return playback_.has_value(); }
@@ -54,8 +54,8 @@ class LiveRenderer {
   Image image_;
   bool prepared_ = false;
   double next_s_ = 0;              // the next frame's moment
-  std::int64_t newest_tick_ = -1;  // of all views taken
-  int strays_ = 0;                 // dropped one after another
+  std::int64_t newest_tick_ = -1;  // greatest of all accepted views
+  int strays_ = 0;                 // views dropped in a row
   int frames_ = 0, skipped_ = 0;
   std::int64_t dropped_ = 0;
 };

@@ -43,7 +43,7 @@ std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
 
 GivenOracle LoadOracle(const std::string& path) {
   const Recording recording = ReadRecording(path);
-  RequireOracleOf(recording.room, path, recording.room, path);  // of itself, if of any
+  RequireOracleOf(recording.room, path, recording.room, path);  // checks the mode alone
   return {path, recording.room, OracleFromRecording(recording)};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// From logs to playbacks, with the oracle that belongs to each.
+/// Loads logs as playbacks, each with its oracle.
 
 #include <vector>
 
@@ -8,33 +8,33 @@
 
 namespace seam {
 
-/// Reads options.logs; the oracle is options.oracle's, or the log's own if it was made in mode
-/// oracle, or computed from the recorded inputs. Says on a terminal how far it is. Throws
+/// Reads options.logs. The oracle is options.oracle, or the log itself if it was made in mode
+/// oracle, or is computed from the recorded inputs. Shows progress on a terminal. Throws
 /// OperatorError for a log without views.
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options);
 
-/// One log and its oracle, as LoadPlaybacks has them.
+/// One log and its oracle, chosen as by LoadPlaybacks.
 struct LoadedLog {
   Recording recording;
   std::optional<Oracle> oracle;
 };
 LoadedLog LoadLog(const std::string& path, const RenderOptions& options);
 
-/// The displayed path of a log made in mode oracle, and the room it was made in.
+/// An oracle made of a log of mode oracle, with the log's room.
 struct GivenOracle {
   std::string path;
   Room room;
   Oracle oracle;
 };
 
-/// Throws OperatorError when the log is another mode's.
+/// Reads a log of mode oracle. Throws OperatorError when the log has another mode.
 GivenOracle LoadOracle(const std::string& path);
 
-/// The peer that is the server, "server", or drives a player of this name. Throws OperatorError
-/// naming those there are.
+/// Returns the peer that drives a player of this name, or the server for "server". Throws
+/// OperatorError with the existing names.
 int PeerNamed(const Playback& playback, const std::string& name);
 
-/// Throws OperatorError naming the peers there are when `peer` showed nothing.
+/// Throws OperatorError with the existing peers when `peer` has no views, except in mode oracle.
 void RequirePeer(const Playback& playback, int peer);
 
 }  // namespace seam

@@ -18,7 +18,7 @@
 namespace seam {
 namespace {
 
-/// FNV-1a of a file's bytes, 64 bits.
+/// Returns the 64-bit FNV-1a hash of a file's bytes.
 std::string HashOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -37,13 +37,13 @@ const char* NameOf(CameraWish::Kind kind) {
   return "";
 }
 
-/// A number, or null.
+/// Formats a number, or null.
 template <class Known>
 std::string NumberOrNull(const Known& value) {
   return value ? fmt::format("{:.6g}", static_cast<double>(*value)) : "null";
 }
 
-/// What the page's figures and corners say of each panel at a moment.
+/// Returns the figures and notes of each panel at a moment, as JSON.
 std::string PanelsJson(const Page& page, double now_s) {
   std::string text;
   for (const Panel& panel : page.panels) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Where pictures come from: told in each PNG file, and in manifest.json beside a sequence.
+/// Origin of pictures: stored in each PNG file, and in manifest.json beside a sequence.
 
 #include <string>
 #include <utility>
@@ -11,15 +11,15 @@
 
 namespace seam {
 
-/// Keys and values for a PNG's text chunks: Software, Title, Source (each log's name and hash),
-/// Description (how it was run and whose view it is). No time of day: the same log gives the same
-/// bytes.
+/// Returns keys and values for a PNG's text chunks: Software, Title, Source (each log's name and
+/// hash), Description (the run's settings and the displayed peer). No time of day: the same log
+/// gives the same bytes.
 std::vector<std::pair<std::string, std::string>> AboutPictures(const RenderOptions& options,
                                                                const Page& page);
 
-/// manifest.json in the folder: version, logs with their hashes, flags that matter, and for each
-/// frame its moment, tick and the box of the world that its panels show (m). Throws OperatorError
-/// when it cannot be written.
+/// Writes manifest.json into the folder: version, logs with their hashes, relevant flags, and for
+/// each frame its moment, tick and the box of the world that its panels show (m). Throws
+/// OperatorError when it cannot be written.
 void WriteManifest(const RenderOptions& options, const Page& page,
                    const std::vector<double>& times_s, const OutputFolder& folder);
 

@@ -1,4 +1,4 @@
-/// seam-measure: numbers from recordings. docs/metrics.md says what each of them means.
+/// seam-measure: measures recordings. docs/metrics.md defines each measure.
 
 #include <cstdio>
 #include <optional>
@@ -39,7 +39,7 @@ struct Options {
   TimeRange range;
 };
 
-/// "out/demo/buffer.lcm" -> "buffer".
+/// Returns the name of a log: "out/demo/buffer.lcm" -> "buffer".
 std::string BaseName(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
   std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
@@ -48,7 +48,7 @@ std::string BaseName(const std::string& path) {
   return name;
 }
 
-/// Reads a log and says on stderr what is wrong with it.
+/// Reads a log, and reports its damage on stderr.
 Recording Read(const std::string& path) {
   Recording recording = ReadRecording(path);
   const std::string damage = DamageOf(recording);
@@ -58,7 +58,7 @@ Recording Read(const std::string& path) {
   return recording;
 }
 
-/// The oracle given by --oracle; it must have simulated what `recording` did.
+/// Returns the oracle given by --oracle. Throws OperatorError unless it fits `recording`.
 Oracle GivenOracle(const Recording& truth, const Recording& recording, const Options& options,
                    const std::string& path) {
   RequireOracleOf(truth.room, options.oracle, recording.room, path);
@@ -93,7 +93,7 @@ MeasuredRun MeasureLog(const std::string& path, const std::string& name, const O
   return run;
 }
 
-/// The first line of a file (of it, 1000 bytes); empty when there is no such file.
+/// Returns the first line of a file (at most 1000 bytes); empty when there is no such file.
 std::string FirstLine(const std::string& path) {
   std::FILE* file = OpenPlainFile(path, FileUse::kRead);
   if (file == nullptr) return "";
@@ -105,7 +105,8 @@ std::string FirstLine(const std::string& path) {
   return line;
 }
 
-/// `seam-measure --csv a.lcm b.lcm` forgets a name: it must not make a table of a recording.
+/// Checks the file of --csv: `seam-measure --csv a.lcm b.lcm` lacks a file name, and must not
+/// overwrite a recording with a table.
 void CheckCsv(const Options& options) {
   const std::string existing = FirstLine(options.csv);
   if (!existing.empty() && existing != CsvHeader()) {
@@ -154,7 +155,7 @@ void PrintHandOvers(const std::string& path, const std::string& name, const Time
   if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());
 }
 
-/// When and where each log lost something; of several with their names.
+/// Reports when and on which channel each log lost messages; of several logs with their names.
 void ReportLosses(const std::vector<std::string>& logs, const Options& options) {
   std::string csv;
   for (const std::string& path : logs) {
@@ -202,26 +203,26 @@ void Run(const Options& options) {
   if (options.limit) PrintLimit(Read(options.logs.front()));
 }
 
-void Define(CLI::App& app, Options& options) {
-  app.add_option("LOG", options.logs, "recordings (LCM logs)");
-  app.add_option("--from", options.range.from_s, "measure from this moment of the session on, s");
-  app.add_option("--to", options.range.to_s, "measure up to this moment of the session, s");
-  app.add_option("--oracle", options.oracle,
+void Define(Command& app, Options& options) {
+  app.Option("LOG", options.logs, "recordings (LCM logs)");
+  app.Option("--from", options.range.from_s, "measure from this moment of the session on, s");
+  app.Option("--to", options.range.to_s, "measure up to this moment of the session, s");
+  app.Option("--oracle", options.oracle,
                  "a recording made with --mode oracle; without it the oracle is computed");
-  app.add_option("--csv", options.csv, "write the table as CSV to this file too");
-  app.add_flag("--append", options.append, "add to the CSV file instead of replacing it");
-  app.add_option("--names", options.names, "what to call the runs, in the order of the logs")
-      ->delimiter(',')
-      ->allow_extra_args(false);  // the logs may follow it
-  app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
-  app.add_flag("--limit", options.limit,
+  app.Option("--csv", options.csv, "write the table as CSV to this file too");
+  app.Switch("--append", options.append, "add to the CSV file instead of replacing it");
+  app.Option("--names", options.names, "what to call the runs, in the order of the logs")
+      .CommaSeparated()
+      .OneValueEach();  // the logs may follow it
+  app.Switch("--floor", options.floor, "also print what chaos alone does to the first log");
+  app.Switch("--limit", options.limit,
                "also print what nobody could show better over the first log's network");
-  app.add_flag("--losses", options.losses,
+  app.Switch("--losses", options.losses,
                "also print when and where something was lost, by channel");
-  app.add_option("--losses-csv", options.losses_csv,
+  app.Option("--losses-csv", options.losses_csv,
                  "write the losses of the log as CSV to this file");
-  app.add_flag("--list", options.list, "say what is in the logs, and measure nothing");
-  app.add_flag("--more", options.more, "print the further measures");
+  app.Switch("--list", options.list, "say what is in the logs, and measure nothing");
+  app.Switch("--more", options.more, "print the further measures");
 }
 
 }  // namespace
@@ -234,7 +235,7 @@ int main(int argc, char** argv) {
                          "Measures recordings against the truth: error, stutter, rebound, cost.",
                          VersionLine("seam-measure"), ""};
   return RunCommandLine(
-      text, argc, argv, [&](CLI::App& app) { Define(app, options); },
+      text, argc, argv, [&](Command& app) { Define(app, options); },
       [&] {
         if (options.logs.empty()) {
           throw OperatorError("which log? for example: seam-measure session.lcm");

@@ -1,12 +1,12 @@
 #include "render/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 
 #include "common/base/check.h"
+#include "common/base/command_line.h"
 #include "render/canvas/font.h"
 #include "render/frame.h"
 #include "render/scene_recording.h"
@@ -34,7 +34,7 @@ void ParseView(const std::string& text, RenderOptions* o) {
   int peer = 0;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%d%c", &peer, &rest) != 1) {
-    o->view_name = text;  // whether there is such a player is the recording's to say
+    o->view_name = text;  // checked later: the recording has the players
     return;
   }
   if (peer < 0 || peer > 127)
@@ -42,7 +42,7 @@ void ParseView(const std::string& text, RenderOptions* o) {
   o->peer = peer;
 }
 
-/// Requires logs.
+/// Checks the options of --page. Requires logs.
 void CheckPage(const RenderOptions& o) {
   const bool picture = o.sheet > 0 || !o.around.empty() || o.speed != 1 || o.peer_given ||
                        o.every_ticks != 0 || !o.video.empty() || !o.camera_text.empty() ||
@@ -56,7 +56,7 @@ void CheckPage(const RenderOptions& o) {
   if (o.logs.size() > 10) throw OperatorError("at most 10 logs fit on a page");
 }
 
-/// "X,Y,HEIGHT", "fit" or "scene".
+/// Parses "X,Y,HEIGHT", "fit" or "scene".
 void ParseCamera(const std::string& text, CameraWish* camera) {
   if (text == "fit") return;
   if (text == "scene") {
@@ -98,7 +98,7 @@ bool IsTick(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// What goes with the camera, and moments.
+/// Checks combinations of the flags for the camera and for moments.
 void CheckShots(const RenderOptions& o) {
   if (!o.around.empty() && o.around != "contact" && o.around != "worst" &&
       o.around != "hand-over" && !IsTick(o.around))
@@ -175,45 +175,45 @@ const char* const kRenderExamples =
     "  seam-render --list session.lcm                          what is in a log\n"
     "  seam-render --live -o frames/                           what the LCM bus brings";
 
-void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
+void DefineRenderOptions(Command* app, RenderOptions* options) {
   RenderOptions& o = *options;
   o.fonts = kFontFolder;
-  app->add_option("logs", o.logs, "LCM logs of sessions, or one scene (.toml) as it begins");
-  app->add_option("-o,--out", o.out,
+  app->Option("logs", o.logs, "LCM logs of sessions, or one scene (.toml) as it begins");
+  app->Option("-o,--out", o.out,
                   "folder for frames, or the .png of --strobe, the .html of --page");
-  app->add_flag("--compare", o.compare, "several logs in one picture, in step by tick");
-  app->add_flag("--difference", o.difference,
+  app->Switch("--compare", o.compare, "several logs in one picture, in step by tick");
+  app->Switch("--difference", o.difference,
                 "two logs in one panel: the second over the first, by how far they are apart");
-  app->add_flag("--strobe", o.strobe, "many exposures of one collision in one picture");
-  app->add_flag("--page", o.page, "one HTML file of all views, to look through in a browser");
-  app->add_flag("--list", o.list, "say what is in the logs, and draw nothing");
-  app->add_flag("--live", o.live, "draw what the LCM bus brings");
-  app->add_flag("--force", o.force, "write even where other files are");
-  app->add_option("--fps", o.fps, "frames per second of the session (30)");
-  app->add_option("--size", o.size_text, "WIDTHxHEIGHT in pixels (1280x720)");
-  app->add_option("--from", o.from_s, "first moment, s");
-  app->add_option("--to", o.to_s, "last moment, s");
-  app->add_option("--view", o.view_text,
+  app->Switch("--strobe", o.strobe, "many exposures of one collision in one picture");
+  app->Switch("--page", o.page, "one HTML file of all views, to look through in a browser");
+  app->Switch("--list", o.list, "say what is in the logs, and draw nothing");
+  app->Switch("--live", o.live, "draw what the LCM bus brings");
+  app->Switch("--force", o.force, "write even where other files are");
+  app->Option("--fps", o.fps, "frames per second of the session (30)");
+  app->Option("--size", o.size_text, "WIDTHxHEIGHT in pixels (1280x720)");
+  app->Option("--from", o.from_s, "first moment, s");
+  app->Option("--to", o.to_s, "last moment, s");
+  app->Option("--view", o.view_text,
                   "whose view: a player's name, a peer's number, or all (server)");
-  app->add_option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
-  app->add_option("--threads", o.threads, "frames drawn at a time (number of cores)");
-  app->add_option("--camera", o.camera_text,
+  app->Option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
+  app->Option("--threads", o.threads, "frames drawn at a time (number of cores)");
+  app->Option("--camera", o.camera_text,
                   "fit (default: what moves), scene, or X,Y,HEIGHT in m");
-  app->add_option("--follow", o.camera.part, "a part, or a player's vehicle, stays in the middle");
-  app->add_option("--zoom", o.camera.zoom, "so many times larger (1)");
-  app->add_option("--around", o.around,
+  app->Option("--follow", o.camera.part, "a part, or a player's vehicle, stays in the middle");
+  app->Option("--zoom", o.camera.zoom, "so many times larger (1)");
+  app->Option("--around", o.around,
                   "0.5 s before to 1 s after: contact, worst, hand-over or a tick");
-  app->add_option("--layers", o.layers_text,
+  app->Option("--layers", o.layers_text,
                   "trails,ghosts,vectors,heat,names or none (trails,ghosts)");
-  app->add_option("--speed", o.speed, "of the sequence: 0.1 is slow motion (1)");
-  app->add_option("--sheet", o.sheet, "so many moments in one picture: -o is a .png file");
-  app->add_option("--every", o.every_ticks, "--strobe: ticks between exposures");
-  app->add_option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
-  app->add_option("--room", o.room, "which room, if there are several");
-  app->add_option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
-  app->add_option("--video", o.video,
+  app->Option("--speed", o.speed, "of the sequence: 0.1 is slow motion (1)");
+  app->Option("--sheet", o.sheet, "so many moments in one picture: -o is a .png file");
+  app->Option("--every", o.every_ticks, "--strobe: ticks between exposures");
+  app->Option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
+  app->Option("--room", o.room, "which room, if there are several");
+  app->Option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
+  app->Option("--video", o.video,
                   "also make this .mp4, .webm or .gif of the frames, by ffmpeg");
-  app->add_option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
+  app->Option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
 }
 
 void CheckRenderOptions(RenderOptions* options) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What seam-render was asked to do, checked as far as flags alone can be.
+/// Options of seam-render, checked as far as flags alone can be.
 
 #include <limits>
 #include <string>
@@ -8,39 +8,37 @@
 #include "render/draw/draw_world.h"
 #include "render/playback/camera.h"
 
-namespace CLI {
-class App;
-}
-
 namespace seam {
+
+class Command;
 
 struct RenderOptions {
   std::vector<std::string> logs;
   std::string out;  ///< folder; a file for strobe and page
   bool compare = false, strobe = false, live = false, force = false;
-  bool difference = false;  ///< of two logs: then compare is set too
+  bool difference = false;  ///< two logs in one panel: then compare is set too
   bool page = false;        ///< one HTML file of all views
-  bool list = false;  ///< says what is in the logs, and draws nothing
+  bool list = false;  ///< prints the contents of the logs, and draws nothing
   int fps = 30;
   int width_px = 1280, height_px = 720;
   bool size_given = false;
   double from_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the recording's own
   double to_s = std::numeric_limits<double>::quiet_NaN();
   bool peer_given = false;
-  std::string view_name;  ///< a player's, or "server"; "": peer says it
+  std::string view_name;  ///< a player's name, or "server"; "": use `peer`
   int peer = 0;           ///< kViewAll: all side by side
   std::string oracle;     ///< log made in mode oracle; "": computed
   int threads = 0;        ///< 0: as many as there are cores
   int every_ticks = 0;
   std::string lcm_url, room;
-  double seconds = 0;  ///< live: at most this long; 0: until quiet
+  double seconds = 0;  ///< live: greatest duration; 0: until no messages come
   std::string video;
-  int sheet = 0;       ///< so many moments in one picture; 0: a sequence
-  double speed = 1;    ///< of the sequence: 0.1 is slow motion
+  int sheet = 0;       ///< number of moments in one picture; 0: a sequence
+  double speed = 1;    ///< playing speed of the sequence: 0.1 is slow motion
   std::string around;  ///< "contact", "worst", "hand-over" or a tick; "": the whole recording
   CameraWish camera;
   WorldLook look;  ///< its layers
-  /// As given, until CheckRenderOptions.
+  /// Raw texts of flags, parsed by CheckRenderOptions.
   std::string size_text, view_text, camera_text, layers_text;
   std::string fonts;
 };
@@ -48,11 +46,11 @@ struct RenderOptions {
 /// The last lines of --help.
 extern const char* const kRenderExamples;
 
-/// Says which flags there are; what is parsed goes to `options`, which must outlive `app`.
-void DefineRenderOptions(CLI::App* app, RenderOptions* options);
+/// Defines the flags. Parsed values go to `options`, which must outlive `app`.
+void DefineRenderOptions(Command* app, RenderOptions* options);
 
-/// After parsing. Throws OperatorError, one line, on a flag that is malformed or does not go with
-/// the others.
+/// Checks the options after parsing. Throws OperatorError, one line, for a flag that is malformed
+/// or conflicts with another one.
 void CheckRenderOptions(RenderOptions* options);
 
 }  // namespace seam

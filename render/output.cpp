@@ -20,8 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "frame_" and at least five digits and ".png"; or that with ".tmp", which an interrupted run
-/// left.
+/// True for "frame_", at least five digits and ".png", also with ".tmp" of an interrupted run.
 bool IsFrameName(std::string name) {
   const std::string head = "frame_", tail = ".png", unfinished = ".png.tmp";
   if (name.size() > unfinished.size() &&
@@ -98,7 +97,7 @@ void EncodeVideo(const OutputFolder& folder, int fps, const std::string& path) {
   const std::string ending = VideoEnding(path);
   std::vector<std::string> coding{"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18"};
   if (ending == ".webm") coding = {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0"};
-  if (ending == ".gif") {  // a palette of its own: the default one has none of our colours
+  if (ending == ".gif") {  // a palette from the frames: the default one lacks their colours
     coding = {"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none"};
   }
   words.insert(words.end(), coding.begin(), coding.end());

@@ -1,20 +1,20 @@
 #pragma once
-/// The folder a sequence goes into: never mixes its frames with other people's files.
+/// The output folder of a sequence. Never mixes frames with unrelated files.
 
 #include <string>
 
 namespace seam {
 
-/// Beside the frames: where they come from (manifest.h).
+/// Name of the file with the frames' origin (manifest.h).
 constexpr const char* kManifestName = "manifest.json";
 
-/// frame_00000.png, frame_00001.png, ... in a folder.
+/// A folder with frame_00000.png, frame_00001.png, ...
 class OutputFolder {
  public:
-  /// Writes nothing. Throws OperatorError when the folder holds anything but frames of an earlier
-  /// run and not `force`, or is no folder.
+  /// Writes nothing. Throws OperatorError when `path` is no folder, or when the folder holds
+  /// anything but frames of an earlier run and `force` is false.
   OutputFolder(const std::string& path, bool force);
-  /// Makes the folder, and removes the earlier frames. Throws OperatorError when it cannot.
+  /// Creates the folder, and removes earlier frames. Throws OperatorError on failure.
   void Prepare() const;
   std::string FramePath(int frame) const;
   const std::string& path() const { return path_; }
@@ -24,10 +24,10 @@ class OutputFolder {
 };
 
 /// Throws OperatorError unless `path` ends in `ending`, its folder exists, and there is no such
-/// file yet (or `force`, or it is a file that may be replaced: an earlier picture).
+/// file yet (or `force`, or the file may be replaced: an earlier picture).
 void CheckOutputFile(const std::string& path, const std::string& ending, bool force);
 
-/// ".mp4", ".webm" or ".gif", as the path ends. Throws OperatorError when it ends otherwise.
+/// Returns the path's ending: ".mp4", ".webm" or ".gif". Throws OperatorError for any other.
 std::string VideoEnding(const std::string& path);
 
 /// Runs ffmpeg over a folder's frames. Throws OperatorError when it fails.

@@ -1,5 +1,5 @@
 #pragma once
-/// What the corner of a panel says of the view that it shows.
+/// The note in a panel's corner about the displayed view.
 
 #include <cstdint>
 #include <optional>
@@ -9,19 +9,20 @@
 
 namespace seam {
 
-/// A view and its network at a moment.
+/// Figures of a view and its network at a moment.
 struct ViewNote {
-  std::optional<double> age_ms;             ///< over the recording (Playback::ViewAgeMs)
+  std::optional<double> age_ms;             ///< mean over the recording (Playback::ViewAgeMs)
   std::optional<double> jitter_ms;          ///< as last reported (PeerReport)
-  std::optional<std::int64_t> corrections;  ///< so far that a person sees; empty without an oracle
+  std::optional<std::int64_t> corrections;  ///< visible ones so far; empty without an oracle
 };
 
-/// Finds each panel's corrections in its recording.
+/// Finds each panel's visible corrections in its recording.
 void FindCorrections(Page* page);
 
+/// Returns the figures of a panel's view at a moment.
 ViewNote NoteOf(const Panel& panel, double now_s);
 
-/// "view age 43 ms  ·  jitter 9 ms  ·  2 corrections"; what is not known is left out.
+/// Formats "view age 43 ms  ·  jitter 9 ms  ·  2 corrections"; leaves out unknown figures.
 std::string TextOf(const ViewNote& note);
 
 }  // namespace seam

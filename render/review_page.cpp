@@ -16,7 +16,7 @@
 namespace seam {
 namespace {
 
-/// A log and the playback of it, which does without the measures that pictures show.
+/// A log with its playback, which lacks the measures that only pictures show.
 struct PageLog {
   explicit PageLog(LoadedLog log)
       : recording(std::move(log.recording)), playback(&recording, std::move(log.oracle)) {}

@@ -7,7 +7,7 @@
 namespace seam {
 namespace {
 
-/// The player in whose region a point is; -1: none.
+/// Returns the player with the region that contains a point; -1: none.
 int PlayerAt(const Scene& scene, const Vec2& at) {
   for (std::size_t p = 0; p < scene.players.size(); ++p) {
     const Player& player = scene.players[p];

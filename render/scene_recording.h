@@ -7,12 +7,12 @@
 
 namespace seam {
 
-/// Whether a file that is to be drawn is a scene and no log: its name ends in ".toml".
+/// True if a file is a scene and not a log: its name ends in ".toml".
 bool IsSceneFile(const std::string& path);
 
-/// The server's view of tick 0. Each mechanism is in the hands of the player who owns it or in
-/// whose region it begins, so that colours say whose it will be. Throws OperatorError for a scene
-/// that is none.
+/// Makes a recording with the server's view of tick 0. Gives authority over each mechanism to the
+/// player that owns it or has the region in which it begins, so that colours show the first
+/// authority. Throws OperatorError for an invalid scene.
 Recording RecordingOfScene(const std::string& path);
 
 }  // namespace seam

@@ -36,7 +36,7 @@ void WriteSequence(const Page& page, const Font& font, const std::vector<double>
     WritePng(folder.FramePath(frame), image, PngEffort::kFast, page.about);
   };
   const int count = static_cast<int>(times_s.size());
-  // The first here, so that the shaders are compiled once.
+  // Draws the first frame in this process, so that the shaders are compiled once.
   const int here = processes > 1 ? 1 : count;
   for (int i = 0; i < here; ++i) {
     draw(i);

@@ -10,19 +10,20 @@
 
 namespace seam {
 
-/// Most frames of one sequence: nine hours at 30 a second. A damaged log may claim any tick.
+/// Greatest number of frames of one sequence: nine hours at 30 a second. A damaged log may claim
+/// any tick.
 constexpr int kFramesMax = 1000000;
 
-/// Moments `1/fps` apart from `from_s` up to and including `to_s`, s. Throws OperatorError when
-/// they are more than kFramesMax.
+/// Returns moments `1/fps` apart from `from_s` up to and including `to_s`, s. Throws OperatorError
+/// for more than kFramesMax moments.
 std::vector<double> FrameTimes(double from_s, double to_s, double fps);
 
 /// Called after each frame with the number done.
 using Progress = std::function<void(int done)>;
 
-/// Writes one frame per moment; each of `processes` has a canvas of its own and takes the next
-/// frame that nobody has (DrawInProcesses; 1: this process). The files are the same with each.
-/// Throws OperatorError when a frame cannot be written (a full disk), after all have stopped.
+/// Writes one frame per moment. Each of `processes` processes has its own canvas and takes the next
+/// free frame (DrawInProcesses; 1: this process). The files do not depend on the number. Throws
+/// OperatorError when a frame cannot be written (a full disk), after all have stopped.
 void WriteSequence(const Page& page, const Font& font, const std::vector<double>& times_s,
                    int processes, const OutputFolder& folder, const Progress& progress);
 

@@ -16,7 +16,7 @@
 namespace seam {
 namespace {
 
-constexpr float kGhostWidth = 0.9f;  ///< px; many lie over each other here
+constexpr float kGhostWidth = 0.9f;  ///< px; thin, since many ghosts overlap
 
 std::vector<double> Exposures(const StrobePlan& plan) {
   std::vector<double> times;
@@ -25,14 +25,14 @@ std::vector<double> Exposures(const StrobePlan& plan) {
   return times;
 }
 
-/// The last exposure is full, the first faint.
+/// Returns the opacity of an exposure: the last one is full, the first one faint.
 float Opacity(std::size_t exposure, std::size_t count) {
   if (count < 2) return 1;
   const float share = static_cast<float>(exposure) / static_cast<float>(count - 1);
   return 0.16f + 0.84f * share * share;
 }
 
-/// One exposure; a body that does not move until the next is left to that one.
+/// Draws one exposure. A body that does not move until the next exposure is drawn only there.
 void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& playback, int peer,
                   const std::vector<double>& times, std::size_t i) {
   const Moment now = playback.MomentAt(peer, playback.TickAt(times[i]));
@@ -51,10 +51,10 @@ void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& play
   }
 }
 
-/// With more bodies than this only the last moment has ghosts: more would be a thicket.
+/// With more bodies than this only the last exposure has ghosts, to avoid clutter.
 constexpr std::size_t kFewBodies = 12;
 
-/// The oracle's poses at the same moment, where they are not the view's.
+/// Draws the oracle's poses at the same moment, where they differ from the view's.
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback, int peer,
                 const std::vector<double>& times, std::size_t i) {
   if (i + 1 < times.size() && playback.moving().size() > kFewBodies) return;
@@ -95,7 +95,7 @@ std::string Explained(const std::string& name) {
   return "mode " + name;
 }
 
-/// Mode, reconciler and the run's key figures, left of its row.
+/// Draws mode, reconciler and the run's key figures, left of its row.
 void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   const float scale = list.font().scale();
   const Room& room = playback.recording().room;

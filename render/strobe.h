@@ -1,6 +1,6 @@
 #pragma once
-/// One collision in one picture: many exposures over each other, older ones fainter, the oracle's
-/// ghosts with them; a row for each recording, a column for each view.
+/// One collision in one picture: superimposed exposures, older ones fainter, with the oracle's
+/// ghosts; a row for each recording, a column for each view.
 
 #include <vector>
 
@@ -9,16 +9,16 @@
 
 namespace seam {
 
-/// What the picture shows.
+/// Content and size of the picture.
 struct StrobePlan {
   double from_s = 0, to_s = 1;
   double step_s = 0.1;        ///< between exposures; the last one is at to_s or before
-  Vec2 min{0, 0}, max{1, 1};  ///< of the world, m
-  std::vector<int> peers;     ///< columns: whose views
+  Vec2 min{0, 0}, max{1, 1};  ///< displayed box of the world, m
+  std::vector<int> peers;     ///< the displayed view of each column
   int width_px = 1280, height_px = 720;
 };
 
-/// Flags that replace what the plan would choose; NaN, 0: it chooses.
+/// Flags that replace the plan's choices; NaN, 0: the plan chooses.
 struct StrobeOptions {
   double from_s, to_s;
   int every_ticks = 0;
@@ -26,11 +26,11 @@ struct StrobeOptions {
   int width_px = 0, height_px = 0;
 };
 
-/// When the first watched collision happens (by the oracle's jump of velocity), else the first
-/// strong impact, else when the views are most wrong, else the middle; s.
+/// Returns the time of the first watched collision (by the oracle's jump of velocity), else of the
+/// first strong impact, else of the greatest error, else the middle; s.
 double CollisionTime(const std::vector<Playback>& playbacks);
 
-/// Chooses window, exposures, columns, the box of the world that holds what moves, and a height.
+/// Chooses window, exposures, columns, the box of the world around moving bodies, and a height.
 /// Requires at least one playback. Throws OperatorError when the window is empty.
 StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeOptions& options);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the rows and columns of a strobe picture lie.
+/// Layout of the rows and columns of a strobe picture.
 
 #include "render/strobe.h"
 
@@ -13,9 +13,10 @@ struct StrobeLayout {
 };
 
 StrobeLayout LayOutStrobe(const StrobePlan& plan, int rows);
-/// The height at which the world's box fills each panel, within what rows should have.
+/// Returns the picture's height at which the world's box fills each panel, within the limits of a
+/// row's height.
 int StrobeHeight(const StrobePlan& plan, int rows);
-/// Text and lines grow with the width alone.
+/// Returns the scale of text and lines, which depends on the width alone.
 float StrobeScale(int width_px);
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-// Which moments, which views and which part of the world a strobe picture shows.
+// Chooses the moments, the views and the part of the world for a strobe picture.
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@
 namespace seam {
 namespace {
 
-constexpr double kBeforeHit_s = 0.2, kAfterHit_s = 0.8;  ///< about the collision
-constexpr int kExposures = 8;                      ///< unless asked otherwise
+constexpr double kBeforeHit_s = 0.2, kAfterHit_s = 0.8;  ///< window around the collision
+constexpr int kExposures = 8;                      ///< default number
 constexpr double kExposuresMax = 200;
-constexpr float kStill_m = 0.3f;  ///< what moves less does not widen the picture
+constexpr float kStill_m = 0.3f;  ///< bodies that move less are not fitted
 
 struct Box {
   Vec2 min{1e9f, 1e9f}, max{-1e9f, -1e9f};
@@ -32,7 +32,7 @@ struct Box {
   }
 };
 
-/// All that moves in the window, in truth and in all views shown.
+/// Returns the box of all bodies that move in the window, in the oracle and in all displayed views.
 Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
   Box box;
   for (const Playback& playback : playbacks) {
@@ -71,7 +71,7 @@ void ChooseBox(const std::vector<Playback>& playbacks, StrobePlan* plan) {
     box.min = camera.min;
     box.max = camera.max;
   }
-  // Something flung out of the picture must not make the rest of it tiny.
+  // A body flung far away must not make the rest of the picture tiny.
   const Vec2 margin = 0.06f * (box.max - box.min) + Vec2(0.3f, 0.5f);
   Vec2 min = box.min - margin, max = box.max + margin;
   if (camera.follow < 0) {

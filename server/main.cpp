@@ -79,49 +79,49 @@ std::string ProfilesText() {
   return text;
 }
 
-void Define(CLI::App& app, Flags& f) {
-  app.add_option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
-  app.add_option("--port", f.port, "UDP port")->check(CLI::Range(1, 65535));
-  app.add_option("--bind", f.bind, "address to listen on");
-  app.add_option("--mode", f.mode, "oracle | central | strict | buffer");
-  app.add_option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
-  app.add_option("--predict", f.predict,
+void Define(Command& app, Flags& f) {
+  app.Option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
+  app.Option("--port", f.port, "UDP port").Range(1, 65535);
+  app.Option("--bind", f.bind, "address to listen on");
+  app.Option("--mode", f.mode, "oracle | central | strict | buffer");
+  app.Option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
+  app.Option("--predict", f.predict,
                  "what clients of mode central simulate ahead: own | all (default all)");
-  app.add_option("--input-delay", f.input_delay_ticks,
+  app.Option("--input-delay", f.input_delay_ticks,
                  "ticks from reading an input to its acting, at every peer (default: the scene's)")
-      ->check(CLI::Range(0, kInputDelayTicksMax));
-  app.add_option("--impair", f.impair, "impair the network in both directions by a profile");
-  app.add_option("--seed", f.seed, "of impairments and bots")->check(CLI::Range(0, 1000000000));
-  app.add_option("--send-hz", f.send_hz, "state messages per second")->check(CLI::Range(1, 240));
-  app.add_option("--budget", f.budget,
+      .Range(0, kInputDelayTicksMax);
+  app.Option("--impair", f.impair, "impair the network in both directions by a profile");
+  app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);
+  app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, 240);
+  app.Option("--budget", f.budget,
                  "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
-  app.add_option("--room", f.room,
+  app.Option("--room", f.room,
                  "name of the room in the channels; of several: NAME-1, NAME-2, ...");
-  app.add_option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
-      ->check(CLI::Range(1, kRoomsMax));
-  app.add_option("--workers", f.workers, "threads that run several rooms (default: one per core)")
-      ->check(CLI::Range(1, 256));
-  app.add_option("--bus-rooms", f.bus_rooms, "of several rooms, which are on the LCM bus")
-      ->check(CLI::IsMember({"first", "all", "none"}));
-  app.add_option("--metrics", f.metrics_port,
+  app.Option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
+      .Range(1, kRoomsMax);
+  app.Option("--workers", f.workers, "threads that run several rooms (default: one per core)")
+      .Range(1, 256);
+  app.Option("--bus-rooms", f.bus_rooms, "of several rooms, which are on the LCM bus")
+      .OneOf({"first", "all", "none"});
+  app.Option("--metrics", f.metrics_port,
                  "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
-      ->check(CLI::Range(1, 65535));
-  app.add_option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
-      ->check(CLI::Range(0, 31));
-  app.add_option("--duration", f.duration_s,
+      .Range(1, 65535);
+  app.Option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
+      .Range(0, 31);
+  app.Option("--duration", f.duration_s,
                  "seconds to run after tick 0 (0: until stopped; default: the scene's)")
-      ->check(CLI::Range(0.0, 1e6));
-  app.add_option(
+      .Range(0.0, 1e6);
+  app.Option(
       "--record", f.record,
       "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
-  app.add_flag("--force", f.force, "overwrite the --record file");
-  app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
-  app.add_option("--publish", f.publish,
+  app.Switch("--force", f.force, "overwrite the --record file");
+  app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.Option("--publish", f.publish,
                  "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
                  "at most " +
                      std::to_string(kPublishAllMost) + " bodies, else own)");
-  app.add_flag("--quiet", f.quiet, "no progress line, and not who comes and goes");
-  app.add_flag("--doctor", f.doctor, "check that LCM works on this machine, and exit");
+  app.Switch("--quiet", f.quiet, "no progress line, and not who comes and goes");
+  app.Switch("--doctor", f.doctor, "check that LCM works on this machine, and exit");
 }
 
 void CheckRoomName(const std::string& room, int rooms) {
@@ -266,7 +266,7 @@ int main(int argc, char** argv) {
       ProfilesText(),
       {{"scene", SceneNames()}, {"--impair", ProfileNames()}, {"--reconcile", ReconcilerNames()}}};
   return RunCommandLine(
-      text, argc, argv, [&](CLI::App& app) { Define(app, flags); },
+      text, argc, argv, [&](Command& app) { Define(app, flags); },
       [&] {
         if (!flags.doctor) return Serve(flags);
         const DoctorReport report = RunDoctor(flags.lcm_url);

@@ -32,22 +32,22 @@ struct Flags {
   bool quiet = false;
 };
 
-void Define(CLI::App& app, Flags& f) {
-  app.add_option("server", f.server, "host:port of seam-server (port 7777 if left out)");
-  app.add_option("--clients", f.clients, "how many; each is a player of its room's scene, in order")
-      ->check(CLI::Range(1, 65535));
-  app.add_option("--drive", f.drive, "bot | none | script (each plays its own player's script)")
-      ->check(CLI::IsMember({"bot", "none", "script"}));
-  app.add_option("--for", f.for_text, "how long to measure, from when all have joined: 60s, 5m");
-  app.add_option("--room", f.room, "the room to join (default: the server's first)");
-  app.add_option("--rooms", f.rooms, "spread over the rooms NAME-1 to NAME-N of --room NAME")
-      ->check(CLI::Range(1, 4096));
-  app.add_option("--threads", f.threads, "threads that run the clients")->check(CLI::Range(1, 256));
-  app.add_option("--join-timeout", f.join_s, "seconds until all must have joined")
-      ->check(CLI::Range(0.1, 1e6));
-  app.add_option("--metrics", f.metrics, "host:port of the server's page: its figures too");
-  app.add_option("--lcm-url", f.lcm_url, "LCM bus: the server's figures too (default: none)");
-  app.add_flag("--quiet", f.quiet, "no progress line");
+void Define(Command& app, Flags& f) {
+  app.Option("server", f.server, "host:port of seam-server (port 7777 if left out)");
+  app.Option("--clients", f.clients, "how many; each is a player of its room's scene, in order")
+      .Range(1, 65535);
+  app.Option("--drive", f.drive, "bot | none | script (each plays its own player's script)")
+      .OneOf({"bot", "none", "script"});
+  app.Option("--for", f.for_text, "how long to measure, from when all have joined: 60s, 5m");
+  app.Option("--room", f.room, "the room to join (default: the server's first)");
+  app.Option("--rooms", f.rooms, "spread over the rooms NAME-1 to NAME-N of --room NAME")
+      .Range(1, 4096);
+  app.Option("--threads", f.threads, "threads that run the clients").Range(1, 256);
+  app.Option("--join-timeout", f.join_s, "seconds until all must have joined")
+      .Range(0.1, 1e6);
+  app.Option("--metrics", f.metrics, "host:port of the server's page: its figures too");
+  app.Option("--lcm-url", f.lcm_url, "LCM bus: the server's figures too (default: none)");
+  app.Switch("--quiet", f.quiet, "no progress line");
 }
 
 /// Parses "60s", "5m", "90" into seconds.
@@ -177,7 +177,7 @@ int main(int argc, char** argv) {
   const ProgramText text{"seam-swarm", "seam-swarm: many clients against one seam-server",
                          VersionLine("seam-swarm"), ""};
   return RunCommandLine(
-      text, argc, argv, [&](CLI::App& app) { Define(app, flags); },
+      text, argc, argv, [&](Command& app) { Define(app, flags); },
       [&] {
         if (flags.threads == 1) UseHugePages(argv);
         return RunSwarm(flags);

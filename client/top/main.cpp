@@ -22,13 +22,13 @@ struct Flags {
   int times = 0;
 };
 
-void Define(CLI::App& app, Flags& f) {
-  app.add_option("page", f.page,
+void Define(Command& app, Flags& f) {
+  app.Option("page", f.page,
                  "host:port of the page of a seam-server with --metrics (port 9464 if left out); "
                  "without it the LCM bus is heard");
-  app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL)");
-  app.add_option("--times", f.times, "tables to print (0: until stopped)")
-      ->check(CLI::Range(0, 1000000));
+  app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL)");
+  app.Option("--times", f.times, "tables to print (0: until stopped)")
+      .Range(0, 1000000);
 }
 
 /// Prints a table. Clears a terminal before each; other outputs get one table after another.
@@ -68,5 +68,5 @@ int main(int argc, char** argv) {
   const ProgramText text{"seam-top", "seam-top: what the rooms of a seam-server cost, each second",
                          VersionLine("seam-top"), ""};
   return RunCommandLine(
-      text, argc, argv, [&](CLI::App& app) { Define(app, flags); }, [&] { return Watch(flags); });
+      text, argc, argv, [&](Command& app) { Define(app, flags); }, [&] { return Watch(flags); });
 }

@@ -1,4 +1,5 @@
-/// Bodies that come, go, split and merge: whether everybody hears of it, and shows what there is.
+/// Bodies that come, go, split and merge: measures how late peers learn of it, and whether their
+/// views have exactly the existing bodies.
 
 #include <algorithm>
 
@@ -8,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// Longest that a view lacked an edit, ticks.
+/// Returns the longest time that a view lacked an edit, ticks.
 std::int64_t LongestLag(const Recording& recording) {
   std::int64_t longest = 0;
   for (const auto& [peer, views] : recording.views) {
@@ -21,7 +22,7 @@ std::int64_t LongestLag(const Recording& recording) {
   return longest;
 }
 
-/// Ids that are in one of the two lists and not in the other. Both ascending.
+/// Counts the ids that are in only one of the two lists. Requires both ascending.
 std::int64_t Differing(const std::vector<PartId>& there, const std::vector<PartId>& shown) {
   std::int64_t both = 0;
   auto a = there.begin();
@@ -32,7 +33,7 @@ std::int64_t Differing(const std::vector<PartId>& there, const std::vector<PartI
   return static_cast<std::int64_t>(there.size() + shown.size()) - 2 * both;
 }
 
-/// Edits before the first that the log lacks: what is made of what after it, nobody can say.
+/// Counts the edits before the first that the log lacks; the topology after that is unknown.
 std::int32_t KnownEdits(const Recording& recording) {
   std::int32_t known = 0;
   for (const auto& [number, edit] : recording.edits) {

@@ -9,16 +9,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Unit, on the right of the way from `a` to `b`: outwards for counter-clockwise corners.
+/// Returns the unit normal on the right of the direction from `a` to `b`: outwards for
+/// counter-clockwise corners.
 Vector2d RightOf(const Vector2d& a, const Vector2d& b) {
   const Vector2d along = b - a;
   return Vector2d(along.y(), -along.x()) / along.norm();
 }
 
-/// How far `b`'s corners are beyond that face of `a` that they are farthest beyond; negative:
-/// inside all. Radii do not count.
+/// Returns the greatest separation of `b`'s corners from a face of `a`; negative: no face separates
+/// them. Ignores radii. Stops at the first separating face.
 double BeyondFaces(const Convex& a, const Convex& b) {
   double most = -kFar;
   for (int i = 0; i < a.count; ++i) {
@@ -32,7 +32,7 @@ double BeyondFaces(const Convex& a, const Convex& b) {
   return most;
 }
 
-/// Where the point of a segment nearest to `p` is: 0 at `a`, 1 at `b`; beyond them not clamped.
+/// Returns the parameter of the point nearest to `p` on the line: 0 at `a`, 1 at `b`; not clamped.
 double Along(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
   return (p - a).dot(b - a) / (b - a).squaredNorm();
 }
@@ -41,7 +41,7 @@ Vector2d NearestOf(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
   return a + std::clamp(Along(a, b, p), 0.0, 1.0) * (b - a);
 }
 
-/// The least distance of a corner of `b` from an edge of `a`.
+/// Returns the least distance of a corner of `b` from an edge of `a`.
 double CornersFromEdges(const Convex& a, const Convex& b) {
   double nearest = kFar;
   for (int i = 0; i < a.count; ++i) {
@@ -54,7 +54,7 @@ double CornersFromEdges(const Convex& a, const Convex& b) {
   return nearest;
 }
 
-/// A point's distance from the nearest of the edges, negative on the solid side.
+/// The distance of a point from the nearest edge, negative on the solid side.
 struct Height {
   double squared = kFar;  // m^2
   double side = 1;        // its sign
@@ -65,7 +65,7 @@ struct Height {
     if (away.squaredNorm() >= squared) return;
     squared = away.squaredNorm();
     const double along = Along(edge.from, edge.to, p);
-    // At a corner the two edges' normals together tell the side.
+    // At a corner the sum of the two edges' normals decides the side.
     Vector2d normal = edge.normal;
     if (along <= 0) normal += edge.normal_before;
     if (along >= 1) normal += edge.normal_after;
@@ -82,7 +82,7 @@ double OverlapDepth(const Convex& a, const Convex& b) {
   if (a.count == 1 && b.count == 1) {
     return std::max(0.0, a.radius + b.radius - (a.corners[0] - b.corners[0]).norm());
   }
-  // The hulls of the corners overlap, or their distance eats of the radii.
+  // Either the hulls of the corners overlap, or the radii exceed the distance of the hulls.
   double beyond = a.count > 1 ? BeyondFaces(a, b) : -kFar;
   if (beyond < 0 && b.count > 1) beyond = std::max(beyond, BeyondFaces(b, a));
   const double rims = a.radius + b.radius;

@@ -1,12 +1,12 @@
-/// What a run cost: bytes of clients, CPU time of peers, per second of the simulated timeline.
+/// Cost of a run: bytes of clients and CPU time of peers, per second of the simulated timeline.
 
 #include "common/measure/parts.h"
 
 namespace seam {
 namespace {
 
-/// Growth of a counter per second. Only spans in which ticks went on and the counter did not fall
-/// back (a peer that started again) count; nullopt when there is none.
+/// Returns the growth of a counter per second. Spans without a later tick or with a smaller counter
+/// (a restarted peer) are ignored; nullopt when no span is left.
 template <class Counter>
 std::optional<double> PerSecond(const std::vector<Stats>& stats, double h, const Counter& counter) {
   std::int64_t grown = 0, ticks = 0;
@@ -20,7 +20,7 @@ std::optional<double> PerSecond(const std::vector<Stats>& stats, double h, const
   return static_cast<double>(grown) / (static_cast<double>(ticks) * h);
 }
 
-/// Mean over the peers from `first_peer` on that have a rate.
+/// Returns the mean over the peers from `first_peer` on that have a rate; 0 if none has.
 template <class Counter>
 double MeanRate(const Recording& recording, int first_peer, const Counter& counter) {
   double sum = 0;

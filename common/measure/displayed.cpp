@@ -1,4 +1,4 @@
-/// Whether what is shown could be: things in one another, joints apart, energy from nowhere.
+/// Physical plausibility of displayed states: overlaps, drifted joints, gained energy.
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,15 @@
 namespace seam {
 namespace {
 
-/// Overlaps are looked for at most this often, Hz: they are the dear ones.
+/// Greatest rate of overlap tests, Hz: the most expensive of these measures.
 constexpr int kOverlapHz = 10;
-/// What is shown may be so late, or so early, against the oracle, s: a blow that comes late is no
-/// gain of energy, nor is a motor that starts early.
+/// Views may lag or lead the oracle by this, s: a late impact is no gain of energy, nor is a motor
+/// that starts early.
 constexpr double kEnergyWindow = 0.5;
 
 using Bodies = std::vector<BodyState>;
 
-/// The moving bodies as a view shows them; nothing if it does not show exactly those.
+/// Returns the moving bodies as a view shows them; nullopt if it does not show exactly `ids`.
 std::optional<Bodies> StatesOf(const View& view, const std::vector<PartId>& ids) {
   if (view.id.size() != ids.size() || !std::equal(ids.begin(), ids.end(), view.id.begin())) {
     return std::nullopt;
@@ -30,7 +30,7 @@ std::optional<Bodies> StatesOf(const View& view, const std::vector<PartId>& ids)
   return states;
 }
 
-/// What is measured of one revision's states.
+/// The meters for the states of one revision.
 struct Meters {
   explicit Meters(const SceneRevision& revision)
       : ids(revision.ids),
@@ -49,13 +49,13 @@ void Raise(std::optional<double>* most, double value) {
   *most = std::max(most->value_or(value), value);
 }
 
-/// The oracle's energy, by tick.
+/// The oracle's energy by tick.
 class Budget {
  public:
   Budget(std::int64_t first_tick, double h)
       : first_tick_(first_tick), reach_(std::llround(kEnergyWindow / h)) {}
   void Add(std::optional<double> energy) { energies_.push_back(energy); }
-  /// The greatest within the window around a tick that the oracle has.
+  /// Returns the greatest energy within the window around a tick; nullopt if the oracle lacks it.
   std::optional<double> Around(std::int64_t tick) const {
     const std::int64_t last = static_cast<std::int64_t>(energies_.size()) - 1;
     const std::int64_t at = tick - first_tick_;
@@ -75,7 +75,7 @@ class Budget {
   std::vector<std::optional<double>> energies_;
 };
 
-/// The oracle's own, row by row, each by the bodies of its time.
+/// Measures the oracle itself, row by row, each with the bodies of its time.
 Budget MeasureOracle(const Oracle& oracle, const RevisionHistory& own, double h, int every,
                      Measures* measures) {
   Budget budget(oracle.first_tick, h);
@@ -112,7 +112,7 @@ void MeasureDisplayed(const Recording& recording, const Oracle& oracle,
   const int every = (std::max(1, recording.room.tick_hz) + kOverlapHz - 1) / kOverlapHz;
   const RevisionHistory own(first->scene(), oracle.edits);
   const Budget budget = MeasureOracle(oracle, own, TickSeconds(recording), every, measures);
-  // SceneRevision by revision: meters are dear to make and large to keep.
+  // One revision after the other: meters are expensive to make and large to keep.
   std::map<int, std::vector<const View*>> by_revision;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views)

@@ -18,7 +18,7 @@ EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
     masses_.push_back(AssemblyProperties(scene, assembly));
     if (!waters_.empty()) wet_shapes_.push_back(WetShapeOf(scene, assembly));
   }
-  // Of a side, kg, or about its origin, kg m^2; 0 for one that nothing moves.
+  // Mass of a side, kg, or its moment about its origin, kg m^2; 0 for an anchored or kinematic one.
   const auto load = [&](const JointEnd& end, bool turns) {
     if (end.moving < 0 || end.moving >= static_cast<int>(masses_.size())) return 0.0;
     const MassProperties& own = masses_[static_cast<std::size_t>(end.moving)];
@@ -26,8 +26,8 @@ EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
   };
   for (const JointEnds& ends : FindJointEnds(scene, composition)) {
     if (ends.frequency_hz <= 0) continue;
-    // As b2LinearStiffness and b2AngularStiffness: of the reduced mass or moment, where an anchored
-    // side weighs endlessly.
+    // As b2LinearStiffness and b2AngularStiffness: uses the reduced mass or moment; an anchored
+    // side has infinite mass.
     const bool turns = SpringOf(ends.kind) == JointSpring::kAngle;
     const double a = load(ends.a, turns), b = load(ends.b, turns);
     const double reduced = a > 0 && b > 0 ? a * b / (a + b) : a + b;
@@ -36,8 +36,8 @@ EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
   }
 }
 
-/// Lifting an area of water from its position to the level: its weight times the depth of its
-/// middle. The slope of this by a thing's height is the buoyancy, and by its angle the torque.
+/// Returns the energy of displaced water, lifted to the level: its weight times the depth of its
+/// centroid. The derivative by a body's height is the buoyancy, and by its angle the torque.
 double EnergyMeter::InWater(const std::vector<BodyState>& moving) const {
   double energy = 0;
   for (std::size_t i = 0; i < wet_shapes_.size(); ++i) {

@@ -10,35 +10,35 @@
 
 namespace seam {
 
-/// Everything about a scene's energy that its states do not change, looked up once.
+/// Computes the mechanical energy of states. Looks up masses, springs and water of the scene once.
 class EnergyMeter {
  public:
   EnergyMeter(const Scene& scene, const Composition& composition);
 
-  /// J: kinetic, potential (0 at the origin's height along gravity), in springs of wheel, distance
-  /// and soft weld joints, and in the water that things push aside. What motors, flows and players
-  /// put in is in it; limits and contacts store nothing. `moving`: of the moving assemblies
-  /// ascending by id; velocities are of the centres of mass. `tick`: where kinematic parts are.
-  /// Infinite when a state is not finite.
+  /// Returns the energy, J: kinetic, potential (0 at the origin's height along gravity), of the
+  /// springs of wheel, distance and soft weld joints, and of displaced water. Includes the work of
+  /// motors, flows and players; limits and contacts store nothing. `moving`: states of the moving
+  /// assemblies, ascending by id; velocities are of the centres of mass. `tick`: places kinematic
+  /// parts. Infinite when a state is not finite.
   double Of(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
  private:
   struct Spring {
     JointEnds ends;
-    double stiffness = 0;  // N/m; of a weld: N m/rad
+    double stiffness = 0;  // N/m; weld: N m/rad
   };
   double InWater(const std::vector<BodyState>& moving) const;
   double Stretch(const Spring& spring, const std::vector<BodyState>& states) const;
 
   const FeatureList<Water> waters_;
-  std::vector<WetShape> wet_shapes_;    // of the moving assemblies, if there is water
+  std::vector<WetShape> wet_shapes_;    // by moving assembly, if there is water
   Eigen::Vector2d gravity_;             // m/s^2
-  std::vector<MassProperties> masses_;  // of the moving assemblies
+  std::vector<MassProperties> masses_;  // by moving assembly
   std::vector<Spring> springs_;
   ImposedMotions imposed_;
 };
 
-/// The same, for one state.
+/// Returns EnergyMeter::Of for a single set of states.
 inline double MechanicalEnergy(const Scene& scene, const Composition& composition,
                                const std::vector<BodyState>& moving) {
   return EnergyMeter(scene, composition).Of(moving);

@@ -1,4 +1,4 @@
-/// The floor under all errors: what chaos alone makes of a micrometre.
+/// The error floor: growth of a displacement of a micrometre by chaos alone.
 
 #include <algorithm>
 #include <optional>

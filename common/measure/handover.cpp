@@ -1,5 +1,5 @@
-/// Changes of authority: how far a displayed body jumps at one, and how far apart the two
-/// authorities were about it.
+/// Changes of authority: the jump of a displayed body, and the difference of the two authorities'
+/// states.
 
 #include <algorithm>
 #include <cmath>
@@ -32,12 +32,12 @@ bool Claims(const View& view, PartId id) {
   return i >= 0 && view.role[static_cast<std::size_t>(i)] == kRoleAuthority;
 }
 
-/// How far apart two authorities were, at each hand-over.
+/// Differences of the two authorities, one entry for each hand-over.
 struct Gaps {
   std::vector<double> positions, velocities;  // m, m/s
 };
 
-/// What two views show of a body, one minus the other.
+/// Appends the distance of a body's position and velocity in two views.
 void Compare(const View& one, const View& other, PartId id, Gaps* gaps) {
   const int i = IndexOf(one, id), k = IndexOf(other, id);
   if (i < 0 || k < 0) return;
@@ -50,7 +50,8 @@ void Compare(const View& one, const View& other, PartId id, Gaps* gaps) {
   gaps->velocities.push_back(dv);
 }
 
-/// At the first tick at which another peer than before claims a body: both peers' ideas of it.
+/// Compares the views of the old and the new authority at the first tick at which another peer than
+/// before claims a body.
 void MeasureGaps(const Recording& recording, const RevisionHistory* revisions, Measures* measures) {
   Gaps gaps;
   std::map<PartId, int> holders;
@@ -90,7 +91,7 @@ void MeasureHandover(const Recording& recording, const std::map<PartId, int>& me
   for (const auto& [peer, views] : recording.views) {
     ForEachChange(views, [&](std::int64_t, const View& before, std::size_t k, const View& now,
                              std::size_t i) {
-      // What has become part of another body jumps for that.
+      // A body with other parts than before jumps because of that.
       if (revisions != nullptr && !revisions->SameBody(before.revision, now.revision, now.id[i]))
         return;
       const double dx = double{now.x[i]} - double{before.x[k]} - double{now.vx[i]} * h;
@@ -100,7 +101,7 @@ void MeasureHandover(const Recording& recording, const std::map<PartId, int>& me
   }
   MeasureGaps(recording, revisions, measures);
   if (recording.views.empty()) return;
-  // The server's views, or of the lowest peer there is; a mechanism's bodies change together.
+  // By the server's views, or those of the lowest peer; a mechanism's bodies change together.
   std::set<std::pair<std::int64_t, int>> changes;
   ForEachChange(recording.views.begin()->second,
                 [&](std::int64_t tick, const View&, std::size_t, const View& now, std::size_t i) {

@@ -11,16 +11,11 @@
 namespace seam {
 namespace {
 
-/// Who claimed a body last, and when.
+/// The last claim of authority over a body.
 struct Claim {
   int peer = 0;
   std::int64_t tick = 0;
 };
-
-bool Claims(const View& view, PartId id) {
-  const int i = IndexOf(view, id);
-  return i >= 0 && view.role[static_cast<std::size_t>(i)] == kRoleAuthority;
-}
 
 }  // namespace
 
@@ -41,7 +36,7 @@ std::vector<HandOverSeen> ListHandOvers(const Recording& recording,
         Claim& claim = claims.emplace(id, Claim{peer, tick}).first->second;
         const auto old = views.find(claim.peer);
         if (claim.peer != peer && old != views.end()) {
-          if (Claims(*old->second, id)) continue;  // for a tick both may seem to
+          if (Claims(*old->second, id)) continue;  // both may claim it for a tick
           const View& then = *old->second;
           const int k = IndexOf(then, id);
           const bool same = k >= 0 && (revisions == nullptr ||

@@ -9,12 +9,12 @@
 namespace seam {
 namespace {
 
-/// How far a value is outside of its limits.
+/// Returns the distance of a value from the interval of its limits.
 double Beyond(double value, double lower, double upper) {
   return std::max({0.0, lower - value, value - upper});
 }
 
-/// Off the axis, and along it as far as that is not allowed.
+/// Returns the drift of an axis joint: off the axis, and along it beyond the allowed range.
 double AlongAxis(const JointEnds& joint, const Eigen::Vector2d& apart,
                  const Eigen::Vector2d& axis) {
   const double off = std::abs(axis.x() * apart.y() - axis.y() * apart.x());
@@ -24,7 +24,7 @@ double AlongAxis(const JointEnds& joint, const Eigen::Vector2d& apart,
   return std::hypot(off, joint.limited ? Beyond(along, joint.lower, joint.upper) : along);
 }
 
-/// How far a hinge or prismatic joint has turned, rad, or slid, m, since the start.
+/// Returns the rotation of a hinge, rad, or the slide of a prismatic joint, m, since the start.
 double Moved(const JointEnds& joint, const std::vector<BodyState>& states) {
   if (HoldOf(joint.kind) == JointHold::kAxis) {
     return joint.a.AxisNow(states).dot(joint.b.PointNow(states) - joint.a.PointNow(states));

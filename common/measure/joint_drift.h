@@ -1,6 +1,6 @@
 #pragma once
-/// How far joints have come apart, by their definition in the scene: what an iterative solver
-/// leaves undone.
+/// Joint drift: the residual error of joints, measured by their definition in the scene. An
+/// iterative solver leaves some.
 
 #include <vector>
 
@@ -8,21 +8,22 @@
 
 namespace seam {
 
+/// Measures the drift of a scene's joints.
 class JointMeter {
  public:
   JointMeter(const Scene& scene, const Composition& composition)
       : joints_(FindJointEnds(scene, composition)), imposed_(scene, composition) {}
 
-  /// m, >= 0: the worst of all joints. Revolute, and weld and glue where they are joints: how far
-  /// the anchors are apart; wheel and prismatic: how far the anchor on `b` is off the axis through
-  /// the anchor on `a`, or along it beyond the limits, and along it at all for a wheel with neither
-  /// spring nor limits; distance and rope: how much longer or shorter it is than it may be, 0 for a
-  /// spring without limits; gear: how far its two joints' movements are off their ratio, in rad
-  /// where the first is a hinge, which is m at an arm of 1 m; pulley: how much longer or shorter
-  /// the rope is; motor: 0, since it yields. `moving`: of the moving assemblies ascending by id.
-  /// `tick`: where kinematic parts are. Infinite when a pose is not finite.
+  /// Returns the greatest drift of all joints, m, >= 0. Revolute, and weld and glue where they are
+  /// joints: distance of the anchors. Wheel and prismatic: distance of the anchor on `b` from the
+  /// axis through the anchor on `a`, or along it beyond the limits; any distance along it for a
+  /// wheel with neither spring nor limits. Distance and rope: excess or lack of length; 0 for a
+  /// spring without limits. Gear: deviation of its two joints' movements from their ratio, in rad
+  /// where the first is a hinge, which is m at an arm of 1 m. Pulley: excess or lack of rope.
+  /// Motor: 0, since it yields. `moving`: states of the moving assemblies, ascending by id.
+  /// `tick`: places kinematic parts. Infinite when a pose is not finite.
   double Worst(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
-  /// The same of each joint, in the order of FindJointEnds.
+  /// Returns the drift of each joint, in the order of FindJointEnds.
   std::vector<double> Drifts(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
  private:

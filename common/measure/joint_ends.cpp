@@ -36,7 +36,7 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
     return e;
   };
   std::vector<JointEnds> all;
-  std::vector<int> listed(scene.joints.size(), -1);  // by joint: where in `all`
+  std::vector<int> listed(scene.joints.size(), -1);  // by joint: index in `all`
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Joint& joint = scene.joints[j];
     if (joint.gone || IsRigid(joint, scene.solver)) continue;
@@ -54,7 +54,7 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
     ends.length = joint.length > 0 ? double{joint.length}
                                    : (joint.anchor_b - joint.anchor_a).cast<double>().norm();
     ends.frequency_hz = double{joint.frequency_hz};
-    // An end that stands still has the angle 0.
+    // An anchored end has the angle 0.
     const auto angle = [&](const JointEnd& e) {
       const PartId root = composition.assemblies[static_cast<std::size_t>(e.assembly)].id;
       return e.moving < 0 ? 0 : double{scene.parts[static_cast<std::size_t>(root)].angle};

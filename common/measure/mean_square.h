@@ -7,6 +7,7 @@
 
 namespace seam {
 
+/// A running sum of squares.
 struct MeanSquare {
   double sum = 0;
   std::int64_t count = 0;
@@ -15,7 +16,7 @@ struct MeanSquare {
     sum += squared;
     ++count;
   }
-  /// Nothing of nothing.
+  /// Returns the root mean square; nullopt without values.
   std::optional<double> Root() const {
     if (count == 0) return std::nullopt;
     return std::sqrt(sum / static_cast<double>(count));

@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// Mass by id of the moving assemblies that the watched parts belong to, kg.
+/// Returns the masses of the watched parts' moving assemblies, by id, kg.
 std::map<PartId, double> StruckMasses(const Scene& scene, const Composition& composition,
                                       const WatchCollision& watch) {
   std::map<PartId, double> masses;
@@ -26,7 +26,7 @@ std::map<PartId, double> StruckMasses(const Scene& scene, const Composition& com
   return masses;
 }
 
-/// Mean over the watched collisions that can be measured.
+/// Returns the mean rebound of the watched collisions that can be measured.
 std::optional<double> MeanRebound(const Recording& recording, const Oracle& oracle,
                                   const Scene& scene, const Composition& composition) {
   double sum = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// The truth a recording is measured against: where every part is after every tick, while the
-/// bodies that it belongs to come and go.
+/// The oracle: ground truth for measuring a recording. Gives the state of every part after every
+/// tick, also where bodies change at run time.
 
 #include <cstdint>
 #include <limits>
@@ -20,50 +20,51 @@ struct SceneRevision;
 
 /// Poses of every moving body after every tick.
 struct Oracle {
-  /// A part's pose in its body's frame, or in the world; m, rad.
+  /// A part's pose in its body's frame, or in the world if anchored; m, rad.
   struct Place {
-    int body = -1;  ///< index into the span's ids; -1: anchored, -2: not there
+    int body = -1;  ///< index into the span's ids; -1: anchored, -2: removed
     float x = 0, y = 0, angle = 0;
   };
+  /// The bodies between two edits.
   struct Bodies {
-    std::vector<PartId> ids;    ///< of the moving assemblies, ascending
+    std::vector<PartId> ids;    ///< moving assemblies, ascending
     std::vector<Place> places;  ///< by part
-    std::vector<PartId> roots;  ///< by part: the assembly's id; -1: not there
+    std::vector<PartId> roots;  ///< by part: the assembly's id; -1: removed
   };
-  /// From a row on the bodies are others.
+  /// Rows with the same bodies, from `first_row` to the next span.
   struct RevisionSpan {
     std::size_t first_row = 0;
-    int edits = 0;  ///< how many of Oracle::edits were applied
+    int edits = 0;  ///< number of Oracle::edits that were applied
     std::shared_ptr<const Bodies> bodies;
   };
 
   std::int64_t first_tick = 0;
-  std::vector<PartId> ids;  ///< at first, ascending
+  std::vector<PartId> ids;  ///< moving bodies at first_tick, ascending
   /// [tick - first_tick][index in the ids of that time]; empty for a tick that is not known.
   std::vector<std::vector<BodyState>> ticks;
-  std::vector<RevisionSpan> spans;  ///< ascending; empty: `ids` for ever, other parts unknown
-  std::vector<Edit> edits;          ///< that were applied, in order, with the oracle's own ids
-  /// Parts from here on came at run time and may have another id in the recording.
+  std::vector<RevisionSpan> spans;  ///< ascending; empty: always `ids`, other parts unknown
+  std::vector<Edit> edits;          ///< applied edits, in order, with the oracle's own ids
+  /// First id of the parts inserted at run time. Their ids in the recording may differ.
   PartId inserted_from = std::numeric_limits<PartId>::max();
-  std::map<PartId, PartId> own_id;  ///< of parts that came, by id in the recording
-  /// Bodies of two players touched (by whose they are at tick 0: Part::owner, a player's vehicle,
-  /// or in whose region). nullopt: not looked for; ComputeOracle does in scenes that expect it.
+  std::map<PartId, PartId> own_id;  ///< ids of parts inserted at run time, by id in the recording
+  /// True if bodies of two players touched, with ownership as at tick 0 (FindOwners). nullopt: not
+  /// determined; ComputeOracle does so in scenes that expect a contact.
   std::optional<bool> contact;
 
-  /// State of a part, by its id in the recording: the pose of the part, the velocity of the body
-  /// it is in. nullopt when the tick or the part is not known, or it has left.
+  /// Returns the state of a part, by its id in the recording: the pose of the part and the velocity
+  /// of its body. nullopt when the tick or the part is unknown, or the part was removed.
   std::optional<BodyState> At(std::int64_t tick, PartId part) const;
-  /// Of the moving bodies in a row of ticks, in the oracle's own numbering.
+  /// Returns the ids of the moving bodies in a row of `ticks`, in the oracle's own numbering.
   const std::vector<PartId>& IdsOf(std::size_t row) const;
-  /// Whether the parts of the body that `part` is in were the same at both ticks.
+  /// True if the body of `part` had the same parts at both ticks.
   bool SameBody(std::int64_t tick_a, std::int64_t tick_b, PartId part) const;
-  /// Whether all these parts are in one body.
+  /// True if all these parts are in one body, or if the bodies of the tick are not known.
   bool Together(std::int64_t tick, const std::vector<PartId>& parts) const;
 
-  /// From `row` on the bodies are those of `revision`, after `applied` edits.
+  /// Begins a span: from `row` on the bodies are those of `revision`, after `applied` edits.
   void Begin(std::size_t row, const SceneRevision& revision, int applied);
-  /// Learns by their names which parts that came at run time are which in `recording`. `scene`: as
-  /// it was at first.
+  /// Matches the parts inserted at run time with those of `recording`, by name. `scene`: without
+  /// any edit.
   void Identify(const Recording& recording, const Scene& scene);
 
  private:
@@ -71,59 +72,60 @@ struct Oracle {
   PartId OwnId(PartId part) const;
 };
 
-/// How far the floor's nudge moves one body, m; at least to the next float (8e-6 m at 100 m).
+/// Displacement of one body for the error floor, m; at least to the next float (8e-6 m at 100 m).
 constexpr float kNudge = 1e-6f;
-/// The same at the resolution of the wire, whose positions are whole 1/512 m: half of that.
+/// Like kNudge, at the resolution of the wire: half of its quantum of 1/512 m.
 constexpr float kWireNudge = 1.0f / 1024;
 
-/// How the truth is simulated.
+/// Options of the oracle's simulation.
 struct OracleOptions {
-  int nudged_body = -1;   ///< an index into ids: moved by `nudge` m along x at the start, at
+  int nudged_body = -1;   ///< index into ids: this body starts displaced by `nudge` m along x, at
   float nudge = kNudge;   ///< least to the next float; -1: none
   int barrier_every = 0;  ///< World::Barrier() at tick 0 and after each that this divides; 0: never
 };
 
-/// Whether a method is judged by the oracle with barriers: one that goes back and steps again has a
-/// barrier at every send tick, and rebuilding the world is a rounding of its own; so has mode
-/// central where clients predict all. All others are judged by the one without.
+/// True if the room's method is compared with the oracle with barriers. A method that rolls back
+/// has a barrier at every send tick, as has mode central where clients predict all, and rebuilding
+/// the world changes the rounding. All other methods are compared with the oracle without barriers.
 bool JudgedByBarriers(const Room& room);
-/// A barrier at every send tick of the room, whatever its method.
+/// Returns options with a barrier at every send tick of the room, for any method.
 OracleOptions WithBarriers(const Room& room);
-/// With or without, as JudgedByBarriers says.
+/// Returns the options of the oracle for the room's method, by JudgedByBarriers.
 OracleOptions JudgeOf(const Room& room);
 
-/// Simulates the recording's scene alone from tick 0 to the recording's last tick, with the inputs
-/// it recorded: each in the tick it names, axes held over ticks without one, buttons acting on the
-/// tick they go down; and with the edits whose cause is outside the physics, each after its tick.
-/// What physics itself breaks, bonds and inserts it finds by itself. Throws OperatorError when the
-/// scene does not parse or the session is too long (kOracleStatesMax).
+/// Simulates the recording's scene in one world from tick 0 to the recording's last tick, with the
+/// recorded inputs: each in the tick it names, axes held over ticks without one, buttons acting on
+/// the tick they go down. Applies recorded edits with an external cause, each after its tick;
+/// breaks, bonds and insertions by the physics are found by the simulation itself. Throws
+/// OperatorError when the scene does not parse or the session is too long (kOracleStatesMax).
 Oracle ComputeOracle(const Recording& recording, const OracleOptions& options = {});
 
-/// How far two oracles of a recording are apart, m: RMS of the largest displacement of a point of a
-/// body, over all bodies and the ticks that both have; the bodies are those of `b`.
+/// Returns the distance of two oracles of a recording, m: RMS of the largest displacement of a
+/// point of a body, over the bodies of `b` and the ticks that both have.
 double OracleDistance(const Recording& recording, const Oracle& a, const Oracle& b);
 
-/// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
-/// median over at most `bodies` bodies, evenly chosen. Requires an oracle without barriers. No
-/// method can be expected to be better: where the floor is a metre, errors of a metre say nothing.
+/// Returns the oracle's own sensitivity, m: RMS distance between the oracle and a run with one body
+/// nudged, the median over at most `bodies` bodies, evenly chosen. Requires an oracle without
+/// barriers. No method can be expected to be better: where the floor is a metre, errors of a metre
+/// say nothing.
 double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge = kNudge,
                   int bodies = 7);
 
-/// Most ticks times bodies that ComputeOracle keeps: 24 bytes each. Where bodies change, a table of
-/// all parts counts as well.
+/// Greatest number of ticks times bodies that ComputeOracle keeps: 24 bytes each. Where bodies
+/// change, a table of all parts counts as well.
 constexpr std::int64_t kOracleStatesMax = 50'000'000;
 
-/// Why a recording made in the room `truth` is no oracle of one made in `measured`, a line for each
-/// reason: another mode than oracle, another scene, another tick rate. Empty: it is one.
+/// Returns the reasons, a line each, why a recording made in the room `truth` is no oracle for one
+/// made in `measured`: another mode than oracle, another scene, another tick rate. Empty if it is.
 std::vector<std::string> OracleMismatches(const Room& truth, const std::string& truth_path,
                                           const Room& measured, const std::string& path);
-/// Throws OperatorError with all that OracleMismatches finds, in one line.
+/// Throws OperatorError with all mismatches in one line, if OracleMismatches finds any.
 void RequireOracleOf(const Room& truth, const std::string& truth_path, const Room& measured,
                      const std::string& path);
 
-/// The displayed path of peer 0 in a recording made with --mode oracle. Throws OperatorError for a
-/// recording of another mode, or without views of peer 0. `measured`: the recording that it is to
-/// be compared with, if that is another one.
+/// Makes an oracle of the views of peer 0 in a recording made with --mode oracle. Throws
+/// OperatorError for a recording of another mode, or without views of peer 0. `measured`: the
+/// recording to be compared with the oracle, if it is another one.
 Oracle OracleFromRecording(const Recording& recording, const Recording* measured = nullptr);
 
 }  // namespace seam

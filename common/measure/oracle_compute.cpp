@@ -1,4 +1,4 @@
-/// The truth simulated: one world, the recorded inputs, and the edits that came from outside.
+/// The simulated oracle: one world, the recorded inputs, and the edits with an external cause.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ std::vector<BodyState> ReadAll(const World& world) {
   return states;
 }
 
-/// Applies edits to the world after `row` was read, or instead of it.
+/// Applies edits to the world and begins a span at `row` if they change bodies or joints.
 void Change(const std::vector<Edit>& edits, std::size_t row, World* world, Oracle* oracle) {
   if (edits.empty()) return;
   if (oracle->spans.empty()) oracle->Begin(0, SceneRevision(world->topology()), 0);
@@ -42,7 +42,7 @@ void RequireMemory(std::int64_t kept, const Recording& recording) {
                       std::to_string(recording.last_tick) + " ticks with changing bodies");
 }
 
-/// Ticks between two sends of a peer in a recorded room.
+/// Returns the ticks between two sends of a peer in a recorded room.
 int SendEvery(const Room& room) {
   return std::max(1, std::max(1, room.tick_hz) / std::max(1, room.send_hz));
 }
@@ -92,7 +92,7 @@ Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
   const bool watch = scene.expected->contact;
   const std::map<PartId, int> owners = watch ? FindOwners(world) : std::map<PartId, int>();
   if (watch) oracle.contact = false;
-  // In a recording with edits the views may be of other bodies than the oracle's from the start.
+  // In a recording with edits the views may have other bodies than the oracle from the start.
   if (!recording.edits.empty()) oracle.Begin(0, SceneRevision(world.topology()), 0);
   OutsideEdits outside(recording, scene);
   Change(outside.Take(0, world.scene()), 0, &world, &oracle);

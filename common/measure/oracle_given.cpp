@@ -1,4 +1,4 @@
-/// The truth recorded: what a session in mode oracle showed.
+/// The recorded oracle: the views of a session in mode oracle.
 
 #include <algorithm>
 

@@ -36,7 +36,8 @@ PartId OutsideEdits::PartOf(const Scene& then, PartId part, const Scene& now) co
   return -1;
 }
 
-/// Joints that came have no lasting name: the one of that kind between the same parts.
+/// Returns the corresponding joint. Joints made at run time have no lasting name, so the match is
+/// by kind and the two parts.
 std::int32_t OutsideEdits::JointOf(const Scene& then, std::int32_t joint, const Scene& now) const {
   if (joint < 0 || static_cast<std::size_t>(joint) < joints_) return joint;
   if (static_cast<std::size_t>(joint) >= then.joints.size()) return -1;
@@ -52,7 +53,7 @@ std::int32_t OutsideEdits::JointOf(const Scene& then, std::int32_t joint, const 
   return -1;
 }
 
-/// Ids of what came at run time, into the oracle's own.
+/// Translates ids of parts and joints made at run time to the oracle's own.
 void OutsideEdits::Translate(int number, const Scene& now, Edit* edit) const {
   const auto part = [&](PartId* id) {
     if (*id < 0 || static_cast<std::size_t>(*id) < parts_) return;

@@ -1,5 +1,5 @@
 #pragma once
-/// The edits of a recording whose cause is outside the physics, said in the numbers of a world that
+/// The edits of a recording with a cause outside the physics, translated to the ids of a world that
 /// found the other edits by itself.
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace seam {
 
 class OutsideEdits {
  public:
-  /// `scene`: as it was at first.
+  /// `scene`: without any edit.
   OutsideEdits(const Recording& recording, const Scene& scene);
 
-  /// Those of the ticks up to this one that were not taken yet; `now`: the world's scene.
+  /// Removes and returns the edits of all ticks up to this one. `now`: the world's current scene.
   std::vector<Edit> Take(std::int64_t tick, const Scene& now);
 
  private:
@@ -28,7 +28,7 @@ class OutsideEdits {
   void Translate(int number, const Scene& now, Edit* edit) const;
 
   const RevisionHistory recorded_;
-  const std::size_t parts_, joints_;  // that the scene has itself
+  const std::size_t parts_, joints_;  // counts in the scene without edits
   std::map<std::int64_t, std::vector<std::pair<int, Edit>>> by_tick_;
 };
 

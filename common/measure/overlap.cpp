@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Corners in the part's own frame, counter-clockwise; the centres of a circle or a capsule's ends.
+/// Returns the corners in the part's own frame, counter-clockwise; for a circle its centre, for a
+/// capsule the centres of its ends.
 std::vector<Vector2d> Corners(const Part& part) {
   std::vector<Vector2d> corners;
   if (part.kind == ShapeKind::kCircle) return {Vector2d(0, 0)};
@@ -35,7 +35,7 @@ std::pair<int, int> Ordered(int a, int b) { return {std::min(a, b), std::max(a, 
 
 }  // namespace
 
-/// All corners in the world, and each solid's bounding box.
+/// All corners in the world, and the bounding box of each solid.
 struct OverlapMeter::Placed {
   std::vector<Vector2d> corners;
   std::vector<Vector2d> min, max;  // by solid
@@ -104,7 +104,7 @@ bool OverlapMeter::MayCollide(const Solid& a, const Solid& b) const {
 }
 
 std::vector<std::pair<int, int>> OverlapMeter::NearPairs(const Placed& placed) const {
-  // Sweep and prune (Baraff 1992) along the longer side of what there is to sweep.
+  // Sweep and prune (Baraff 1992) along the longer side of the moving solids' bounding box.
   Vector2d low = Vector2d::Constant(kFar), high = -low;
   std::vector<int> order;
   for (std::size_t i = 0; i < solids_.size(); ++i) {
@@ -118,7 +118,7 @@ std::vector<std::pair<int, int>> OverlapMeter::NearPairs(const Placed& placed) c
   const auto end = [&](int i) { return placed.max[static_cast<std::size_t>(i)][axis]; };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return begin(a) < begin(b); });
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> open[2];  // that the sweep is in: moving, anchored
+  std::vector<int> open[2];  // solids that the sweep is inside: moving, anchored
   const auto meet = [&](int now, std::vector<int>* others) {
     const auto n = static_cast<std::size_t>(now);
     for (std::size_t k = 0; k < others->size();) {
@@ -184,7 +184,7 @@ void OverlapMeter::ForEachOverlap(const std::vector<BodyState>& moving, std::int
       placed.max[i] = placed.max[i].cwiseMax(corner + Vector2d::Constant(margin));
     }
   }
-  std::vector<std::pair<int, int>> on_terrain;  // a solid, and that of an edge
+  std::vector<std::pair<int, int>> on_terrain;  // a solid, and the solid of an edge
   for (const auto& [a, b] : NearPairs(placed)) {
     const Solid& one = solids_[static_cast<std::size_t>(a)];
     const Solid& other = solids_[static_cast<std::size_t>(b)];

@@ -1,6 +1,6 @@
 #pragma once
-/// How deep bodies overlap, by the true shapes in double precision: independent of the
-/// physics engine, whose contacts begin at a rim around the shapes.
+/// Overlap depth of bodies, by their true shapes in double precision: independent of the physics
+/// engine, which has a contact skin around the shapes.
 
 #include <functional>
 #include <utility>
@@ -12,21 +12,23 @@
 
 namespace seam {
 
+/// Measures overlaps of a scene's parts.
 class OverlapMeter {
  public:
   OverlapMeter(const Scene& scene, const Composition& composition);
 
-  /// m, >= 0: the deepest overlap of any two parts that may collide: not of one assembly, not both
-  /// anchored, not of one negative group, not of assemblies joined by a joint without `collide`.
-  /// `moving`: of the moving assemblies ascending by id, as World::Read(0..body_count-1). `tick`:
-  /// where kinematic parts are. Infinite when a pose is not finite.
+  /// Returns the deepest overlap of any two parts that may collide, m, >= 0. Parts of one assembly,
+  /// of one negative group, of assemblies joined by a joint without `collide`, or both anchored may
+  /// not. `moving`: states of the moving assemblies, ascending by id, as
+  /// World::Read(0..body_count-1). `tick`: places kinematic parts. Infinite when a pose is not
+  /// finite.
   double Deepest(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
-  /// Two parts and how deep they overlap, m. Of chains it is the part of the nearest edges that
-  /// were looked at.
+  /// Receives two parts and their overlap depth, m. A solid near terrain is reported once, with one
+  /// of the chains near it.
   using Visit = std::function<void(PartId moving, PartId other, double depth_m)>;
-  /// Calls `visit` for each pair of parts, or of pieces of them, whose depth Deepest would look at:
-  /// 0 too. Requires finite poses.
+  /// Calls `visit` for each pair of parts that Deepest examines, also where the depth is 0.
+  /// Requires finite poses.
   void ForEachOverlap(const std::vector<BodyState>& moving, std::int64_t tick,
                       const Visit& visit) const;
 
@@ -34,7 +36,7 @@ class OverlapMeter {
   /// A part, or one edge of a chain.
   struct Solid {
     PartId part = 0;
-    int assembly = 0;  // index into the composition's
+    int assembly = 0;  // index into the composition's assemblies
     int moving = -1;   // index into the states; -1: anchored
     int imposed = -1;  // anchored, but moved: index into imposed_
     int group = 0;
@@ -46,12 +48,13 @@ class OverlapMeter {
 
   void AddPart(const Part& part, const Part& root, int assembly, int moving);
   bool MayCollide(const Solid& a, const Solid& b) const;
-  /// The pairs whose bounding boxes overlap and that may collide; in each, the first one moves.
+  /// Returns the pairs that may collide and have overlapping bounding boxes; the first of each pair
+  /// moves.
   std::vector<std::pair<int, int>> NearPairs(const Placed& placed) const;
 
   ImposedMotions imposed_;
   std::vector<Solid> solids_;
-  std::vector<Eigen::Vector2d> corners_;  // of what moves in the root's frame, else in the world
+  std::vector<Eigen::Vector2d> corners_;  // in the root's frame if it moves, else in the world
   std::vector<TerrainEdge> edges_;
   std::vector<std::pair<int, int>> joined_;  // pairs of assemblies, the lower first; sorted
   std::size_t moving_count_ = 0;

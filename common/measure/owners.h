@@ -1,6 +1,6 @@
 #pragma once
-/// Whose a body is in a scene, whatever a method makes of it: what "another player's" means for all
-/// methods alike.
+/// Ownership of bodies by the scene alone: defines "another player's body" alike for all methods,
+/// independent of authority.
 
 #include <map>
 
@@ -8,12 +8,13 @@
 
 namespace seam {
 
-/// By assembly id, of a world at tick 0: the player that Part::owner names, else the one whose
-/// vehicle it is part of, else the one in whose region it begins. Bodies of nobody are absent.
+/// Returns the owning player by assembly id, of a world at tick 0: the player named by Part::owner,
+/// else the player of the vehicle in the same mechanism, else the player of the region in which the
+/// body begins. Bodies without an owner are absent.
 std::map<PartId, int> FindOwners(const World& world);
 
-/// Whether, in the last tick, bodies of two players touched. Bodies that `owners` lacks count for
-/// nobody.
+/// True if bodies of two different players touched in the last tick. Ignores bodies that are not in
+/// `owners`.
 bool OwnersTouch(const World& world, const std::map<PartId, int>& owners);
 
 }  // namespace seam

@@ -8,8 +8,8 @@
 
 namespace seam {
 
-/// The least value that at least `share` of all values do not exceed; 0 of nothing. Changes the
-/// values' order.
+/// Returns the least value that at least `share` of all values do not exceed; 0 without values.
+/// Reorders `values`.
 inline double Percentile(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
   const double rank = std::ceil(share * static_cast<double>(values.size()));

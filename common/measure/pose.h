@@ -1,5 +1,5 @@
 #pragma once
-/// Where an assembly is, in double precision: its root part's frame in the world.
+/// The pose of an assembly in double precision: its root part's frame in the world.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -29,8 +29,8 @@ inline bool IsFinite(const BodyState& state) {
          std::isfinite(state.spin);
 }
 
-/// By index into composition.assemblies: the index among the moving ones (ascending by id, as
-/// World counts bodies), or -1 for an anchored one.
+/// Returns, for each of composition.assemblies, its index among the moving assemblies (ascending by
+/// id, as World numbers bodies), or -1 if it is anchored.
 inline std::vector<int> MovingIndices(const Composition& composition) {
   std::vector<int> indices;
   int next = 0;

@@ -6,7 +6,7 @@
 namespace seam {
 namespace {
 
-/// Whether authority moves in this mode while the session runs.
+/// True if authority changes hands in the room's mode.
 bool HandsOver(const Room& room) {
   const std::optional<Mode> mode = FindMode(room.mode);
   return mode == Mode::kBuffer || mode == Mode::kStrict;

@@ -1,5 +1,5 @@
 #pragma once
-/// What must have happened in a session for its figures to mean what its scene is about.
+/// Preconditions of a session's figures: the events that its scene expects must have happened.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace seam {
 
-/// Empty when all holds, else the first that does not: somebody's view was compared, and what the
-/// scene expects happened (common/scene/expected.h; a contact as far as the oracle has looked for
-/// one; a hand-over only in the modes that have them). No comma, no line end. Throws OperatorError
-/// when the recorded scene does not parse.
+/// Returns "" if all preconditions hold, else the first that fails: at least one view was compared,
+/// and the events that the scene expects happened (common/scene/expected.h; a contact only if the
+/// oracle has looked for one; a hand-over only in modes that have them). The text has no comma and
+/// no line end. Throws OperatorError when the recorded scene does not parse.
 std::string WhyNotValid(const Recording& recording, const Oracle& oracle, const Measures& measures);
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// How much of a collision's momentum arrived: 1 all of it, 0 a rubber wall.
+/// Rebound: share of a collision's momentum that was transferred; 1: all of it, 0: none.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -11,14 +11,15 @@ namespace {
 
 using Vec = Eigen::Vector2d;
 
-/// A collision begins when the struck momentum changes by this share of its peak in one tick.
+/// A collision begins when the struck bodies' momentum changes in one tick by this share of its
+/// greatest change.
 constexpr double kOnset = 0.05;
-/// Peaks below this are no collision, kg m/s.
+/// Smaller changes are no collision, kg m/s.
 constexpr double kPeakMin = 1e-6;
-/// The baseline is the mean over this long before it, s.
+/// The momentum before the collision is the mean over this time, s.
 constexpr double kBefore = 0.1;
-/// The transfer is read between these times after it, s: later than any correction of one round
-/// trip, earlier than friction.
+/// The momentum after the collision is the mean between these times after it, s: later than
+/// corrections that take one round trip, before friction takes effect.
 constexpr double kAfterBegin = 0.25, kAfterEnd = 0.5;
 
 /// Momentum of the struck assemblies after `tick`; nullopt while any of them is unknown.
@@ -34,7 +35,7 @@ Momentum OfOracle(const Oracle& oracle, const std::map<PartId, double>& masses, 
   return sum;
 }
 
-/// Velocity of a body as the peer with authority over it has it; nullopt when no view says.
+/// Returns the velocity of a body in the view of its authority; nullopt without such a view.
 Momentum VelocityOf(const Recording& recording, PartId id, std::int64_t tick) {
   for (const auto& [peer, views] : recording.views) {
     const auto view = views.find(tick);
@@ -58,7 +59,7 @@ Momentum OfRun(const Recording& recording, const std::map<PartId, double>& masse
   return sum;
 }
 
-/// First tick >= `around_tick` of the collision.
+/// Returns the first tick of the collision, at `around_tick` or later.
 std::optional<std::int64_t> Onset(const Oracle& oracle, const std::map<PartId, double>& masses,
                                   std::int64_t around_tick) {
   const std::int64_t begin = std::max(around_tick, oracle.first_tick + 1);
@@ -79,7 +80,7 @@ std::optional<std::int64_t> Onset(const Oracle& oracle, const std::map<PartId, d
   return std::nullopt;
 }
 
-/// Mean of `momentum(tick)` over the known ticks from `begin` to `end`, both included.
+/// Returns the mean of `momentum(tick)` over the known ticks from `begin` to `end`, both included.
 template <class Function>
 Momentum Mean(std::int64_t begin, std::int64_t end, const Function& momentum) {
   Vec sum(0, 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// The inputs of a recording, given to a world tick by tick as the oracle gives them.
+/// The inputs of a recording, applied to a world tick by tick; the oracle uses them.
 
 #include <cstdint>
 #include <map>
@@ -12,18 +12,17 @@ namespace seam {
 
 class RecordedInputs {
  public:
-  /// Of the players that `scene` has. Where pieces overlap they agree; the first one stands.
+  /// Reads the inputs of the players of `scene`. Overlapping messages agree; the first one is kept.
   RecordedInputs(const Recording& recording, const Scene& scene);
 
-  /// Sets a player's axes for `tick`, if they were recorded, and does what its buttons going down
-  /// do; before the step that makes `tick`.
+  /// Sets a player's axes for `tick`, if they were recorded, and triggers the actions of buttons
+  /// that go down. To be called before the step that makes `tick`.
   void Apply(World* world, int player, std::int64_t tick) const;
-  /// Sets a player's axes to what was last recorded up to `tick`; presses nothing.
+  /// Sets a player's axes to the last recorded ones up to `tick`; presses nothing.
   void Hold(World* world, int player, std::int64_t tick) const;
-  /// Whether who knows a player's inputs up to `known`, and holds the last one, is right up to
-  /// `tick`.
+  /// True if holding the player's last input up to `known` equals the recorded inputs up to `tick`.
   bool Holds(int player, std::int64_t known, std::int64_t tick) const;
-  /// Players with recorded inputs, ascending.
+  /// Returns the players with recorded inputs, ascending.
   std::vector<int> players() const;
 
  private:

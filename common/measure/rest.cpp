@@ -1,5 +1,4 @@
-/// Once nothing moves any more: how long it takes until everybody sees the same thing, and how much
-/// what is shown still trembles.
+/// Measures at rest: time until all peers show the same poses, and jitter of displayed bodies.
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +12,9 @@ namespace {
 
 /// A body slower than this is at rest, m/s.
 constexpr float kRestSpeed = 0.01f;
-/// The oracle must have rested so long at the end for it to count as for good, s.
+/// Least time for which the oracle must be at rest at its end, s.
 constexpr double kRestMin = 0.5;
-/// What comes late over a network still moves so long after the oracle: no tremble, s.
+/// Views may still move for this time after the oracle's rest, because of the network: s.
 constexpr double kSettle = 0.5;
 
 bool AllSlow(const std::vector<BodyState>& states) {
@@ -34,7 +33,7 @@ bool SamePoses(const View& a, const View& b) {
          SameBits(a.angle, b.angle);
 }
 
-/// The views of one tick, of all peers that have one.
+/// Returns the views of all peers at one tick.
 std::vector<const View*> ViewsAt(const Recording& recording, std::int64_t tick) {
   std::vector<const View*> views;
   for (const auto& [peer, of_peer] : recording.views) {
@@ -44,8 +43,8 @@ std::vector<const View*> ViewsAt(const Recording& recording, std::int64_t tick) 
   return views;
 }
 
-/// The tick from which on the oracle rests to its end, if it does so for at least kRestMin of the
-/// recording.
+/// Returns the tick from which the oracle is at rest until its end, if that is at least kRestMin
+/// within the recording.
 std::optional<std::int64_t> OraclesRest(const Recording& recording, const Oracle& oracle) {
   std::int64_t rest = oracle.first_tick + static_cast<std::int64_t>(oracle.ticks.size());
   const std::int64_t oracle_end = std::min(rest - 1, recording.last_tick);
@@ -65,7 +64,7 @@ std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle
   const std::optional<std::int64_t> rests = OraclesRest(recording, oracle);
   if (!rests) return std::nullopt;
   const std::int64_t rest = *rests;
-  // Backwards from the end for as long as all who show anything show the same.
+  // Backwards from the end for as long as all existing views are equal.
   std::int64_t equal_since = recording.last_tick + 1;
   bool compared = false;
   for (std::int64_t tick = recording.last_tick; tick >= rest; --tick) {

@@ -10,11 +10,11 @@
 namespace seam {
 namespace {
 
-/// RevisionHistory kept; one of a thousand parts takes half a megabyte. More are made again when
-/// needed.
+/// Greatest number of cached revisions; one of a thousand parts takes half a megabyte. Others are
+/// computed again when needed.
 constexpr std::size_t kRevisionsMax = 64;
-/// A damaged number must not make a list of two thousand million: no more numbers are believed than
-/// this, and as many for each edit that there is. A log lacks a few, not most of them.
+/// Greatest accepted edit number: kNumbersSlack and kNumbersPerEdit for each recorded edit. Bounds
+/// the list, since a damaged number may be two thousand million. A log lacks a few edits, not most.
 constexpr std::size_t kNumbersSlack = 65536, kNumbersPerEdit = 16;
 
 bool ChangesBodies(const Edit& edit) {

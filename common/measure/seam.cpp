@@ -1,5 +1,5 @@
-/// The seam itself: how far what a peer shows is from what the authority shows at the same tick.
-/// The oracle is not asked, so chaos does not blur it.
+/// The seam: distance of a peer's displayed pose from the authority's at the same tick. Does not
+/// use the oracle, so chaos does not affect it.
 
 #include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
@@ -9,14 +9,15 @@ namespace {
 
 using Views = std::map<std::int64_t, View>;
 
-/// Displayed minus the authority's.
+/// Displayed position minus the authority's.
 struct Distance {
   Eigen::Vector2d d{0, 0};             // m
-  int revision = 0, of_authority = 0;  // of the two views
+  int revision = 0, of_authority = 0;  // revisions of the two views
 };
 
-/// nullopt when the peer has the authority itself, or the authority's view of the tick is missing
-/// or does not claim the body (where bodies change: the body that has the part).
+/// Compares body `i` of a view with the authority's view of the same tick. nullopt when the peer
+/// has authority itself, or the authority's view is missing or does not claim the body (where
+/// bodies change: the body that has the part).
 std::optional<Distance> Apart(const Recording& recording, int peer, const View& view, std::size_t i,
                               const RevisionHistory* revisions) {
   const int authority = view.authority[i];

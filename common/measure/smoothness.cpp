@@ -1,4 +1,4 @@
-/// What the eye sees: jerks that the oracle does not have, and steps against the motion.
+/// Smoothness of displayed motion: stutter that the oracle does not have, and backsteps.
 
 #include <cmath>
 
@@ -24,21 +24,22 @@ Point Shown(const View& view, int i) {
 
 Point At(const BodyState& state) { return {state.position.x(), state.position.y()}; }
 
-/// Whether the move from `a` to `b` goes against the velocity.
+/// True if the move from `a` to `b` goes against the velocity.
 bool IsBackstep(const Point& a, const Point& b, double vx, double vy) {
   const double speed = std::hypot(vx, vy);
   if (speed <= kSpeedMin) return false;
   return ((b.x - a.x) * vx + (b.y - a.y) * vy) / speed < -kStepMin;
 }
 
-/// What a body becomes part of moves otherwise than it did: no difference is taken across that.
+/// True if the body has the same parts in both views and in the oracle. A body with other parts
+/// moves differently, so no difference is taken across such a change.
 bool Same(const Oracle& oracle, const RevisionHistory* revisions, const View& now, const View& then,
           PartId id) {
   if (revisions != nullptr && !revisions->SameBody(now.revision, then.revision, id)) return false;
   return oracle.SameBody(now.tick, then.tick, id);
 }
 
-/// Whether the body's last move goes against its velocity, and the oracle's does not.
+/// True if the body's last move goes against its velocity, and the oracle's does not.
 bool IsOwnBackstep(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
                    const RevisionHistory* revisions) {
   const View &now = *trio.now, &before = *trio.before;

@@ -31,9 +31,9 @@ const char* const kColumns[] = {"scene",
                                 "bytes_per_s",
                                 "cpu_us_per_s",
                                 "valid"};
-/// Columns before this one are text and stand to the left.
+/// Number of leading columns with text, aligned to the left.
 constexpr std::size_t kTextColumns = 5;
-/// And before this one they say which session it was.
+/// Number of leading columns that identify the session.
 constexpr std::size_t kIdentityColumns = 6;
 
 std::string Number(double value, bool applies = true) {
@@ -69,14 +69,14 @@ std::vector<std::string> Values(const MeasuredRun& run) {
                                      Number(m.bytes_per_s, m.bytes_per_s > 0),
                                      Number(m.cpu_us_per_s, m.cpu_us_per_s > 0),
                                      run.valid};
-  // Of a session that is not valid only what it was, and why.
+  // A session that is not valid has only its identity and the reason.
   for (std::size_t i = kIdentityColumns; !run.valid.empty() && i + 1 < values.size(); ++i) {
     values[i].clear();
   }
   return values;
 }
 
-/// "0.01 m at most (the oracle's own: 0.002)", or "does not apply".
+/// Formats "0.01 m at most (the oracle's own: 0.002)", or "does not apply".
 std::string Beside(const std::optional<double>& value, const std::optional<double>& oracle,
                    const char* unit) {
   if (!value) return "does not apply";

@@ -10,30 +10,30 @@ namespace seam {
 
 /// One measured recording.
 struct MeasuredRun {
-  std::string run;  ///< what to call it
-  Room room;        ///< of the recording
+  std::string run;  ///< its name in the table
+  Room room;        ///< the recording's
   Measures measures;
-  std::string valid;               ///< empty, or why the figures are left out (WhyNotValid)
+  std::string valid;               ///< empty, or the reason for omitting the figures (WhyNotValid)
   std::int64_t gaps = 0;           ///< messages missing by their sequence numbers
   std::int64_t skipped_bytes = 0;  ///< damaged bytes of the log
 };
 
-/// The column names, without a line end:
+/// Returns the column names, without a line end:
 /// scene,run,mode,reconcile,impair,seed,error_others_m,error_own_m,path_error_rms_m,view_age_ms,
 /// response_own_ms,response_other_ms,seen,error_rms_m,error_p95_m,error_max_m,stutter_mps2,
 /// backsteps,rebound,bytes_per_s,cpu_us_per_s,valid
-/// In mode central, reconcile says what is predicted: own or all.
+/// In mode central, the column reconcile holds the clients' prediction: own or all.
 std::string CsvHeader();
 
-/// A field as RFC 4180 wants it: text with commas, quotes or line ends gets quotes around it.
+/// Returns a field by RFC 4180: text with commas, quotes or line ends is put in quotes.
 std::string CsvField(const std::string& text);
 
-/// One line of values, without a line end; empty where a column does not apply. Six significant
-/// digits.
+/// Returns one line of values, without a line end; empty where a column does not apply. Numbers
+/// have six significant digits.
 std::string CsvLine(const MeasuredRun& run);
 
-/// The same columns, aligned, a line per run and one of names. `more`: then the further measures,
-/// a paragraph per run.
+/// Formats the same columns as an aligned table, with a line of names and a line per run. `more`:
+/// appends the further measures, a paragraph per run.
 std::string FormatTable(const std::vector<MeasuredRun>& runs, bool more);
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/physics/fixture_proxies.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_build.h"
 #include "common/scene/connectors.h"
@@ -16,7 +17,6 @@ namespace {
 /// a pair, so a body must not have the contacts of a whole city.
 constexpr float kSquare = 16;
 
-SEAM_REVEAL(Proxies, b2FixtureProxy*, b2Fixture, m_proxies);
 SEAM_REVEAL(ContactFlags, uint32, b2Contact, m_flags);
 /// The engine's own flag: ask the contact filter again at the next step.
 constexpr uint32 kFilterAgain = 0x0008;

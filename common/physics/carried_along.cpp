@@ -29,14 +29,6 @@ Transform2 PoseOf(const BodyState& state) {
   return {state.position.cast<double>(), static_cast<double>(state.angle)};
 }
 
-/// Returns, by assembly, the index into the states; -1: anchored.
-std::vector<int> BodyOfAssembly(const Composition& composition) {
-  std::vector<int> bodies;
-  int next = 0;
-  for (const Assembly& a : composition.assemblies) bodies.push_back(a.anchored ? -1 : next++);
-  return bodies;
-}
-
 /// Returns the pose of a part. Requires one that is not gone.
 Transform2 PlaceNow(const PlacedBodies& at, const std::vector<int>& bodies, PartId id) {
   const int index = AssemblyIndex(at, id);

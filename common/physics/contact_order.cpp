@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "common/physics/fixture_proxies.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_shapes.h"
 
@@ -17,7 +18,6 @@ SEAM_REVEAL(After, b2Contact*, b2Contact, m_next);
 SEAM_REVEAL(EdgeA, b2ContactEdge, b2Contact, m_nodeA);
 SEAM_REVEAL(EdgeB, b2ContactEdge, b2Contact, m_nodeB);
 SEAM_REVEAL(EdgesOfBody, b2ContactEdge*, b2Body, m_contactList);
-SEAM_REVEAL(Proxies, b2FixtureProxy*, b2Fixture, m_proxies);
 SEAM_REVEAL(ProxiesOfFixture, int32, b2Fixture, m_proxyCount);
 SEAM_REVEAL(Tree, b2DynamicTree, b2BroadPhase, m_tree);
 SEAM_REVEAL(MovedCount, int32, b2BroadPhase, m_moveCount);

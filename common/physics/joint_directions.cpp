@@ -1,5 +1,6 @@
 #include "common/physics/joint_directions.h"
 
+#include "common/physics/joint_impulses.h"
 #include "common/physics/reveal.h"
 
 namespace seam {
@@ -14,11 +15,6 @@ SEAM_REVEAL(PulleyUpA, b2Vec2, b2PulleyJoint, m_uA);
 SEAM_REVEAL(PulleyUpB, b2Vec2, b2PulleyJoint, m_uB);
 SEAM_REVEAL(GearAlong, b2Vec2, b2GearJoint, m_JvAC);
 SEAM_REVEAL(GearTurn, float, b2GearJoint, m_JwA);
-
-template <typename Made>
-Made& As(b2Joint* joint) {
-  return *static_cast<Made*>(joint);
-}
 
 b2Vec2 Unit(b2Vec2 way) {
   way.Normalize();

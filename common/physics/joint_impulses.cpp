@@ -28,11 +28,6 @@ SEAM_REVEAL(WeldAll, b2Vec3, b2WeldJoint, m_impulse);
 SEAM_REVEAL(GearAll, float, b2GearJoint, m_impulse);
 SEAM_REVEAL(PulleyAll, float, b2PulleyJoint, m_impulse);
 
-template <typename Made>
-Made& As(b2Joint* joint) {
-  return *static_cast<Made*>(joint);
-}
-
 }  // namespace
 
 JointImpulses ImpulsesOf(b2Joint* joint) {

@@ -16,6 +16,12 @@ struct JointImpulses {
   float** end() { return at + count; }
 };
 
+/// Casts a joint to its own type.
+template <typename Made>
+Made& As(b2Joint* joint) {
+  return *static_cast<Made*>(joint);
+}
+
 /// Requires a joint that MakeJoint has made.
 JointImpulses ImpulsesOf(b2Joint* joint);
 

@@ -48,7 +48,7 @@ void EachPoint(b2World* world, const Visit& visit) {
   }
 }
 
-bool Before(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
+bool IsBefore(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
   return KeyOf(x) < KeyOf(y);
 }
 
@@ -88,7 +88,7 @@ WorldSnapshot World::Impl::Keep() {
     const auto& [pair, feature] = key;
     out.points.push_back({pair, feature, point->normalImpulse, point->tangentImpulse});
   });
-  std::sort(out.points.begin(), out.points.end(), Before);
+  std::sort(out.points.begin(), out.points.end(), IsBefore);
   out.joints.resize(built.joints.size());
   for (const int joint : memory.joints) {
     const auto j = static_cast<std::size_t>(joint);
@@ -156,11 +156,11 @@ std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& s
     if (lies.position != lay.position || lies.angle != lay.angle) continue;
     points.insert(points.end(), found->second.points.begin(), found->second.points.end());
   }
-  std::sort(points.begin(), points.end(), Before);
+  std::sort(points.begin(), points.end(), IsBefore);
   return points;
 }
 
-/// Before a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
+/// IsBefore a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
 /// none is, and the next rebuild may move them.
 void World::Impl::Arrange(const std::vector<Motion>& wanted) {
   const bool any = std::find(wanted.begin(), wanted.end(), Motion::kAbsent) != wanted.end();

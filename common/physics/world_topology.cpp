@@ -56,13 +56,6 @@ struct WorldBeforeEdit {
   }
 };
 
-std::vector<int> BodyOfAssembly(const Composition& c) {
-  std::vector<int> bodies;
-  int next = 0;
-  for (const Assembly& a : c.assemblies) bodies.push_back(a.anchored ? -1 : next++);
-  return bodies;
-}
-
 /// A rigid piece: parts of one body before that are in one body now.
 struct Piece {
   double mass = 0, inertia = 0;  // kg, kg m^2 about `centre_now`

@@ -13,14 +13,14 @@ namespace seam {
 namespace {
 
 /// Name of a kind of joint, and the keys that it takes besides the common ones.
-struct Kind {
+struct JointName {
   const char* name;
   JointKind kind;
   std::vector<std::string> keys;
 };
 
-const std::vector<Kind>& Kinds() {
-  static const std::vector<Kind> kinds = {
+const std::vector<JointName>& JointNames() {
+  static const std::vector<JointName> kinds = {
       {"weld", JointKind::kWeld, {"a", "anchor", "frequency", "damping_ratio", "collide"}},
       {"glue", JointKind::kGlue, {"a", "anchor", "strength"}},
       {"hinge", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
@@ -45,7 +45,7 @@ const std::vector<Kind>& Kinds() {
 }
 
 /// Returns the joint's kind; complains about keys that this kind would ignore.
-const Kind& ReadKind(const SceneReader& r) {
+const JointName& ReadJointName(const SceneReader& r) {
   static const char* const kSome[] = {
       "a",         "anchor",        "anchor_a",        "anchor_b", "axis",
       "frequency", "damping_ratio", "length",          "limits",   "collide",
@@ -56,7 +56,7 @@ const Kind& ReadKind(const SceneReader& r) {
   const std::string name = r.Text("kind");
   std::string all;
   std::vector<std::string> names;
-  for (const Kind& kind : Kinds()) {
+  for (const JointName& kind : JointNames()) {
     all += std::string(all.empty() ? "" : ", ") + kind.name;
     names.push_back(kind.name);
     if (name != kind.name) continue;
@@ -288,7 +288,7 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
                  "ground_b"});
   joint.name = r.Name("name");
   r.Rename("joint '" + joint.name + "'");
-  joint.kind = ReadKind(r).kind;
+  joint.kind = ReadJointName(r).kind;
   const JointHold hold = HoldOf(joint.kind);
   if (hold == JointHold::kCoupled) {
     ReadGear(r, *draft, &joint);

@@ -49,7 +49,7 @@ PlayerMask ReadMask(const SceneReader& r, const char* key, const SceneDraft& dra
   return mask;
 }
 
-TriggerKind ReadKind(const SceneReader& r) {
+TriggerKind ReadTriggerKind(const SceneReader& r) {
   const std::string kind = r.Text("kind", "area");
   if (kind == "area") return TriggerKind::kArea;
   if (kind == "checkpoint") return TriggerKind::kCheckpoint;
@@ -81,7 +81,7 @@ void ReadTrigger(const TomlNode& node, const std::vector<PartId>& vehicles, Scen
   for (const Trigger& other : draft->scene.triggers) {
     if (other.name == trigger.name) r.FailAt("name", "there is another trigger of this name");
   }
-  trigger.kind = ReadKind(r);
+  trigger.kind = ReadTriggerKind(r);
   const bool checkpoint = trigger.kind == TriggerKind::kCheckpoint;
   const bool gives = trigger.kind == TriggerKind::kPickup || trigger.kind == TriggerKind::kHazard;
   if (r.Has("order") && !checkpoint) r.FailAt("order", "only a checkpoint has an order");

@@ -1,6 +1,6 @@
 #pragma once
-/// Turns a DrawList into an Image. Behind this interface is the only code that knows a graphics
-/// library, so that another backend fits beside canvas_osmesa.cpp.
+/// Turns a DrawList into an Image. Only implementations of this interface use a graphics library,
+/// so that another backend fits beside canvas_osmesa.cpp.
 
 #include <memory>
 
@@ -16,11 +16,11 @@ class Canvas {
   /// Draws `list` over `background` and resizes `image` to the list's page. The same list gives
   /// the same bytes in every thread.
   virtual void Draw(const DrawList& list, Colour background, Image* image) = 0;
-  /// The same over a picture. Requires the size of the list's page.
+  /// Draws `list` over a picture. Requires a picture of the size of the list's page.
   virtual void Draw(const DrawList& list, const Image& background, Image* image) = 0;
 };
 
-/// A canvas for lists made with `font`. Throws OperatorError when the graphics library refuses.
+/// Makes a canvas for lists made with `font`. Throws OperatorError when the graphics library fails.
 std::unique_ptr<Canvas> MakeCanvas(const Font& font);
 
 }  // namespace seam

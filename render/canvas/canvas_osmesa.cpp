@@ -1,4 +1,4 @@
-// OpenGL 3.3 core by OSMesa (llvmpipe), drawing into our own framebuffer object. One draw call per
+// OpenGL 3.3 core by OSMesa (llvmpipe), drawing into a framebuffer object. One draw call per
 // batch; all vertices of a page in one buffer.
 
 #define GL_GLEXT_PROTOTYPES
@@ -13,7 +13,7 @@
 #include "common/base/check.h"
 #include "render/canvas/canvas.h"
 
-/// Read by the leak checker of BUILD=asan: OSMesa 22.3 forgets 160 bytes with each context.
+/// Read by the leak checker of BUILD=asan: OSMesa 22.3 leaks 160 bytes with each context.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
 
@@ -72,7 +72,7 @@ void main() {
   result = vec4(fragment_colour.rgb, fragment_colour.a * cover);
 })";
 
-// The page's y is the window's: it is drawn upside down.
+// The page's y equals the window's, because the page is drawn upside down.
 const char* const kDotShader = R"(#version 330 core
 in vec4 fragment_shape;
 in vec4 fragment_colour;
@@ -100,7 +100,7 @@ void main() {
   result = vec4(fragment_colour.rgb, fragment_colour.a * cover);
 })";
 
-/// A stage by itself: all fragment shaders share one vertex shader, which is then compiled once.
+/// Makes a separate shader stage, so that all fragment shaders share one compiled vertex shader.
 GLuint Stage(GLenum kind, const char* source) {
   const GLuint program = glCreateShaderProgramv(kind, 1, &source);
   GLint good = 0;
@@ -109,7 +109,7 @@ GLuint Stage(GLenum kind, const char* source) {
   return program;
 }
 
-/// The settings must come first.
+/// Creates a context, after setting Mesa's environment variables.
 OSMesaContext CreateContext() {
   setenv("LP_NUM_THREADS", "0", 1);                // frames are the unit of parallel work
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);  // leaves no files in the home folder
@@ -204,14 +204,14 @@ class OsmesaCanvas : public Canvas {
   }
 
   void MakeCurrent() {
-    // The context wants a buffer of its own even if nothing is ever drawn there.
+    // The context requires a buffer of its own, although nothing is drawn there.
     if (OSMesaGetCurrentContext() == context_) return;
     const bool good = OSMesaMakeCurrent(context_, own_buffer_, GL_UNSIGNED_BYTE, 4, 4) == GL_TRUE;
     SEAM_ASSERT(good);
   }
 
-  /// The background and the opaque rectangles that come first: written to memory at once, a
-  /// quarter of the time that llvmpipe takes to draw them. Returns how many.
+  /// Writes the background and the leading opaque rectangles directly to memory, in a quarter of
+  /// the time that llvmpipe takes to draw them. Returns the number of rectangles.
   template <class Fill>
   std::size_t FillUnder(const std::vector<Batch>& batches, const Fill& fill) {
     std::size_t count = 0;

@@ -17,7 +17,7 @@ bool Meet(const Rect& a, const Rect& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
-/// The least rectangle that holds what `cover` leaves of `rect`; without width if nothing.
+/// Returns the least rectangle around the part of `rect` outside `cover`; without width if empty.
 Rect LeftOver(const Rect& rect, const Rect& cover) {
   const bool high = cover.y <= rect.y && cover.bottom() >= rect.bottom();
   const bool wide = cover.x <= rect.x && cover.right() >= rect.right();
@@ -35,7 +35,8 @@ Vec2 LeftOf(const Vec2& from, const Vec2& to) {
   return length > 0 ? Vec2(-d.y() / length, d.x() / length) : Vec2(0, 0);
 }
 
-/// Corner normal whose projection on both neighbours' normals is 1; long at sharp corners, so cut.
+/// Returns the corner normal with projection 1 on both neighbours' normals; limited at sharp
+/// corners, where it would be long.
 Vec2 Mitre(const Vec2& before, const Vec2& after) {
   const Vec2 sum = before + after;
   const float square = sum.squaredNorm();
@@ -137,7 +138,7 @@ void DrawList::Fan(const std::vector<Vec2>& points, Colour colour) {
 
 void DrawList::FillRect(const Rect& r, Colour colour) {
   if (r.width <= 0 || r.height <= 0) return;
-  constexpr float kLarge = 5000;  // px: below, a draw call of its own would cost more
+  constexpr float kLarge = 5000;  // px^2: below, a separate draw call would cost more
   const bool large = r.width * r.height > kLarge;
   if (colour.a == 255 && large) {
     const Rect whole = Cut(r);
@@ -145,8 +146,8 @@ void DrawList::FillRect(const Rect& r, Colour colour) {
     PutUnder(whole, colour, PlaceUnder(whole).value_or(batches_.size()));
     return;
   }
-  // Plain rectangles by themselves are what llvmpipe draws fastest, if they outweigh a draw call.
-  constexpr float kPlain = 400;  // px
+  // llvmpipe draws plain rectangles fastest, if they are worth a draw call.
+  constexpr float kPlain = 400;  // px^2
   Need(r.width * r.height > kPlain ? BatchKind::kPlain : BatchKind::kShape);
   Fan({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
 }
@@ -246,7 +247,7 @@ void DrawList::StrokeRect(const Rect& r, const Line& line) {
 
 void DrawList::Disc(const Vec2& centre, float radius, Colour colour) {
   if (colour.a == 0) return;
-  // OpenGL leaves out a point whose middle is off the page, and has a largest size.
+  // OpenGL skips a point with its centre off the page, and limits the size of points.
   constexpr float kDotRadiusMax = 50;
   const bool on_page = centre.x() >= 0 && centre.x() <= static_cast<float>(width_px_) &&
                        centre.y() >= 0 && centre.y() <= static_cast<float>(height_px_);

@@ -1,11 +1,11 @@
 #pragma once
-/// What is to be drawn, as triangles in painter's order: shapes, lines with width, text. Pure
-/// arithmetic in pixels (origin upper left, y downwards); a Canvas turns it into an Image.
-/// Text lies over the shapes of its clip, whichever came first, so that a page is few draw calls.
+/// A list of drawing primitives, as triangles in painter's order: shapes, lines with width, text.
+/// Pure arithmetic in pixels (origin upper left, y downwards); a Canvas turns it into an Image.
+/// Text lies over all shapes of its clip rectangle, so that a page needs few draw calls.
 ///
-/// Lines are antialiased by distance: every vertex carries how far across the line it lies, and the
+/// Lines are antialiased by distance: every vertex carries its distance across the line, and the
 /// fragment's coverage is `half + 0.5 - |across|`. So a line costs two triangles and has 256
-/// shades, and the outline over a plain filled shape hides the shape's own stairs.
+/// shades, and the outline over a plain filled shape hides the shape's jagged edges.
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace seam {
 
-/// px
+/// A rectangle in px.
 struct Rect {
   float x = 0, y = 0, width = 0, height = 0;
   float right() const { return x + width; }
@@ -26,8 +26,8 @@ struct Rect {
 };
 
 /// One corner of a triangle. In a text batch `across` and `half` are the atlas position in px, in a
-/// batch of discs `across` and `along` the way from the centre and `half` the radius. A dot is one
-/// vertex; its `across` and `along` are the centre on the page, `half` the radius.
+/// batch of discs `across` and `along` the offset from the centre and `half` the radius. A dot is
+/// one vertex; its `across` and `along` are the centre on the page, `half` the radius.
 struct Vertex {
   float x = 0, y = 0;
   float across = 0, half = kSolid;  ///< px from the line's middle; half its width
@@ -36,8 +36,8 @@ struct Vertex {
   static constexpr float kSolid = 1e6f;
 };
 
-/// What a run of triangles needs: plain colour, coverage by a line, with dashes or hatching or
-/// without, or of a disc, or the atlas; or none at all, because an opaque rectangle is cleared.
+/// The shader of a run of triangles: plain colour, antialiased line or shape (kDashed: also dashes
+/// and hatching), disc, or text from the atlas. kClear needs none: an opaque rectangle is cleared.
 /// Dots are small discs, of one index each.
 enum class BatchKind { kPlain, kShape, kDashed, kDisc, kDot, kText, kClear };
 
@@ -49,7 +49,7 @@ struct Batch {
   Colour clear;                                ///< kClear: fills `clip`
 };
 
-/// How a line looks.
+/// Style of a line.
 struct Line {
   float width = 1;  ///< px
   Colour colour;
@@ -58,38 +58,39 @@ struct Line {
 
 enum class Align { kLeft, kCentre, kRight };
 
-/// Reused from frame to frame, so that it stops allocating.
+/// A list that is reused from frame to frame, so that it stops allocating.
 class DrawList {
  public:
   explicit DrawList(const Font& font) : font_(font) {}
 
   /// Empties the list for a page of this size.
   void Begin(int width_px, int height_px);
-  /// Everything from here on is cut at the rectangle, rounded to whole pixels.
+  /// Clips all that follows to the rectangle, rounded to whole pixels.
   void Clip(const Rect& rect);
   void NoClip();
 
-  /// Convex, in order.
+  /// Fills a convex polygon; points in order around it.
   void Fill(const std::vector<Vec2>& points, Colour colour);
-  /// For large areas; its edges are not softened, and a large opaque one has whole pixels.
+  /// Fills a rectangle without antialiasing. A large opaque one is rounded to whole pixels.
   void FillRect(const Rect& rect, Colour colour);
-  /// An opaque one of whole pixels, however thin: written to memory like a large area where nothing
-  /// but such rectangles was drawn before.
+  /// Fills an opaque rectangle of whole pixels, however thin. Fast where only such rectangles were
+  /// drawn before: then the pixels are written to memory directly.
   void FillUnder(const Rect& rect, Colour colour);
-  /// A quadrilateral whose colour goes from `from` (points 0, 1) to `to` (points 2, 3).
+  /// Fills a quadrilateral with a gradient from `from` (points 0, 1) to `to` (points 2, 3).
   void FillShaded(const Vec2 points[4], Colour from, Colour to);
-  /// Stripes of `period` px over a convex shape, across `normal` (unit) as seen from `origin`.
+  /// Draws stripes of `period` px over a convex shape, across `normal` (unit), with `origin` as the
+  /// zero of the pattern.
   void Hatch(const std::vector<Vec2>& points, const Vec2& origin, const Vec2& normal, float period,
              Colour colour);
   void Stroke(const std::vector<Vec2>& points, bool closed, const Line& line);
-  /// What follows is no longer drawn as fast as dashes are. Worth it after few dashes, before much
-  /// else; dashes and shapes that alternate are better drawn alike.
+  /// Ends the batch of dashes, so that following shapes use the faster shader without dashes. Pays
+  /// after few dashes and before many other shapes; not where dashes and shapes alternate.
   void EndDashes();
   void StrokeRect(const Rect& rect, const Line& line);
   void Disc(const Vec2& centre, float radius, Colour colour);
   void Ring(const Vec2& centre, float radius, const Line& line);
 
-  /// `y` is the base line. Returns the width.
+  /// Draws a text with its base line at `y`. Returns the width.
   float Text(float x, float y, TextStyle style, const std::string& utf8, Colour colour,
              Align align = Align::kLeft);
 
@@ -104,10 +105,11 @@ class DrawList {
  private:
   void Need(BatchKind kind);
   void SetClip(const Rect& rect);
-  /// Where among the opaque rectangles that come first another one can be put: after them, if
-  /// nothing else was drawn there.
+  /// Returns the position after the leading opaque rectangles if nothing else was drawn within
+  /// `rect`, else nullopt.
   std::optional<std::size_t> PlaceUnder(const Rect& rect) const;
-  /// Puts one there, and cuts those that it covers and nothing was drawn on.
+  /// Inserts an opaque rectangle at `place`, and cuts the rectangles below by the covered part if
+  /// nothing was drawn on them.
   void PutUnder(const Rect& rect, Colour colour, std::size_t place);
   void Dot(const Vec2& centre, float radius, Colour colour);
   Rect Cut(const Rect& rect) const;
@@ -123,10 +125,11 @@ class DrawList {
   std::vector<std::uint32_t> text_indices_;
   std::vector<Batch> batches_;
   bool dashes_ended_ = false;
-  Batch open_text_;  // text of the present clip
+  Batch open_text_;  // text of the current clip
 };
 
-/// The points of a circle, as many as it needs to look round.
+/// Returns the corners of a polygon that looks like a circle: its sides are off by less than a
+/// tenth of a pixel.
 std::vector<Vec2> CirclePoints(const Vec2& centre, float radius);
 
 }  // namespace seam

@@ -6,7 +6,7 @@
 namespace seam {
 namespace {
 
-/// Cuts a polygon's corners twice: Chaikin's curve, which stays inside of it.
+/// Cuts a polygon's corners twice: Chaikin's curve, which stays inside the polygon.
 std::vector<Vec2> Rounded(std::vector<Vec2> points) {
   for (int cut = 0; cut < 2; ++cut) {
     std::vector<Vec2> finer;
@@ -20,7 +20,7 @@ std::vector<Vec2> Rounded(std::vector<Vec2> points) {
   return points;
 }
 
-/// What of a convex polygon is beyond the line normal . p = distance.
+/// Returns the part of a convex polygon beyond the line normal . p = distance.
 std::vector<Vec2> Beyond(const std::vector<Vec2>& points, Vec2 normal, float distance) {
   std::vector<Vec2> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {

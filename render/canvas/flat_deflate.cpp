@@ -26,7 +26,7 @@ std::uint32_t Reversed(std::uint32_t value, int count) {
   return reversed;
 }
 
-/// The fixed code of a literal, an end or a length (RFC 1951, section 3.2.6).
+/// Returns the fixed code of a literal, an end or a length (RFC 1951, section 3.2.6).
 Code FixedCode(std::uint32_t symbol) {
   if (symbol < 144) return {Reversed(0x30 + symbol, 8), 8};
   if (symbol < 256) return {Reversed(0x190 + symbol - 144, 9), 9};
@@ -34,12 +34,12 @@ Code FixedCode(std::uint32_t symbol) {
   return {Reversed(0xc0 + symbol - 280, 8), 8};
 }
 
-/// Two codes, one after the other; 32 bits at most.
+/// Joins two codes, one after the other; 32 bits at most.
 Code Joined(const Code& first, const Code& then) {
   return {first.bits | (then.bits << first.count), first.count + then.count};
 }
 
-/// Code and extra bits of a match's length (RFC 1951, section 3.2.5).
+/// Returns code and extra bits of a match's length (RFC 1951, section 3.2.5).
 Code LengthCode(std::size_t length) {
   if (length == 258) return FixedCode(285);
   const auto past = static_cast<std::uint32_t>(length - 3);
@@ -62,7 +62,7 @@ Code DistanceCode(std::size_t distance) {
 
 struct Tables {
   std::array<Code, 256> literals;
-  std::array<Code, kLengthMax + 1> lengths;  ///< of so many pixels
+  std::array<Code, kLengthMax + 1> lengths;  ///< by number of pixels
   Tables() {
     for (std::uint32_t i = 0; i < 256; ++i) literals[i] = FixedCode(i);
     for (std::size_t i = 1; i <= kLengthMax; ++i) lengths[i] = LengthCode(kColours * i);
@@ -100,7 +100,7 @@ class BitWriter {
   int count_ = 0;
 };
 
-/// A picture as FlatDeflate is given it.
+/// The picture given to FlatDeflate.
 struct Pixels {
   const std::uint8_t* rgba;
   std::size_t width, rows;
@@ -117,7 +117,7 @@ struct Pixels {
   }
 };
 
-/// How many pixels, up to `most`, are equal from `a` on and from `b` on.
+/// Returns the number of equal pixels from `a` on and from `b` on, up to `most`.
 std::size_t Equal(const Pixels& pixels, std::size_t a, std::size_t b, std::size_t most) {
   constexpr std::size_t kFew = 8, kMany = 64;  // the library's comparison is best for many
   std::size_t n = 0;
@@ -132,9 +132,8 @@ std::size_t Equal(const Pixels& pixels, std::size_t a, std::size_t b, std::size_
   return n < most && pixels.One(a + n) == pixels.One(b + n) ? n + 1 : n;
 }
 
-/// Finds a long match among three candidates: the pixel before, the row above, and where the same
-/// two pixels were last. In the stream each row has one byte more, before it, and no match goes
-/// over it.
+/// Finds a long match among three candidates: the pixel before, the row above, and the last place
+/// of the same two pixels. In the stream a filter byte precedes each row, and no match crosses it.
 class Matcher {
  public:
   explicit Matcher(const Pixels& pixels) : pixels_(pixels) {}
@@ -144,7 +143,7 @@ class Matcher {
     std::size_t distance = 0;  ///< bytes of the stream
   };
 
-  /// At column `x` of row `row`.
+  /// Returns the match at column `x` of row `row`.
   Match At(std::size_t x, std::size_t row) {
     const std::size_t at = row * pixels_.width + x, left = pixels_.width - x;
     const std::uint32_t pixel = pixels_.One(at);
@@ -158,7 +157,7 @@ class Matcher {
   }
 
  private:
-  static constexpr std::size_t kShort = 4;  ///< pixels; longer ones are good enough
+  static constexpr std::size_t kShort = 4;  ///< pixels; such a match skips the hash search
 
   void Try(std::size_t at, std::size_t from, std::size_t most, std::size_t distance,
            Match* best) const {
@@ -179,10 +178,10 @@ class Matcher {
   }
 
   Pixels pixels_;
-  std::array<std::uint32_t, 1u << kHashBits> last_{};  ///< where two such pixels were; or anywhere
+  std::array<std::uint32_t, 1u << kHashBits> last_{};  ///< last place by hash; unverified
 };
 
-/// A row's codes: its filter, none, and its pixels. Returns whether it is the row above once more.
+/// Writes a row's codes: its filter, none, and its pixels. Returns true if it equals the row above.
 bool PutRow(const Pixels& pixels, std::size_t row, Matcher* matcher, BitWriter* bits) {
   static const Tables tables;
   bool again = false;

@@ -16,7 +16,7 @@ struct StyleFile {
   const char* file;
   float size_px;
 };
-// By TextStyle. Digits of DejaVu Sans have one width, so numbers do not dance.
+// By TextStyle. All digits of DejaVu Sans have the same width, so changing numbers do not shift.
 constexpr StyleFile kStyles[kTextStyles] = {{"DejaVuSans.ttf", 11},
                                             {"DejaVuSans.ttf", 13},
                                             {"DejaVuSans-Bold.ttf", 13},

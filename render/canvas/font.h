@@ -1,6 +1,6 @@
 #pragma once
-/// Text as pictures of letters: DejaVu Sans by FreeType, in one atlas made at the start.
-/// The only file pair that includes FreeType.
+/// A font as an atlas of glyph bitmaps: DejaVu Sans by FreeType, rasterised at the start. The only
+/// file pair that includes FreeType.
 
 #include <cstdint>
 #include <map>
@@ -9,14 +9,14 @@
 
 namespace seam {
 
-/// Where fonts-dejavu-core puts its files.
+/// Folder in which the package fonts-dejavu-core installs its files.
 constexpr const char* kFontFolder = "/usr/share/fonts/truetype/dejavu";
 
-/// The sizes a page needs; px at scale 1.
+/// The text styles of a page.
 enum class TextStyle { kSmall, kBody, kStrong, kNumber, kTitle };
 constexpr int kTextStyles = 5;
 
-/// Where a letter lies in the atlas and how it is set.
+/// Position of a letter in the atlas, and its metrics.
 struct Glyph {
   int atlas_x = 0, atlas_y = 0, width = 0, height = 0;  ///< px in the atlas
   int left = 0, top = 0;  ///< from the pen to the upper left corner; top is upwards
@@ -27,12 +27,12 @@ struct Glyph {
 class Font {
  public:
   /// Rasterises ASCII, Latin-1, a few signs, and the letters of `extra` (UTF-8) in every style,
-  /// `scale` times the normal size (0.25..8). Throws OperatorError when the files are not in
-  /// `folder` or are no fonts.
+  /// `scale` times the normal size (0.25..8). Throws OperatorError when `folder` lacks the files or
+  /// they are no fonts.
   explicit Font(float scale, const std::string& extra = "",
                 const std::string& folder = kFontFolder);
 
-  /// The replacement "?" when the letter is not in the atlas.
+  /// Returns a letter's glyph, or that of "?" when the letter is not in the atlas.
   const Glyph& Find(TextStyle style, std::uint32_t codepoint) const;
   float Width(TextStyle style, const std::string& utf8) const;  ///< px
   float scale() const { return scale_; }
@@ -52,7 +52,7 @@ class Font {
   std::map<std::uint32_t, Glyph> glyphs_[kTextStyles];
 };
 
-/// The codepoints of a UTF-8 text; a byte that is not UTF-8 becomes U+FFFD.
+/// Returns the codepoints of a UTF-8 text; a byte that is not UTF-8 becomes U+FFFD.
 std::vector<std::uint32_t> Codepoints(const std::string& utf8);
 
 }  // namespace seam

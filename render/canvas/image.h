@@ -1,5 +1,5 @@
 #pragma once
-/// A finished picture in memory: what a canvas draws into and a PNG is written from.
+/// A finished picture in memory, drawn by a canvas and written as a PNG.
 
 #include <cstddef>
 #include <cstdint>

@@ -25,7 +25,7 @@ void Put32(Bytes* out, std::size_t value) {
     out->push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-/// A chunk begins with its length, which is known when it ends, and its name.
+/// Begins a chunk with its length, to be filled in at the end, and its name.
 std::size_t BeginChunk(Bytes* out, const char* name) {
   Put32(out, 0);
   const std::size_t begin = out->size();
@@ -60,7 +60,7 @@ void PutText(Bytes* out, const std::string& key, const std::string& value) {
   EndChunk(out, chunk);
 }
 
-/// Each row with its filter, none, before it.
+/// Returns the rows, each preceded by its filter byte, none.
 Bytes Rows(const Image& image) {
   const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width_px);
   Bytes rows((row_bytes + 1) * static_cast<std::size_t>(image.height_px));

@@ -7,14 +7,15 @@ namespace seam {
 namespace {
 
 constexpr std::uint32_t kModulus = 65521;
-constexpr std::uint32_t kPixels = 8;           ///< of a block
+constexpr std::uint32_t kPixels = 8;           ///< pixels of a block
 constexpr std::uint32_t kLanes = 4 * kPixels;  ///< bytes of a block
-constexpr std::uint32_t kBytes = 3 * kPixels;  ///< of a block that count
-constexpr std::size_t kBlocksMax = 16;         ///< so few that 16 bits hold a lane's sums
+constexpr std::uint32_t kBytes = 3 * kPixels;  ///< bytes of a block that are summed
+constexpr std::size_t kBlocksMax = 16;         ///< greatest number whose lane sums fit in 16 bits
 
 using Lanes = std::array<std::uint16_t, kLanes>;
 
-/// Of each lane: whether it counts, and the bytes of its block from it on.
+/// For each lane: 1 if its byte is summed, and the number of summed bytes from there to the end of
+/// the block.
 struct Weights {
   Lanes counts{}, rest{};
   constexpr Weights() {
@@ -33,7 +34,7 @@ std::uint32_t Product(const Lanes& a, const Lanes& b) {
   return sum;
 }
 
-/// What up to kBlocksMax blocks add: column by column, in a form that compilers make wide.
+/// Adds up to kBlocksMax blocks, column by column, in a form that compilers vectorise.
 void AddBlocks(const std::uint8_t* rgba, std::uint32_t blocks, RowSum* row) {
   Lanes sums{}, earlier{};
   for (std::uint32_t block = 0; block < blocks; ++block, rgba += kLanes) {

@@ -22,7 +22,7 @@ const Part& PartOf(const Scene& scene, PartId id) {
   return scene.parts.at(static_cast<std::size_t>(id));
 }
 
-/// Around two discs: half a turn about each end's centre.
+/// Returns the outline around two discs: half a turn about each end's centre.
 std::vector<Vec2> CapsulePoints(const Part& part) {
   constexpr int kSides = 12;
   const Vec2 along = part.points[1] - part.points[0];
@@ -63,11 +63,11 @@ Outline OutlineOf(const Part& part, const Pose& root) {
   return outline;
 }
 
-/// Bodies of more parts are drawn by their rim: a thousand outlines would be a grey field.
+/// Bodies of more parts are drawn by their outer edges: a thousand outlines would be a grey area.
 constexpr std::size_t kManyParts = 100;
-constexpr float kCovered_m = 0.02f;  ///< an edge with a part so near its outside is covered
+constexpr float kCovered_m = 0.02f;  ///< greatest gap to a part that covers an edge
 
-/// Corners; a circle as a polygon.
+/// Returns the corners; a circle as a polygon.
 std::vector<Vec2> CornersOf(const Outline& outline) {
   if (outline.kind != ShapeKind::kCircle) return outline.points;
   std::vector<Vec2> corners;
@@ -87,7 +87,7 @@ float SignedArea(const std::vector<Vec2>& corners) {
   return twice / 2;
 }
 
-/// Within a convex shape of counter-clockwise corners.
+/// True if a point is in a convex shape of counter-clockwise corners.
 bool Covers(const std::vector<Vec2>& corners, const Vec2& p) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
@@ -180,7 +180,7 @@ DrawnRevision RevisionOf(const Scene& scene, const Composition& composition) {
 
 namespace {
 
-/// Its rope, in three pieces: from a up to the ground, across, and down to b.
+/// Adds a pulley's rope in three pieces: from a up to its ground anchor, across, and down to b.
 void AddPulley(const Joint& pulley, const DrawnJoint& ends, std::vector<DrawnJoint>* joints) {
   DrawnJoint on_a = ends, across, on_b = ends;
   on_a.b = across.a = across.b = on_b.a = -1;
@@ -218,7 +218,7 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
       AddPulley(joint, drawn, &joints);
       continue;
     }
-    if (hold == JointHold::kAxis) {  // what slides carries the pin
+    if (hold == JointHold::kAxis) {  // the sliding body carries the pin
       std::swap(drawn.a, drawn.b);
       std::swap(drawn.anchor_a, drawn.anchor_b);
       std::swap(drawn.a_anchored, drawn.b_anchored);

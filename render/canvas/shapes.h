@@ -1,5 +1,5 @@
 #pragma once
-/// A scene's parts as outlines that can be drawn, relative to the body they belong to.
+/// A scene's parts as drawable outlines, relative to their bodies.
 
 #include <array>
 #include <memory>
@@ -11,15 +11,17 @@
 
 namespace seam {
 
+/// Position and angle.
 struct Pose {
   Vec2 position{0, 0};  ///< m
   float angle = 0;      ///< rad
 };
 
-/// The pose of a frame in which `place` is at `at`: of a body by one of its parts.
+/// Returns the pose of a body by one of its parts: `at`: pose of the part in the world; `place`: in
+/// the body's frame.
 Pose FrameBehind(const Pose& at, const Pose& place);
 
-/// From a pose's own frame to the world.
+/// Transform from a pose's own frame to the world.
 struct Frame2 {
   Vec2 position{0, 0};
   float cosine = 1, sine = 0;
@@ -30,16 +32,16 @@ struct Frame2 {
   }
 };
 
-/// Which part of which character an outline is.
+/// The character part of an outline.
 struct FigurePart {
-  int character = -1;      ///< index into Scene::characters; -1: of none
+  int character = -1;      ///< index into Scene::characters; -1: no character
   int part = 0;            ///< CharacterPart
-  bool far_side = false;   ///< the limb that the body hides from who looks at the page
-  std::vector<Vec2> tone;  ///< m, as the outline: what is darker of it (hair, pelvis), if anything
+  bool far_side = false;   ///< a limb on the side of the body turned away from the viewer
+  std::vector<Vec2> tone;  ///< m, outline of the darker area (hair, pelvis); empty: none
 };
 
-/// One part, in the frame of its assembly's root part. A character's are rounded within the shape
-/// that the engine has.
+/// The outline of one part, in the frame of its assembly's root part. A character's parts are
+/// rounded within their collision shapes.
 struct Outline {
   ShapeKind kind = ShapeKind::kBox;
   std::vector<Vec2> points;  ///< m; corners (a capsule's ends have many), or the line's points;
@@ -48,41 +50,41 @@ struct Outline {
   FigurePart figure;
 };
 
-/// One assembly.
+/// Shapes of one assembly.
 struct BodyShapes {
   PartId id = 0;
   std::vector<PartId> parts;      ///< ascending
   std::vector<Outline> outlines;  ///< one for each part
-  std::vector<Pose> places;       ///< of the parts, in the root part's frame
-  /// Of a body of many parts: the edges that no other of its parts covers, two points each, m in
-  /// the root's frame. Empty for others.
+  std::vector<Pose> places;       ///< poses of the parts, in the root part's frame
+  /// Outer edges of a body of many parts: the edges that no other part covers, two points each, m
+  /// in the root's frame. Empty for other bodies.
   std::vector<std::array<Vec2, 2>> rim;
-  float reach = 0;        ///< m: nothing of it is further from the root
+  float reach = 0;        ///< m: greatest distance of a point from the root
   bool round = false;     ///< a circle about its root: its outline does not show its angle
-  Pose start;             ///< of the root part at tick 0
-  int imposed = -1;       ///< anchored, but moved: index into the scene's ImposedMotions
-  int owner_player = -1;  ///< the player whose vehicle belongs to it, -1: none
+  Pose start;             ///< pose of the root part at tick 0
+  int imposed = -1;       ///< kinematic: index into the scene's ImposedMotions; -1: not
+  int owner_player = -1;  ///< the player with a part of this body as vehicle, -1: none
 };
 
-/// A joint worth drawing; anchors in the frames of the two bodies.
+/// A drawn joint; anchors in the frames of the two bodies.
 struct DrawnJoint {
   PartId a = 0, b = 0;  ///< assembly ids; -1: a point of the world (a pulley's)
   Vec2 anchor_a{0, 0}, anchor_b{0, 0};
   bool a_anchored = false, b_anchored = false;
   bool rod = false;   ///< distance joint or rope: a line; else a pin at a's anchor
-  bool grip = false;  ///< a hand holds: a ring around the pin
+  bool grip = false;  ///< a hand's grip: a ring around the pin
 };
 
-/// All that a world's bodies look like as long as none changes.
+/// Shapes of a world's bodies between two edits.
 struct DrawnRevision {
   std::vector<BodyShapes> moving, anchored;
   std::vector<DrawnJoint> joints;
-  std::shared_ptr<const FeatherStore> bricks;  ///< those that are left; nullptr: there are none
+  std::shared_ptr<const FeatherStore> bricks;  ///< remaining bricks; nullptr: there are none
 };
 
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition, bool anchored);
 DrawnRevision RevisionOf(const Scene& scene, const Composition& composition);
-/// All joints that hold two bodies at a point, an axis or a length.
+/// Returns all joints that hold two bodies at a point, an axis or a length.
 std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition);
 
 }  // namespace seam

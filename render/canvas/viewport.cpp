@@ -44,7 +44,7 @@ std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap, flo
   std::vector<Rect> panels;
   for (int i = 0; i < count; ++i) {
     const int row = i / best_columns, column = i % best_columns;
-    // A last row that is not full is as wide as the others: no hole in the page.
+    // An incomplete last row is stretched to the full width, to leave no hole in the page.
     const auto in_row = static_cast<float>(std::min(best_columns, count - row * best_columns));
     const float width = (area.width - gap * (in_row - 1)) / in_row;
     panels.push_back({area.x + static_cast<float>(column) * (width + gap),

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the world lies on a panel.
+/// Mapping between the world and a panel.
 
 #include "render/canvas/draw_list.h"
 
@@ -19,16 +19,16 @@ struct Viewport {
     return {centre.x() + (px.x() - panel.x - panel.width / 2) / px_per_m,
             centre.y() - (px.y() - panel.y - panel.height / 2) / px_per_m};
   }
-  /// May a thing of this radius (m) about this point be seen?
+  /// True if an object of this radius (m) about this point may be visible.
   bool Sees(const Vec2& world, float radius) const;
 };
 
-/// Shows all of the box min..max (m), as large as the panel allows.
+/// Returns a viewport of all of the box min..max (m), as large as the panel allows.
 Viewport Fit(const Rect& panel, const Vec2& min, const Vec2& max);
 
-/// The grid of `count` panels in `area` that shows boxes of this aspect (width over height)
-/// largest; `gap` px between them, and the lowest `below` px of each for something else. From left
-/// to right, then down.
+/// Returns the grid of `count` panels in `area` that shows boxes of this aspect (width over height)
+/// largest, from left to right, then down. `gap`: px between panels; `below`: px at the bottom of
+/// each panel reserved for other content.
 std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap, float below = 0);
 
 }  // namespace seam

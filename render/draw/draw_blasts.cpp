@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFlashSeconds = 0.1, kRingSeconds = 0.5;
 
-/// Blasts that only let fall what hangs are not seen.
+/// True if a blast is visible; one without speed and impulse only frees hanging parts.
 bool IsSeen(const BlastEdit& blast) { return blast.speed > 0 || blast.impulse > 0; }
 
 bool IsOf(const Charge& charge, const BlastEdit& blast) {

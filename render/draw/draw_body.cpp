@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// Shares of the edge's colour in a far limb, and in a near figure's hair and pelvis.
+/// Shares of the edge's colour in a far limb, and in a figure's hair and pelvis.
 constexpr float kFarTone = 0.55f, kFigureTone = 0.3f;
 
 std::vector<Vec2> OnPanel(const Viewport& viewport, const std::vector<Vec2>& local,
@@ -20,7 +20,7 @@ std::vector<Vec2> OnPanel(const Viewport& viewport, const std::vector<Vec2>& loc
   return px;
 }
 
-/// A chain is ground: shade what lies below it, if it runs sideways only.
+/// Shades the ground below a chain, if the chain runs sideways only.
 void ShadeBelow(DrawList& list, const Viewport& viewport, const std::vector<Vec2>& px,
                 const BodyLook& look) {
   for (std::size_t i = 2; i < px.size(); ++i)
@@ -76,7 +76,7 @@ void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outlin
     list.Stroke({centre, centre + 0.8f * (rim - centre)}, false, {width, edge, 0});
 }
 
-/// Parts without edges, and the edge of the whole.
+/// Draws the parts without edges, and the outer edge of the whole body.
 void DrawRimmed(DrawList& list, const Viewport& viewport, const BodyShapes& body,
                 const Frame2& frame, const BodyLook& look) {
   const float scale = list.font().scale();
@@ -126,7 +126,7 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
                float opacity, float width) {
   const float scale = list.font().scale();
   const Frame2 frame(pose);
-  const bool small = body.reach * viewport.px_per_m < 10 * scale;  // dashes would be dust
+  const bool small = body.reach * viewport.px_per_m < 10 * scale;  // dashes would be too small
   const Line rim{(width + 1.7f) * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0};
   const Line line{small ? 0.8f * scale : width * scale, Faded(kInk, (small ? 0.7f : 1) * opacity),
                   small ? 0 : 5 * scale};

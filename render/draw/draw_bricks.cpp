@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// Below these sizes on the page, px, a cell is a shade and a brick has no joints.
+/// Below these sizes on the page, px, a cell is drawn as a shade and a brick without joints.
 constexpr float kCellMin = 10, kBrickMin = 4;
 
 Vec2 Place(const Viewport& viewport, int x, int y) {
@@ -21,7 +21,7 @@ std::vector<Vec2> Corners(const Viewport& viewport, int x0, int y0, int x1, int 
           Place(viewport, x0, y1)};
 }
 
-/// One rectangle around the cell's bricks, paler the more of it is air.
+/// Draws one rectangle around the cell's bricks, paler with lower density.
 void DrawShade(DrawList& list, const Viewport& viewport, const FeatherStore& store,
                const std::vector<BrickBlock>& blocks) {
   int x0 = blocks[0].x, y0 = blocks[0].y, x1 = x0, y1 = y0;
@@ -39,7 +39,7 @@ void DrawShade(DrawList& list, const Viewport& viewport, const FeatherStore& sto
   list.Fill(Corners(viewport, x0, y0, x1, y1), Faded(Mix(kGround, kGroundEdge, 0.3f), share));
 }
 
-/// The joints within a block.
+/// Draws the joints within a block.
 void DrawJoints(DrawList& list, const Viewport& viewport, const BrickBlock& b,
                 const BrickKind& kind) {
   const Line line{1, Faded(kGroundEdge, 0.3f), 0};
@@ -89,9 +89,9 @@ std::vector<BrickBlock> BlocksOf(const FeatherStore& store, int cell) {
   std::vector<Brick> bricks;
   store.Append(cell, &bricks);  // by kind, then y, then x
   std::vector<BrickBlock> blocks;
-  std::size_t row_before = 0, row = 0;  // the kind's first block; the present row's first
+  std::size_t row_before = 0, row = 0;  // first block of the kind; first block of the current row
   const auto close_row = [&] {
-    // A block that lies on another of the same sides becomes part of it.
+    // A block on top of another with the same left and right edges is merged with it.
     std::size_t kept = row;
     for (std::size_t i = row; i < blocks.size(); ++i) {
       const BrickBlock b = blocks[i];
@@ -136,7 +136,7 @@ void DrawBricks(DrawList& list, const Viewport& viewport, const FeatherStore& st
     const float cells = metres / (FeatherStore::kCell * kBrickUnit);
     return static_cast<int>(std::floor(std::clamp(cells, -1e6f, 1e6f)));
   };
-  // A brick may reach in from the cell before.
+  // A brick of the previous cell may reach in.
   const int x0 = std::max(cell_of(low.x()) - 1, store.cell_x_min());
   const int y0 = std::max(cell_of(low.y()) - 1, store.cell_y_min());
   const int x1 = std::min(cell_of(high.x()), store.cell_x_max());

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// Calls visit(body of the second, its pose, its pose in the first or null) for what it shows.
+/// Calls visit(body, its pose, its pose in the first run or null) for each body of the second run.
 template <typename Visit>
 void VisitBoth(const Playback& first, const Playback& second, int peer, double now_s,
                const Visit& visit) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Where the oracle has what a view shows: body by body, or part by part where the oracle's bodies
-/// are others.
+/// The oracle's poses of a view's bodies: body by body, or part by part where the oracle's bodies
+/// have other parts.
 
 #include <functional>
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace seam {
 
-/// Called with a body (or one part of it, in the body's frame), the frame's pose in truth and as
-/// shown; nullopt: it is not shown.
+/// Receives a body (or one part of it, in the body's frame), and the pose of the frame in the
+/// oracle and in the view; nullopt: not shown.
 using GhostVisitor =
     std::function<void(const BodyShapes&, const Pose& truth, const std::optional<Pose>& shown)>;
 
-/// Visits all of the revision's moving bodies of which the oracle knows where they are.
+/// Visits all moving bodies of the revision that the oracle has.
 void VisitTruth(const Playback& playback, const DrawnRevision& revision, const Moment& moment,
                 double tick, const GhostVisitor& visit);
 

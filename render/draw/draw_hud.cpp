@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// A small box painted like a body.
+/// Draws a small box painted like a body.
 void Swatch(DrawList& list, float x, float y, const BodyLook& look) {
   const float scale = list.font().scale();
   const Rect box{x + 0.5f, std::round(y - 10 * scale) + 0.5f, 16 * scale, 11 * scale};
@@ -23,7 +23,7 @@ void Swatch(DrawList& list, float x, float y, const BodyLook& look) {
   list.Stroke(corners, true, {1.2f * scale, look.edge, 0});
 }
 
-/// The scale of the heat: 1 mm to 1 m. Returns where it ends.
+/// Draws the scale of the heat colours: 1 mm to 1 m. Returns the x of its end.
 float HeatBar(DrawList& list, float x, float base, const char* from) {
   const float scale = list.font().scale();
   constexpr int kSteps = 30;
@@ -38,7 +38,7 @@ float HeatBar(DrawList& list, float x, float base, const char* from) {
   return x + list.Text(x, base, TextStyle::kSmall, "1 m", kInk);
 }
 
-/// The text, cut with an ellipsis where it would be wider than `width`.
+/// Returns the text, cut with an ellipsis if it is wider than `width`.
 std::string Fitting(const DrawList& list, TextStyle style, std::string text, float width) {
   if (list.font().Width(style, text) <= width) return text;
   while (!text.empty() && list.font().Width(style, text + "…") > width) {

@@ -10,8 +10,8 @@
 namespace seam {
 namespace {
 
-constexpr float kGripRing = 5;  ///< px at scale 1; its radius around a hand's pin
-constexpr float kPinsFrom_px_per_m = 12;  ///< smaller bodies would be all pins
+constexpr float kGripRing = 5;  ///< px at scale 1; radius of the ring around a hand's pin
+constexpr float kPinsFrom_px_per_m = 12;  ///< least scale; pins would cover smaller bodies
 
 std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
                              const DrawnRevision& revision, const Moment& moment, PartId id,
@@ -30,7 +30,7 @@ std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
 constexpr double kCrackSeconds = 0.5;
 constexpr float kCrack_m = 0.7f;  ///< length
 
-/// Where the joint was, as part a now carries it, and the way from a to b.
+/// A crack: the joint's place in the frame of part a, in the world now, and the direction to b.
 struct Crack {
   Vec2 at{0, 0}, along{1, 0};
 };

@@ -12,7 +12,7 @@
 namespace seam {
 namespace {
 
-/// What was known at a tick, by kind, id and key.
+/// Values of metadata at a tick, by kind, id and key.
 using Known = std::map<std::tuple<int, int, int>, float>;
 
 Known KnownAt(const Recording& recording, double tick) {

@@ -1,19 +1,19 @@
 #pragma once
-/// What the server decides, on a panel: triggers as dashed boxes, health over the parts that have
-/// some, the players' scores in a line.
+/// Game rules on a panel: triggers as dashed boxes, health bars over parts, the players' scores in
+/// a line.
 
 #include "render/canvas/viewport.h"
 #include "render/playback/playback.h"
 
 namespace seam {
 
-/// Before the bodies. Taken pickups are not drawn.
+/// Draws triggers but pickups that were taken. Call before drawing the bodies.
 void DrawTriggers(DrawList& list, const Viewport& viewport, const Playback& playback,
                   const Moment& moment, double tick);
-/// After the bodies: a bar for each part that has less than all its health, or more than none.
+/// Draws a health bar at each part with health. Call after drawing the bodies.
 void DrawHealth(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const Moment& moment, double tick);
-/// Below the panel's caption; nothing while nobody has a score, a checkpoint or a lap.
+/// Draws the scores below the panel's caption; nothing without any score, checkpoint or lap.
 void DrawScores(DrawList& list, const Rect& panel, const Playback& playback, double tick);
 
 }  // namespace seam

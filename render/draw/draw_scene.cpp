@@ -15,7 +15,7 @@
 namespace seam {
 namespace {
 
-/// The smallest of 1, 2, 5 times ten to the n that is at least `least`.
+/// Returns the smallest of 1, 2, 5 times ten to the n that is at least `least`.
 float RoundUp(float least) {
   const float decade = std::pow(10.0f, std::floor(std::log10(least)));
   for (float step : {1.0f, 2.0f, 5.0f})
@@ -38,7 +38,7 @@ std::vector<Region> FixedRegions(const Viewport& viewport, const Playback& playb
   std::vector<Region> regions;
   const std::optional<Mode> mode = playback.mode();
   if (mode != Mode::kStrict && mode != Mode::kBuffer) return regions;
-  if (playback.scene().planner->given) return regions;  // they decide nothing
+  if (playback.scene().planner->given) return regions;  // regions do not decide
   const float band = mode == Mode::kBuffer ? playback.scene().buffer_m : 0;
   for (int peer : playback.peers()) {
     const int index = playback.PlayerOf(peer);
@@ -53,7 +53,7 @@ std::vector<Region> FixedRegions(const Viewport& viewport, const Playback& playb
   return regions;
 }
 
-/// Those that the scene fixes, else those that the moment's authority makes.
+/// Returns the regions fixed by the scene, or those that follow the moment's authority.
 std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback,
                               const Moment& moment) {
   std::vector<Region> regions = FixedRegions(viewport, playback);
@@ -70,7 +70,7 @@ Rect Shared(const Rect& a, const Rect& b) {
   return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
 }
 
-/// A region as a line, its zone as a thinner one on both sides of it.
+/// Draws a region's extent as a line, and its buffer zone as a thinner one on both sides.
 void DrawExtent(DrawList& list, const Region& region, const Rect& row) {
   const Rect zone = Shared({region.outer.x, row.y, region.outer.width, row.height}, row);
   const Rect own = Shared({region.inner.x, row.y, region.inner.width, row.height}, row);
@@ -82,10 +82,10 @@ void DrawExtent(DrawList& list, const Region& region, const Rect& row) {
 }
 
 constexpr float kTint = 0.22f, kVeil = 0.16f;
-/// Between arrows of the flow, px at scale 1.
+/// Distance between arrows of the flow, px at scale 1.
 constexpr float kArrowsApart = 130;
 
-/// What of a water the panel shows; without area if nothing.
+/// Returns the visible part of a water; without area if none.
 Rect OnPanel(const Viewport& viewport, const Water& water) {
   const Vec2 a = viewport.ToPx({water.min.x(), water.max.y()});
   const Vec2 b = viewport.ToPx({water.max.x(), water.min.y()});
@@ -97,7 +97,7 @@ Rect OnPanel(const Viewport& viewport, const Water& water) {
 
 bool HasArea(const Rect& rect) { return rect.width > 0 && rect.height > 0; }
 
-/// Pale arrows along the flow, fixed to the world, longer where it is faster.
+/// Draws pale arrows along the flow, fixed to the world, longer for a faster flow.
 void DrawFlow(DrawList& list, const Viewport& viewport, const Water& water, const Rect& area) {
   const float speed = water.flow.norm(), scale = list.font().scale();
   if (speed <= 0) return;
@@ -118,7 +118,7 @@ void DrawFlow(DrawList& list, const Viewport& viewport, const Water& water, cons
   }
 }
 
-/// Of the grid's lines those within `area`, on whole pixels, opaque over a ground of this colour.
+/// Draws the grid's lines within `area`, on whole pixels, opaque, for a ground of this colour.
 void DrawGrid(DrawList& list, const Viewport& viewport, const Rect& area, Colour ground) {
   const float step = RoundUp(45 * list.font().scale() / viewport.px_per_m);
   const Vec2 low = viewport.ToWorld({viewport.panel.x, viewport.panel.bottom()});
@@ -134,8 +134,8 @@ void DrawGrid(DrawList& list, const Viewport& viewport, const Rect& area, Colour
   }
 }
 
-/// The panel's ground, the regions' tints and the grid: opaque, because that is written to memory
-/// instead of drawn. A region's ground hides the grid of what lies under it, so each has its own.
+/// Draws the panel's background, the regions' tints and the grid, all opaque, because opaque areas
+/// are written directly to memory. A region's tint covers the grid below, so each has its own grid.
 void DrawFlats(DrawList& list, const Viewport& viewport, const std::vector<Region>& regions) {
   list.FillUnder(viewport.panel, kPanel);
   DrawGrid(list, viewport, viewport.panel, kPanel);
@@ -154,7 +154,7 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
   const float scale = list.font().scale();
   const std::vector<Region> regions = RegionsOf(viewport, playback, moment);
   DrawFlats(list, viewport, regions);
-  // A region may be kilometres wide; the rasteriser is slow with what lies far outside.
+  // A region may be kilometres wide; the rasteriser is slow with shapes far outside the panel.
   const Rect& panel = viewport.panel;
   const float beyond = 10 * scale;
   const Rect near{panel.x - beyond, panel.y - beyond, panel.width + 2 * beyond,

@@ -1,5 +1,5 @@
 #pragma once
-/// Hair and scarves: what hangs on bodies in one peer's view, and nowhere else.
+/// Strands (hair, scarves) of one peer's view: cosmetic, simulated by that peer alone.
 
 #include "render/canvas/viewport.h"
 #include "render/playback/playback.h"

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLowDecade = -3;  ///< log10 m: the base line is a millimetre
 
-/// Plot area and its two scales.
+/// The plot area and its two scales.
 struct Axes {
   Rect plot;
   double from_s = 0, to_s = 1;
@@ -66,8 +66,8 @@ void DrawSeconds(DrawList& list, const Axes& axes) {
   }
 }
 
-/// The curve as one point per pixel column, the worst of the column's ticks; in pieces, because
-/// where nothing is known there is no curve.
+/// Returns the curve as one point per pixel column, the greatest error of the column's ticks; in
+/// pieces, with gaps where errors are unknown.
 std::vector<std::vector<Vec2>> Pieces(const Axes& axes, const Curve& curve) {
   std::vector<std::vector<Vec2>> pieces;
   const auto& errors = *curve.errors_m;
@@ -93,8 +93,8 @@ std::vector<std::vector<Vec2>> Pieces(const Axes& axes, const Curve& curve) {
   return pieces;
 }
 
-/// Leaves out what lies within a tenth of a pixel of a straight line. x increases, so the slopes of
-/// the lines from the last kept point past those left out are an interval, which each one narrows.
+/// Leaves out points within a tenth of a pixel of a straight line. x increases, so the allowed
+/// slopes of a line from the last kept point are an interval, which each left-out point narrows.
 std::vector<Vec2> Thinned(const std::vector<Vec2>& points) {
   constexpr float kOff = 0.1f, kAny = 1e9f;  // px
   std::vector<Vec2> kept{points.front()};
@@ -114,7 +114,7 @@ std::vector<Vec2> Thinned(const std::vector<Vec2>& points) {
   return kept;
 }
 
-/// The part of a line up to `x`; it may be empty.
+/// Returns the part of a line up to `x`; it may be empty.
 std::vector<Vec2> UpTo(const std::vector<Vec2>& points, float x) {
   const auto after =
       std::find_if(points.begin(), points.end(), [&](const Vec2& point) { return point.x() > x; });
@@ -151,7 +151,7 @@ Axes AxesOf(const Rect& area, float scale, const std::vector<Curve>& curves,
   return axes;
 }
 
-/// `past`: strong, up to the playhead; else pale, all of them.
+/// Draws the curves. `past`: strong, up to the playhead; else pale, in full length.
 void DrawCurves(DrawList& list, const Rect& area, const Axes& axes,
                 const std::vector<Curve>& curves, const StripLook& look, bool past) {
   const Rect clip{axes.plot.x - 1, area.y, axes.plot.width + 2, area.height};

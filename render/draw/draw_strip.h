@@ -19,6 +19,7 @@ struct Curve {
   bool bold = true;
 };
 
+/// Time range and playhead of the strip.
 struct StripLook {
   double from_s = 0, to_s = 1;  ///< the axis
   double now_s = 0;             ///< playhead
@@ -27,7 +28,7 @@ struct StripLook {
 /// Draws axis, legend and pale curves into `area`. Values below a millimetre lie on the base line.
 void DrawStrip(DrawList& list, const Rect& area, const std::vector<Curve>& curves,
                const StripLook& look);
-/// Over it, the curves up to the playhead, and the playhead.
+/// Draws the curves up to the playhead, and the playhead, over the result of DrawStrip.
 void DrawStripNow(DrawList& list, const Rect& area, const std::vector<Curve>& curves,
                   const StripLook& look);
 

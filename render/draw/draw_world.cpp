@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kTrailSeconds = 1.2;
 constexpr float kDotRadius = 1.3f;      ///< px at scale 1
-constexpr int kFewGhosts = 20;          ///< more are drawn fainter
+constexpr int kFewGhosts = 20;          ///< more ghosts are drawn fainter
 constexpr double kImpactSeconds = 0.5;  ///< how long a mark stays
 
 struct Seen {
@@ -33,12 +33,12 @@ struct Seen {
   Shown shown;
 };
 
-/// -1: no character's.
+/// Returns the character of a body, or -1.
 int CharacterOf(const Seen& one) { return one.body->outlines[0].figure.character; }
 
-/// A character's bodies one after the other, far limbs first; all else stays as it is.
+/// Groups each character's bodies, far limbs first; the order of other bodies stays.
 void SortFigures(std::vector<Seen>* seen) {
-  std::vector<std::array<int, 3>> order;  // when first seen, layer, index
+  std::vector<std::array<int, 3>> order;  // position of the group, layer, index
   std::map<int, int> first;               // by character
   for (std::size_t i = 0; i < seen->size(); ++i) {
     const Seen& one = (*seen)[i];
@@ -66,8 +66,8 @@ std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playba
   return seen;
 }
 
-/// Where bodies were shown: one dot for each tick, so that even dots are an even motion, a gap is a
-/// jump and a cluster a stop.
+/// Draws earlier displayed positions, one dot for each tick: even dots are an even motion, a gap is
+/// a jump and a cluster a stop.
 void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const DrawnRevision& revision, const WorldLook& look) {
   const float scale = list.font().scale();
@@ -91,14 +91,15 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
   }
 }
 
-/// How far apart, px at scale 1, view and truth of the body are drawn; 1000 where it is not shown.
+/// Returns the distance of the body's drawn poses in view and oracle, px at scale 1; 1000 where it
+/// is not shown.
 float ApartPx(const DrawList& list, const Viewport& viewport, const BodyShapes& body,
               const Pose& truth, const std::optional<Pose>& shown) {
   return shown ? PixelsApart(viewport, body, *shown, truth) / list.font().scale() : 1e3f;
 }
 
-/// Ghosts appear where view and truth part, so that a right picture stays clean; where there are
-/// many of them, as in a pile, each is fainter.
+/// Draws ghosts where view and oracle differ, so that a correct picture stays clean. Many ghosts,
+/// as in a pile, are fainter.
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const DrawnRevision& revision, const WorldLook& look) {
   const Moment now = playback.MomentAt(look.peer, look.tick);
@@ -119,7 +120,7 @@ void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playba
   });
 }
 
-/// Arrows from where the oracle has a body to where it is shown.
+/// Draws arrows from the oracle's position of a body to the displayed one.
 void DrawVectors(DrawList& list, const Viewport& viewport, const Playback& playback,
                  const DrawnRevision& revision, const WorldLook& look) {
   const float scale = list.font().scale();
@@ -139,7 +140,7 @@ void DrawVectors(DrawList& list, const Viewport& viewport, const Playback& playb
              });
 }
 
-/// By how far a body is shown from where it should be, m; 0 where nobody knows.
+/// Returns the distance of a body's displayed position from the oracle's, m; 0 if unknown.
 float ErrorOf(const Playback& playback, const Moment& now, const BodyShapes& body) {
   const auto truth = playback.Truth(body.id, now.tick);
   const auto shown = playback.Find(now, body.id);
@@ -184,7 +185,7 @@ void DrawName(DrawList& list, float left, float base, const std::string& name, C
   list.Text(left + width / 2, base, TextStyle::kStrong, name, Darker(colour), Align::kCentre);
 }
 
-/// Where a character's torso is on the panel; `otherwise` when none is seen.
+/// Returns the x of a character's torso on the panel; `otherwise` when it is not seen.
 float TorsoX(const Viewport& viewport, const std::vector<Seen>& seen, int character,
              float otherwise) {
   for (const Seen& one : seen) {
@@ -195,7 +196,7 @@ float TorsoX(const Viewport& viewport, const std::vector<Seen>& seen, int charac
   return otherwise;
 }
 
-/// The characters' names beside their heads, on the side where the rest of them is not.
+/// Draws the characters' names beside their heads, on the side away from the torso.
 void DrawCharacterNames(DrawList& list, const Viewport& viewport, const Playback& playback,
                         const std::vector<Seen>& seen) {
   const float scale = list.font().scale();
@@ -215,8 +216,8 @@ void DrawCharacterNames(DrawList& list, const Viewport& viewport, const Playback
   }
 }
 
-/// The players' names over their vehicles, and if so wished those of all bodies; a character has
-/// its own.
+/// Draws the players' names over their vehicles, with `all` also the names of all bodies, and the
+/// characters' names.
 void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playback,
                const std::vector<Seen>& seen, bool all) {
   const float scale = list.font().scale();

@@ -1,26 +1,26 @@
 #pragma once
-/// The world as one peer shows it at a moment: ground, trails, bodies, ghosts, impacts.
+/// The world in one peer's view at a moment: ground, trails, bodies, ghosts, impacts.
 
 #include "render/canvas/viewport.h"
 #include "render/playback/playback.h"
 
 namespace seam {
 
-/// What of it, and when.
+/// The displayed view, moment and layers.
 struct WorldLook {
-  int peer = 0;          ///< whose view
+  int peer = 0;          ///< the peer of the view
   double tick = 0;       ///< may lie between ticks
-  bool cull = true;      ///< leave out what the panel does not show; changes no pixel
-  bool trails = true;    ///< where each body was shown at each tick: one dot a tick
-  bool ghosts = true;    ///< where the oracle has it, if elsewhere
-  bool vectors = false;  ///< from where the oracle has it to where it is shown
-  bool heat = false;     ///< fill by that distance instead of by authority
-  bool pale = false;     ///< bodies are only the ground for a difference
-  bool names = false;    ///< of all bodies, not only of the players' vehicles
+  bool cull = true;      ///< skip bodies outside the panel; changes no pixel
+  bool trails = true;    ///< earlier displayed positions of each body, one dot a tick
+  bool ghosts = true;    ///< the oracle's poses, where they differ from the view's
+  bool vectors = false;  ///< arrows from the oracle's to the displayed positions
+  bool heat = false;     ///< fill by the distance from the oracle instead of by authority
+  bool pale = false;     ///< pale bodies, as the background of a difference
+  bool names = false;    ///< names of all bodies, not only of the players' vehicles
 };
 
-/// What a playback's scene wants to be seen at a tick: the scene's box, or as large a box about the
-/// part that its camera follows (on the oracle's path if there is one, so that the camera does not
+/// Returns the view of the scene's own camera at a tick: the scene's box, or a box of the same size
+/// about the followed part (on the oracle's path if there is one, so that the camera does not
 /// stutter with the view).
 Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, double tick);
 

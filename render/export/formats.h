@@ -6,7 +6,7 @@
 
 namespace seam {
 
-// Each writes all that was chosen of a session, and throws OperatorError when `out` does.
+// Each function writes the selected part of a session, and throws OperatorError when `out` does.
 
 /// csv.cpp: a row for each tick, view and body (RFC 4180, ended by \n).
 void WriteCsvExport(const ExportSession& session, OutputFile* out);

@@ -20,7 +20,7 @@ std::string Xyz(double x, double y) {
   return "{\"x\":" + JsonNumber(x) + ",\"y\":" + JsonNumber(y) + ",\"z\":0}";
 }
 
-/// A turn about z.
+/// Returns a rotation about z as a quaternion.
 std::string Turn(double angle) {
   return "{\"x\":0,\"y\":0,\"z\":" + JsonNumber(std::sin(angle / 2)) +
          ",\"w\":" + JsonNumber(std::cos(angle / 2)) + "}";
@@ -35,7 +35,7 @@ void Append(std::string* list, const std::string& item) {
   *list += item;
 }
 
-/// A view's colour: hues a third of the circle and a little apart.
+/// Returns a view's colour: hues a little more than a third of the colour circle apart.
 std::string Colour(int peer) {
   const double hue = 2 * kPi * 0.36 * peer;
   const auto part = [&](double turn) { return 0.55 + 0.4 * std::cos(hue + turn); };
@@ -43,7 +43,7 @@ std::string Colour(int peer) {
          ",\"b\":" + JsonNumber(part(2 * kPi / 3)) + ",\"a\":1}";
 }
 
-/// Sides of a circle that is drawn.
+/// Sides of the polygon for a circle.
 constexpr int kCircleSides = 24;
 
 std::string PointsOf(const Outline& outline) {
@@ -118,7 +118,7 @@ std::string SceneUpdateOf(const ExportSession& session, const View& view,
       Append(&entities, Entity(time, frame, frame, body, Pose(), Colour(view.peer)));
     }
   }
-  // A deletion of type 1 is of all.
+  // A deletion of type 1 deletes all entities.
   return "{\"deletions\":[{\"timestamp\":" + time + ",\"type\":1,\"id\":\"\"}],\"entities\":[" +
          entities + "]}";
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Messages that Foxglove and Rerun know, as JSON, with their schemas: frames (one for each body in
-/// each view, in the frame "world"), shapes fixed to them, log lines; and our own plain numbers.
+/// Messages for Foxglove and Rerun, as JSON, with their schemas: frames (one for each body in each
+/// view, in the frame "world"), shapes fixed to them, log lines; and seam2d's own plain numbers.
 
 #include <string>
 #include <vector>
@@ -20,16 +20,16 @@ FoxgloveSchema LogSchema();
 FoxgloveSchema ErrorsSchema();
 FoxgloveSchema InputSchema();
 
-/// The time of a tick, ns from the session's tick 0; 0 for earlier ones.
+/// Returns the time of a tick, ns from the session's tick 0; 0 for earlier ones.
 std::uint64_t TimeNs(const ExportSession& session, std::int64_t tick);
-/// foxglove.FrameTransforms: where each body of the rows is. Frames are "VIEW/BODY".
+/// foxglove.FrameTransforms: the pose of each body of the rows. Frames are "VIEW/BODY".
 std::string FramesOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows);
-/// foxglove.SceneUpdate: the outlines of all bodies in the rows, fixed to their frames; they
-/// replace all that was shown of the view.
+/// foxglove.SceneUpdate: the outlines of all bodies in the rows, fixed to their frames; replaces
+/// all earlier shapes of the view.
 std::string SceneUpdateOf(const ExportSession& session, const View& view,
                           const std::vector<ExportRow>& rows);
-/// The same of what never moves, in the frame "world".
+/// foxglove.SceneUpdate: the outlines of bodies that never move, in the frame "world".
 std::string GroundOf(const ExportSession& session);
 /// seam2d.Errors: rms_m, max_m, and error_m by body; null without an oracle.
 std::string ErrorsOf(const ExportSession& session, const View& view,

@@ -1,4 +1,4 @@
-/// The schemas, as https://docs.foxglove.dev/docs/sdk/schemas has them: the fields that are used.
+/// The schemas of https://docs.foxglove.dev/docs/sdk/schemas, with the used fields only.
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-/// One JSON document with all that a recording says, poses as arrays of numbers.
+/// One JSON document with all contents of a recording, poses as arrays of numbers.
 
 #include <string>
 
@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// Puts commas between what is added.
+/// Writes a list with commas between its items.
 class List {
  public:
   List(OutputFile* out, const std::string& head) : out_(out) { out_->Write(head); }
@@ -83,7 +83,7 @@ void WriteEdits(const ExportSession& session, OutputFile* out) {
   edits.End("],\n");
 }
 
-/// [tick, player, drive, lift, buttons], a row for each tick that a message names.
+/// Writes [tick, player, drive, lift, buttons], a row for each tick with an input.
 void WriteInputs(const ExportSession& session, const TimeRange& range, OutputFile* out) {
   List inputs(out,
               "\"inputs\": {\"columns\": [\"tick\", \"player\", \"drive\", \"lift\", "

@@ -1,4 +1,4 @@
-/// Which messages of a session go into an MCAP file, and when.
+/// Chooses the messages of a session for an MCAP file, and their times.
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@ namespace seam {
 namespace {
 
 constexpr char kMagic[] = {'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-/// A chunk is ended beyond this, bytes: readers hold one in memory.
+/// Size beyond which a chunk ends, bytes: readers keep a chunk in memory.
 constexpr std::size_t kChunkBytes = 1 << 20;
 
 enum Opcode : std::uint8_t {
@@ -26,7 +26,7 @@ enum Opcode : std::uint8_t {
   kDataEnd = 0x0f
 };
 
-/// An integer, its least byte first.
+/// Returns an integer in little-endian order.
 template <class T>
 std::string Le(T value) {
   std::string bytes;

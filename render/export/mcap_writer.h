@@ -1,6 +1,6 @@
 #pragma once
-/// An MCAP file (version 0 of the format, https://mcap.dev/spec): chunks without compression, with
-/// an index and checksums, so that a reader can go to any moment of it.
+/// Writer of MCAP files (version 0 of the format, https://mcap.dev/spec): chunks without
+/// compression, with an index and checksums, so that a reader can seek.
 
 #include <cstdint>
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace seam {
 
-/// CRC-32 of zip, gzip and PNG (ISO 3309). `crc`: of what came before, 0 at first.
+/// Returns the CRC-32 of zip, gzip and PNG (ISO 3309). `crc`: of the preceding bytes, 0 at first.
 std::uint32_t Crc32(std::string_view bytes, std::uint32_t crc = 0);
 
 class McapWriter {
  public:
-  /// Begins the file. `library`: who writes it.
+  /// Begins the file. `library`: name of the writing program.
   McapWriter(OutputFile* out, const std::string& library);
   /// Returns the schema's number. `text`: a JSON Schema.
   std::uint16_t AddSchema(const std::string& name, const std::string& text);

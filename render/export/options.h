@@ -1,16 +1,14 @@
 #pragma once
-/// What seam-export is asked for: flags, checked.
+/// Options of seam-export: flags, checked.
 
 #include <string>
 #include <vector>
 
 #include "common/record/time_range.h"
 
-namespace CLI {
-class App;
-}
-
 namespace seam {
+
+class Command;
 
 enum class ExportFormat { kCsv, kJson, kMcap, kTrace };
 
@@ -18,10 +16,10 @@ struct ExportOptions {
   std::string log;
   bool csv = false, json = false, mcap = false, trace = false;  ///< exactly one
   std::string out;                                              ///< "" or "-": stdout
-  bool force = false;                                           ///< replace what is at `out`
+  bool force = false;                                           ///< replace a file at `out`
   std::string oracle;               ///< a log made in mode oracle; "": computed
   std::string room;                 ///< "": the first of the log
-  TimeRange range;                  ///< of the session
+  TimeRange range;                  ///< exported part of the session
   std::vector<std::string> bodies;  ///< names; empty: all
   std::vector<std::string> views;   ///< names of players, or server; empty: all
 
@@ -29,8 +27,8 @@ struct ExportOptions {
   ExportFormat format() const;
 };
 
-void DefineExportOptions(CLI::App* app, ExportOptions* options);
-/// Throws OperatorError for what cannot be meant.
+void DefineExportOptions(Command* app, ExportOptions* options);
+/// Throws OperatorError for contradictory options.
 void CheckExportOptions(const ExportOptions& options);
 
 }  // namespace seam

@@ -11,11 +11,11 @@ namespace seam {
 
 class OutputFile {
  public:
-  /// `path` "" or "-": stdout. Else what is written goes to a file beside it until Finish. Throws
-  /// OperatorError when that cannot be made, when something is at `path` and `force` is not given
-  /// or it is no regular file, and when it is one of the files `read`, which must not be replaced.
+  /// `path` "" or "-": stdout. Else writes to a temporary file beside `path` until Finish. Throws
+  /// OperatorError when that cannot be created, when `path` exists and `force` is false or it is no
+  /// regular file, and when `path` is one of the input files `read`.
   OutputFile(const std::string& path, bool force, const std::vector<std::string>& read);
-  /// Without Finish nothing is left of it, and what was at `path` is as it was.
+  /// Without Finish, removes the temporary file and leaves `path` unchanged.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -24,7 +24,7 @@ class OutputFile {
   void Write(std::string_view text);
   /// Throws OperatorError when the file cannot be completed.
   void Finish();
-  /// Written so far.
+  /// Returns the number of bytes written so far.
   std::uint64_t bytes() const { return bytes_; }
 
  private:

@@ -16,7 +16,7 @@ std::vector<std::string> RootNames(const ExportSession& session) {
   return names;
 }
 
-/// Names of all bodies that any view shows.
+/// Finds the names of all bodies that any view shows.
 void FindBodies(ExportSession* session) {
   std::set<PartId> shown;
   for (const auto& [peer, views] : session->recording.views) {
@@ -64,13 +64,13 @@ void ChooseViews(const std::vector<std::string>& names, ExportSession* session) 
   }
 }
 
-/// Whether the chosen names leave out this peer's view.
+/// True if the selected names exclude this peer's view.
 bool LeftOut(const ExportSession& session, const std::vector<std::string>& names, int peer) {
   return !names.empty() && std::count(names.begin(), names.end(), session.ViewName(peer)) == 0;
 }
 
-/// Ticks that a view lacks between its first and its last, and a late start or early end of more
-/// than a second.
+/// Reports ticks that a view lacks between its first and its last, and a start or end that is more
+/// than a second late or early.
 void FindHoles(const Recording& recording, int peer, const std::map<std::int64_t, View>& views,
                ExportSession* session) {
   const std::string name = session->ViewName(peer);
@@ -90,7 +90,7 @@ void FindHoles(const Recording& recording, int peer, const std::map<std::int64_t
   }
 }
 
-/// "no view of bob, cid", of many the first.
+/// Formats "no view of bob, cid"; of many names the first.
 std::string AbsentViews(const ExportOptions& options, const ExportSession& session) {
   constexpr int kNamed = 8;
   std::string text;
@@ -116,7 +116,7 @@ void FindLacking(const ExportOptions& options, ExportSession* session) {
   for (const auto& [peer, views] : recording.views) FindHoles(recording, peer, views, session);
 }
 
-/// The oracle of the whole session; without one the rest is exported all the same.
+/// Finds the oracle of the whole session; without one the rest is still exported.
 void FindOracle(const ExportOptions& options, ExportSession* session) {
   const Recording& recording = session->recording;
   if (!options.oracle.empty()) {

@@ -19,7 +19,7 @@ void WriteNames(const ExportSession& session, TraceWriter* trace) {
   }
 }
 
-/// Whether and when the bus heard the view; its clock is another one than the session's.
+/// Returns when the bus received the view, if known; its clock differs from the session's.
 std::string HeardAt(const ExportSession& session, const View& view) {
   const auto of_peer = session.recording.view_us.find(view.peer);
   if (of_peer == session.recording.view_us.end()) return "";
@@ -36,7 +36,7 @@ void WriteTicks(const ExportSession& session, TraceWriter* trace) {
   });
 }
 
-/// Spans in which a peer has authority over a body, in its own view.
+/// Writes the spans in which a peer has authority over a body, by its own view.
 void WriteAuthority(const ExportSession& session, TraceWriter* trace) {
   for (const auto& [peer, views] : session.recording.views) {
     std::map<PartId, std::int64_t> since;

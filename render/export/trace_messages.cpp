@@ -12,7 +12,7 @@ const Views* ViewsOf(const ExportSession& session, int peer) {
   return found == session.recording.views.end() ? nullptr : &found->second;
 }
 
-/// The server's last view that is not later than `us` of its clock, nullptr if there is none.
+/// Returns the server's last view at `us` of its clock or earlier, nullptr if there is none.
 const View* ViewAt(const std::vector<const View*>& by_time, std::int64_t us) {
   const auto later = [](std::int64_t t, const View* view) { return t < view->utime; };
   const auto after = std::upper_bound(by_time.begin(), by_time.end(), us, later);
@@ -44,7 +44,7 @@ void WriteEdits(const ExportSession& session, TraceWriter* trace) {
     for (const auto& [number, edit] : session.recording.edits) {
       while (view != views.end() && view->second.revision <= number) ++view;
       if (view == views.end()) break;
-      if (view == views.begin()) continue;  // it had the edit before this began
+      if (view == views.begin()) continue;  // the peer had the edit before its first view
       if (server->count(edit.tick) == 0 || view->first < edit.tick) continue;
       trace->Flow("edit", 0, edit.tick, peer, view->first);
     }

@@ -24,7 +24,7 @@ TraceWriter::TraceWriter(OutputFile* out, int tick_hz) : out_(out), tick_hz_(tic
 
 void TraceWriter::Add(char phase, int peer, int thread, double us, const std::string& name,
                       const std::string& rest) {
-  // Process 0 is the idle one to viewers.
+  // Trace viewers take process 0 for the idle process.
   out_->Write((first_ ? "\n{" : ",\n{") + std::string("\"ph\":\"") + phase +
               "\",\"pid\":" + std::to_string(peer + 1) + ",\"tid\":" + std::to_string(thread) +
               ",\"ts\":" + Micro(us) + ",\"name\":" + JsonText(name) + rest + "}");

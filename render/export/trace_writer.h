@@ -1,5 +1,5 @@
 #pragma once
-/// Trace events as JSON, one a line, and one process for each peer.
+/// Writer of trace events as JSON, one a line, with one process for each peer.
 
 #include <cstdint>
 #include <string>
@@ -11,17 +11,17 @@ namespace seam {
 class TraceWriter {
  public:
   TraceWriter(OutputFile* out, int tick_hz);
-  /// What a peer's process is called.
+  /// Names a peer's process.
   void Name(int peer, const std::string& name);
-  /// A tick of a peer, one tick long. `arguments`: members of a JSON object, without its braces.
+  /// Writes a slice of one tick. `arguments`: members of a JSON object, without its braces.
   void Slice(int peer, std::int64_t tick, const std::string& name, const std::string& arguments);
-  /// From the beginning of one tick to that of another. Spans of different `id` may overlap.
+  /// Writes a span between the beginnings of two ticks. Spans of different `id` may overlap.
   void Span(int peer, std::int64_t from_tick, std::int64_t to_tick, std::int64_t id,
             const std::string& name);
   void Counter(int peer, std::int64_t tick, const char* name, double value);
   void Instant(int peer, std::int64_t tick, const std::string& name);
-  /// An arrow from within a tick of one peer to within the same or a later one of another.
-  /// Requires ticks that have slices, and from_tick <= to_tick.
+  /// Writes an arrow from a tick of one peer to the same or a later tick of another. Requires ticks
+  /// that have slices, and from_tick <= to_tick.
   void Flow(const char* name, int from_peer, std::int64_t from_tick, int to_peer,
             std::int64_t to_tick);
   void Finish();

@@ -1,5 +1,5 @@
 #pragma once
-/// The files of render/page/ that a page is made of, as they were when the program was built.
+/// The files of render/page/ for a review page, embedded when the program was built.
 
 #include <string>
 
@@ -7,6 +7,6 @@ namespace seam {
 
 std::string PageTemplate();  ///< page.html
 std::string PageStyle();     ///< page.css
-std::string PageScript();    ///< the .js files, each after what it uses
+std::string PageScript();    ///< the .js files, in order of dependency
 
 }  // namespace seam

@@ -1,6 +1,6 @@
-// Where the panels look: one camera for all of them.
+// The camera: one for all panels.
 
-// From the world (m) to a rectangle (px).
+// Maps the world (m) to a rectangle (px).
 class Viewport {
   constructor(rect, camera) {
     this.rect = rect;
@@ -28,7 +28,7 @@ class Viewport {
   }
 }
 
-// A camera that shows a box in a rectangle.
+// Returns a camera that shows a box in a rectangle.
 function fitBox([minX, minY, maxX, maxY], rect) {
   const width = Math.max(maxX - minX, 0.5);
   const height = Math.max(maxY - minY, 0.5);
@@ -39,7 +39,7 @@ function fitBox([minX, minY, maxX, maxY], rect) {
   };
 }
 
-// The box of what moves in a view within half a second of a tick; null if nothing does.
+// Returns the box of bodies that move in a view within half a second of a tick; null without any.
 function actionBox(view, tick) {
   const span = view.run.hz / 2;
   const from = Math.max(0, Math.floor(tick - span));
@@ -63,7 +63,7 @@ function actionBox(view, tick) {
   return [box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin];
 }
 
-// The camera of a moment: the chosen one, or the scene's; on the followed body if there is one.
+// Returns the camera of a moment: the chosen one, or the scene's; on the followed body if any.
 function cameraAt(view, tick, rect) {
   const camera = {...(state.camera || fitBox(view.run.camera, rect))};
   if (state.follow === null) return camera;

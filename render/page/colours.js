@@ -1,4 +1,4 @@
-// Colours: whose authority, which run, how large an error; and the page's own by its theme.
+// Colours of authority, runs and errors, and the page's own by its theme.
 
 const COLOURS = {
   peers: [],
@@ -34,20 +34,20 @@ function curveColour(index) {
   return themed(COLOURS.runs[index % COLOURS.runs.length]);
 }
 
-// Lighter where the page is dark.
+// Returns a lighter colour in the dark theme.
 function themed(colour) {
   return COLOURS.dark ? mixColours(colour, '#ffffff', 0.35) : colour;
 }
 
-// 0..1 along the map of pictures (render/canvas/palette.h), whose equal steps look equally large.
+// Returns the colour at 0..1 of the perceptually uniform map of pictures (render/canvas/palette.h).
 function heatColour(share) {
   const at = Math.min(Math.max(share, 0), 1) * (COLOURS.heat.length - 1);
   const i = Math.min(Math.floor(at), COLOURS.heat.length - 2);
   return mixColours(COLOURS.heat[i], COLOURS.heat[i + 1], at - i);
 }
 
-// The heat of an error: a millimetre is 0, a metre 1, by the logarithm. The scale is fixed, so that
-// colours of two pages can be compared.
+// Returns the heat of an error: a millimetre is 0, a metre 1, by the logarithm. The scale is fixed,
+// so that colours of two pages can be compared.
 const HEAT_MIN = 0.001;
 const HEAT_MAX = 1;
 function heatOf(error) {

@@ -1,4 +1,4 @@
-// Buttons, lists and keys, wired to the page once it has its data.
+// Buttons, lists and keys, connected to the page once it has its data.
 
 const KEYS = [
   ['Space', 'play or pause'],

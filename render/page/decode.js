@@ -1,5 +1,5 @@
-// What the page carries: base64 of gzip of a head (JSON) and of sections of varints. The layout is
-// that of render/page/tracks.h and render/page/document.h.
+// Decodes the page's data: base64 of gzip of a head (JSON) and of sections of varints. The layout
+// is defined in render/page/tracks.h and render/page/document.h.
 'use strict';
 
 class Reader {
@@ -40,7 +40,7 @@ async function inflate(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// {head, bytes}: the sections that the head names are places in the bytes.
+// Returns {head, bytes}: the head has the places of the sections in the bytes.
 function splitData(data) {
   const length = new DataView(data.buffer).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(data.subarray(4, 4 + length)));
@@ -92,7 +92,7 @@ function readTrack(reader, count, isView) {
   return track;
 }
 
-// {first, count, world, bodies}: poses in mm and mrad, by body; errors in units of the head.
+// Returns {first, count, world, bodies}: poses in mm and mrad, by body; errors in the head's unit.
 function readTracks(bytes, section, isView) {
   const reader = new Reader(bytes, section);
   const first = reader.signed();
@@ -107,7 +107,7 @@ function readTracks(bytes, section, isView) {
   return {first, count, world, bodies};
 }
 
-// {count, root}: by tick, how many differences there are and their root mean square.
+// Returns {count, root}: by tick, the number of differences and their root mean square.
 function readSeries(bytes, section, unit) {
   const reader = new Reader(bytes, section);
   const length = reader.unsigned();
@@ -120,8 +120,8 @@ function readSeries(bytes, section, unit) {
   return {count, root};
 }
 
-// {part, width, points, rowOf, columns}: strands of a view; x and y of each point in mm, by row; and
-// which row a tick has.
+// Returns {part, width, points, rowOf, columns} for each strand of a view: x and y of each point in
+// mm, by row, and the row of each tick.
 function readStrands(bytes, section) {
   const reader = new Reader(bytes, section);
   return Array.from({length: reader.unsigned()}, () => {
@@ -139,7 +139,7 @@ function readStrands(bytes, section) {
   });
 }
 
-// [left, bottom, width, height] of each block of bricks, units of 5 cm.
+// Returns [left, bottom, width, height] of each block of bricks, units of 5 cm.
 function readBricks(bytes, section) {
   const reader = new Reader(bytes, section);
   const count = reader.unsigned();

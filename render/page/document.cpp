@@ -23,10 +23,10 @@ namespace {
 
 constexpr double kStutterUnit_mps2 = 1e-2;
 
-/// Sections one after another; equal ones are kept once.
+/// Concatenated sections; equal ones are stored once.
 class Sections {
  public:
-  /// "[offset,length]".
+  /// Adds a section, and returns its place as "[offset,length]".
   std::string Add(const PageBytes& section) {
     const auto [place, added] = known_.emplace(section, bytes_.size());
     if (added) bytes_.insert(bytes_.end(), section.begin(), section.end());
@@ -39,7 +39,7 @@ class Sections {
   std::map<PageBytes, std::size_t> known_;
 };
 
-/// [tick, round trip us, loss ppm, bytes in, bytes out] as the peer counted them.
+/// Returns [tick, round trip us, loss ppm, bytes in, bytes out] as counted by the peer.
 std::string StatsJson(const Recording& recording, int peer) {
   std::vector<std::string> rows;
   const auto found = recording.stats.find(peer);
@@ -80,7 +80,7 @@ std::string ColourJson(Colour colour) {
   return fmt::format("\"#{:02x}{:02x}{:02x}\"", colour.r, colour.g, colour.b);
 }
 
-/// Of the peers whose player has a colour in the scene: [peer, colour].
+/// Returns [peer, colour] for each peer with a player that has a colour in the scene.
 std::string ColoursJson(const Playback& playback) {
   std::vector<std::string> colours;
   for (const int peer : playback.peers()) {
@@ -91,7 +91,7 @@ std::string ColoursJson(const Playback& playback) {
   return JsonList(colours);
 }
 
-/// [kind, channel, first tick, last tick, lost]; at most so many.
+/// Returns [kind, channel, first tick, last tick, lost]; a bounded number of rows.
 std::string LossesJson(const PageRun& run) {
   constexpr std::size_t kLossesMax = 5000;
   const Recording& recording = run.playback->recording();
@@ -139,8 +139,8 @@ std::string RunJson(const PageRun& run, Sections* sections) {
       ColoursJson(playback), LossesJson(run));
 }
 
-/// The colours of pictures, so that a page and a picture of a run look alike. Heat: from 1 mm to
-/// 1 m in equal steps of the logarithm.
+/// Returns the colours of pictures, so that a page and a picture of a run look alike. Heat: from
+/// 1 mm to 1 m in equal steps of the logarithm.
 std::string PaletteJson() {
   std::vector<std::string> peers, runs, heat;
   for (int i = 0; i <= 3 * kPeerHues; ++i) peers.push_back(ColourJson(PeerColour(i)));
@@ -151,7 +151,7 @@ std::string PaletteJson() {
                      JsonList(heat));
 }
 
-/// Puts `value` where the template says {{name}}.
+/// Replaces {{name}} in the template by `value`.
 void Fill(std::string* text, const std::string& name, const std::string& value) {
   const std::string mark = "{{" + name + "}}";
   const std::size_t at = text->find(mark);

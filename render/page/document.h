@@ -1,5 +1,5 @@
 #pragma once
-/// A review page: one HTML file with all views of some recordings in it, that needs nothing else.
+/// A review page: one self-contained HTML file with all views of some recordings.
 
 #include <string>
 #include <vector>
@@ -11,17 +11,17 @@ namespace seam {
 
 /// One recording of a page.
 struct PageRun {
-  std::string name;  ///< what to call it: "crossing-rollback"
+  std::string name;  ///< its displayed name: "crossing-rollback"
   const Playback* playback = nullptr;
-  std::string path = {};  ///< of its log, for what the logger missed; "": not looked for
+  std::string path = {};  ///< path of its log, to find messages the logger missed; "": skip that
 };
 
-/// What a page carries, before it is compressed: the head's length in bytes (4 bytes, the lowest
-/// first), the head (JSON; it says where each section is), the sections.
+/// Returns a page's data before compression: the head's length in bytes (4 bytes, the lowest
+/// first), the head (JSON, with the place of each section), the sections.
 PageBytes PageData(const std::vector<PageRun>& runs);
 
-/// The page. Text of a recording stands in it as compressed JSON only, so that no name can become
-/// markup.
+/// Returns the page. Texts of a recording are in it as compressed JSON only, so that no name can
+/// become markup.
 std::string PageHtml(const std::vector<PageRun>& runs);
 
 }  // namespace seam

@@ -31,7 +31,7 @@ PageEvent Make(std::int64_t tick, const char* kind, int peer, double size, std::
   return event;
 }
 
-/// Looked for in short windows, since only a few of a window are marked.
+/// Finds impacts in short windows, since only a few impacts of a window are marked.
 std::vector<PageEvent> FindImpacts(const Playback& playback) {
   std::vector<PageEvent> events;
   const Recording& recording = playback.recording();
@@ -86,11 +86,11 @@ std::vector<PageEvent> FindEdits(const Playback& playback) {
   return events;
 }
 
-/// Ticks that a peer did not show, and peers that begin late.
+/// Finds ticks without a view, peers that begin late or end early, and recorded notes.
 std::vector<PageEvent> FindPresence(const Playback& playback) {
   std::vector<PageEvent> events;
   const Recording& recording = playback.recording();
-  const std::int64_t near = playback.tick_hz() / 10;  // as good as together
+  const std::int64_t near = playback.tick_hz() / 10;  // ticks that count as simultaneous
   for (const auto& [peer, views] : recording.views) {
     if (views.empty()) continue;
     const std::string name = playback.PeerName(peer);

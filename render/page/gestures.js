@@ -59,7 +59,7 @@ function setWipe(page, share) {
   page.changed();
 }
 
-// About a point that stays where it is.
+// Zooms about a point that keeps its place.
 function zoom(page, factor, viewport, px, py) {
   const [x, y] = [viewport.worldX(px), viewport.worldY(py)];
   const camera = {...page.camera};
@@ -139,7 +139,7 @@ function wireStrip(page) {
   onDrag($('marks'), (event) => goToMark(page, pointIn($('marks'), event)[0]), () => {});
 }
 
-// To the event under the pointer, or to the tick.
+// Jumps to the event under the pointer, or to the tick.
 function goToMark(page, px) {
   const near = page.events()
                    .map((event) => ({event, far: Math.abs(page.marks.x(event.at) - px)}))

@@ -8,7 +8,7 @@ namespace seam {
 
 PageBytes Gzip(const PageBytes& bytes) {
   z_stream stream{};
-  constexpr int kWindowBits = 15 + 16;  // the largest, and gzip's header
+  constexpr int kWindowBits = 15 + 16;  // the largest window, plus 16 for gzip's header
   SEAM_ASSERT(deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kWindowBits, 9,
                            Z_DEFAULT_STRATEGY) == Z_OK);
   PageBytes packed(deflateBound(&stream, bytes.size()));

@@ -1,5 +1,5 @@
 #pragma once
-/// Bytes made small and then text, for a page that carries its data.
+/// Compression and text encoding of the data in a review page.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace seam {
 
-/// A gzip stream (RFC 1952) without name and time: the same bytes give the same stream.
+/// Returns a gzip stream (RFC 1952) without name and time: the same bytes give the same stream.
 PageBytes Gzip(const PageBytes& bytes);
 
-/// RFC 4648, with padding. Its letters mean nothing in HTML.
+/// Encodes by RFC 4648, with padding. The result has no characters that are special in HTML.
 std::string Base64(const PageBytes& bytes);
 
 }  // namespace seam

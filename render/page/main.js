@@ -1,4 +1,4 @@
-// The page: what is shown where, and what clicks, drags and keys do.
+// The page: layout of the panels, and the actions of clicks, drags and keys.
 
 const $ = (id) => document.getElementById(id);
 
@@ -23,8 +23,8 @@ class Page {
     readFragment(this.runs);
   }
 
-  // Two views side by side: of two runs, or of one run's first and last client; in a large room of
-  // its first client and the server, because clients may show only what they hold.
+  // Shows two views side by side: of two runs, or of one run's first and last client; in a large
+  // room of its first client and the server, because clients may show only held bodies.
   firstPanels() {
     const [first, second] = this.runs;
     const clientOf = (run) => (run.views.find((view) => view.peer > 0) || run.views[0]).peer;
@@ -37,8 +37,8 @@ class Page {
     }
   }
 
-  // The strongest impact on the panels, and what moves around it; without one, the first tick that
-  // all panels show.
+  // Jumps to the strongest impact on the panels, fitting the bodies that move around it; without
+  // one, to the first tick that all panels show.
   firstMoment() {
     const views = this.views();
     const first = (view) => Math.max(0, view.tracks.world.findIndex((world) => world >= 0));
@@ -54,7 +54,7 @@ class Page {
   views() {
     return state.panels.map(({run, peer}) => this.runs[run].view(peer));
   }
-  // The events of the runs on the panels, each once.
+  // Returns the events of the runs on the panels, each once.
   events() {
     const runs = new Set(this.views().map((view) => view.run));
     return [...runs]
@@ -66,7 +66,7 @@ class Page {
     return state.range || [0, this.player.last];
   }
 
-  // Draws once before the next frame, however much has changed.
+  // Draws once before the next frame, whatever the number of changes.
   changed() {
     if (this.drawing) return;
     this.drawing = true;
@@ -76,7 +76,7 @@ class Page {
     });
   }
 
-  // Rectangles of the panels on the canvas: in the columns that show the scene largest.
+  // Returns the panels' rectangles on the canvas: in the columns that show the scene largest.
   layout(width, height) {
     const count = state.mode === 'side' ? state.panels.length : 1;
     const [minX, minY, maxX, maxY] = this.views()[0].run.camera;
@@ -146,7 +146,7 @@ class Page {
     this.marks.draw(this.events(), state.tick, this.player.last);
     this.losses.draw(state.tick, this.player.last);
     this.drawControls(views);
-    // Tables are slow to lay out: four times a second while it plays.
+    // Tables are slow to lay out: updated four times a second while playing.
     if (!state.playing || !(now_ms - this.tables_ms < 250)) {
       this.tables_ms = now_ms;
       this.drawTables(views);
@@ -213,7 +213,7 @@ class Page {
     this.changed();
   }
 
-  // To a body at a tick, near enough to see it and where it should be.
+  // Moves to a body at a tick, near enough to see its displayed and its true place.
   showBody({tick, view, id}, text) {
     this.player.pause();
     state.follow = null;

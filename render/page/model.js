@@ -1,5 +1,5 @@
-// Runs and views as they are asked for by the panels, the strip and the table. Ticks are counted
-// from the recording's first one; lengths are metres.
+// Runs and views for the panels, the strip and the table. Ticks are counted from the recording's
+// first one; lengths are metres.
 
 const MEASURES = {
   error: {name: 'Error', unit: 'm', log: true, each: 'body and tick'},
@@ -26,7 +26,7 @@ class View {
   label() {
     return this.run.page.runs.length > 1 ? `${this.run.name} · ${this.name}` : this.name;
   }
-  // The world that is shown at a tick; the last one known where the view is missing.
+  // Returns the world shown at a tick; the last known one where the view is missing.
   worldAt(tick) {
     for (let i = Math.min(Math.floor(tick), this.tracks.count - 1); i >= 0; --i)
       if (this.tracks.world[i] >= 0) return this.run.worlds[this.tracks.world[i]];
@@ -37,7 +37,7 @@ class View {
     const units = track ? track.error[Math.floor(tick)] : undefined;
     return units === undefined || units < 0 ? null : units * this.units.error;
   }
-  // By tick, NaN where nothing is known.
+  // Returns errors by tick, NaN where unknown.
   curve(measure) {
     return (this.curves[measure] = this.curves[measure] || this.makeCurve(measure));
   }
@@ -63,7 +63,7 @@ class View {
     }
     return sum.map((value, i) => (known[i] > 0 ? Math.sqrt(value / known[i]) : NaN));
   }
-  // Steps from one second's counters to the next.
+  // Returns a curve by tick from the peer's counters, one step for each second.
   statsCurve(measure) {
     const curve = new Float64Array(this.tracks.count).fill(NaN);
     for (let k = 1; k < this.stats.length; ++k) {
@@ -93,7 +93,7 @@ class Run {
     this.waters = drawn.waters;
     this.bricks = readBricks(bytes, head.bricks);
     this.regions = drawn.regions;
-    this.held = drawn.held / 1000;  // margin around what a peer holds, m; 0: regions are fixed
+    this.held = drawn.held / 1000;  // margin around held bodies, m; 0: regions are fixed
     this.motions = new Map(drawn.motions.map((motion) => [motion.id, motion.path]));
     this.worlds = drawn.worlds.map((world) => makeWorld(world, drawn.bodies));
     this.views = head.views.map((view) => new View(this, view, bytes, units));
@@ -120,8 +120,8 @@ function makeWorld(world, bodies) {
   };
 }
 
-// [x, y, angle] in metres and radians, on the straight way between ticks; null where the body is
-// not known.
+// Returns [x, y, angle] in metres and radians, interpolated linearly between ticks; null where the
+// body is not known.
 function poseOf(track, tick) {
   if (!track) return null;
   const i = Math.max(0, Math.floor(tick));
@@ -132,8 +132,8 @@ function poseOf(track, tick) {
   return [mix(track.x), mix(track.y), mix(track.a)];
 }
 
-// Where regions are not fixed, the box around all that each client has authority over in a view:
-// [{peer, corners}] by peer, corners in millimetres.
+// Returns the regions where they are not fixed, the box around the bodies under each client's
+// authority in a view: [{peer, corners}] by peer, corners in millimetres.
 function heldRegions(view, tick) {
   const boxes = new Map();
   if (view.run.held === 0) return [];
@@ -166,15 +166,15 @@ function anchoredPose(run, entry, tick) {
   return [0, 1, 2].map((k) => (path[3 * i + k] * (1 - blend) + path[3 * j + k] * blend) / 1000);
 }
 
-// The least value that at least `share` of all do not exceed, as seam-measure has it.
+// Returns the least value that at least `share` of all do not exceed, as in seam-measure.
 function percentile(values, share) {
   if (values.length === 0) return NaN;
   const sorted = Float64Array.from(values).sort();
   return sorted[Math.max(1, Math.ceil(share * sorted.length)) - 1];
 }
 
-// {rms, p95, max, count} of a measure over views, from tick `from` to `to`, both included: what
-// seam-measure --from --to prints of the same views.
+// Returns {rms, p95, max, count} of a measure over views, from tick `from` to `to`, both included;
+// equals the output of seam-measure --from --to for the same views.
 function rangeStats(views, measure, from, to) {
   const values = [];
   let sum = 0;
@@ -188,7 +188,7 @@ function rangeStats(views, measure, from, to) {
       }
       continue;
     }
-    // The three ticks of a difference lie in the range.
+    // All three ticks of a difference must lie in the range.
     const begin = measure === 'stutter' ? from + 2 : from;
     const curve = view.curve(measure);
     const weights = view[measure] && view[measure].count;
@@ -213,7 +213,7 @@ function rangeStats(views, measure, from, to) {
   };
 }
 
-// The tick and body of the largest error of some views; null without an oracle.
+// Returns tick and body of the largest error of some views; null without an oracle.
 function worstMoment(views) {
   let worst = null;
   for (const view of views) {
@@ -226,7 +226,7 @@ function worstMoment(views) {
   return worst;
 }
 
-// The first tick at which a body of some views is a centimetre or more from the oracle.
+// Returns the first tick at which a body of some views is a centimetre or more from the oracle.
 const DIVERGED = 0.01;
 function firstDivergence(views) {
   let first = null;

@@ -1,4 +1,4 @@
-// One view on one panel, with the layers that are switched on.
+// One view on one panel, with the enabled layers.
 
 const TRAIL_SECONDS = 0.75;
 const SPARK_SECONDS = 0.5;
@@ -9,7 +9,7 @@ function moved(track, tick, span, pixels, scale) {
   return now && then && Math.hypot(now[0] - then[0], now[1] - then[1]) * scale > pixels;
 }
 
-// One dot for each tick, where the body was in it.
+// Draws a body's trail: one dot for each tick.
 function drawDots(c, viewport, view, tick) {
   const span = Math.round(TRAIL_SECONDS * view.run.hz);
   for (const track of view.tracks.bodies.values()) {
@@ -37,7 +37,7 @@ function visitTruth(view, tick, visit) {
   }
 }
 
-// The oracle's outline, the stronger the farther the view is from it.
+// Draws the oracle's outline, stronger with the distance of the view from it.
 function drawTruth(c, viewport, view, tick) {
   c.strokeStyle = COLOURS.theme.ink;
   c.lineWidth = 1.2;
@@ -110,7 +110,7 @@ function drawLabel(c, text, x, y, colour) {
   c.fillText(text, x, y);
 }
 
-// Whose view it is, in an upper corner of the panel.
+// Draws the name of the view's peer, in an upper corner of the panel.
 function drawTitle(c, rect, text, colour, side) {
   c.save();
   c.font = '600 12px system-ui, sans-serif';
@@ -126,7 +126,7 @@ function drawTitle(c, rect, text, colour, side) {
   c.restore();
 }
 
-// The highest point of a body, m.
+// Returns the highest point of a body, m.
 function topOf(body, pose) {
   const [sin, cos] = [Math.sin(pose[2]), Math.cos(pose[2])];
   let top = pose[1];
@@ -138,7 +138,8 @@ function topOf(body, pose) {
   return top;
 }
 
-// Names of players' own bodies always, all on request; one that would cover another is left out.
+// Draws names: of players' own bodies always, of all bodies on request. Skips a name that would
+// cover another.
 function drawNames(c, viewport, view, seen) {
   const taken = [];
   for (const {body, pose} of seen) {
@@ -178,7 +179,7 @@ function drawHeatScale(c, rect, what) {
   c.fillText('1 m', x + width, y - 4);
 }
 
-// Bodies where they were, every 0.15 s of the last 0.75 s, the older the paler.
+// Draws earlier poses of bodies, every 0.15 s of the last 0.75 s, older ones paler.
 function drawOnion(c, viewport, view, tick) {
   const step = Math.max(1, Math.round(TRAIL_SECONDS * view.run.hz / 5));
   for (let k = 5; k >= 1; --k) {
@@ -217,14 +218,14 @@ function drawStrands(c, viewport, view, tick) {
   }
 }
 
-// How far apart two views show a body, m; null where one does not.
+// Returns the distance of a body in two views, m; null where a view lacks it.
 function apartOf(id, first, second, tick) {
   const from = poseOf(first.tracks.bodies.get(id), tick);
   const to = poseOf(second.tracks.bodies.get(id), tick);
   return from && to ? Math.hypot(from[0] - to[0], from[1] - to[1]) : null;
 }
 
-// Bodies of a view; `errorOf`: by what they are coloured, or nothing.
+// Draws the bodies of a view. `errorOf`: error for a body's colour, or nothing.
 function drawBodies(c, viewport, view, tick, alpha, errorOf) {
   const seen = [];
   for (const body of view.worldAt(tick).moving) {
@@ -246,7 +247,7 @@ function drawBodies(c, viewport, view, tick, alpha, errorOf) {
   return seen;
 }
 
-// The second view pale, the first over it, coloured by how far they are apart and joined by arrows.
+// Draws the second view pale, and the first over it, coloured by distance and joined by arrows.
 function drawDifference(c, viewport, first, second, tick) {
   drawBodies(c, viewport, second, tick, 0.35);
   const seen = drawBodies(
@@ -262,7 +263,7 @@ function drawDifference(c, viewport, first, second, tick) {
   return seen;
 }
 
-// `second`: the view that a difference is taken from, or nothing.
+// Draws a panel. `second`: the view to take the difference from, or nothing.
 function drawPanel(c, rect, camera, view, tick, second) {
   const viewport = new Viewport(rect, camera);
   const world = view.worldAt(tick);

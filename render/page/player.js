@@ -1,4 +1,4 @@
-// Time: what the clock, the keys and the buttons do with the tick.
+// Time: moves the tick by the clock, the keys and the buttons.
 
 class Player {
   constructor(runs, changed) {
@@ -46,7 +46,7 @@ class Player {
     state.speed = SPEEDS[Math.min(Math.max(at, 0), SPEEDS.length - 1)];
     this.changed();
   }
-  // The next event after (or before) now; `at` of an event is counted as the tick is.
+  // Jumps to the next event after (or before) now; an event's `at` counts ticks as state.tick does.
   jump(events, way) {
     const found = way > 0 ? events.find((event) => event.at > state.tick) :
                             [...events].reverse().find((event) => event.at < state.tick);

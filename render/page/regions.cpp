@@ -14,7 +14,7 @@ std::vector<PageRegion> RegionsOfPage(const Playback& playback) {
   std::vector<PageRegion> regions;
   const std::optional<Mode> mode = playback.mode();
   if (mode != Mode::kStrict && mode != Mode::kBuffer) return regions;
-  if (playback.scene().planner->given) return regions;  // they decide nothing
+  if (playback.scene().planner->given) return regions;  // regions do not decide
   for (const int peer : playback.peers()) {
     const int index = playback.PlayerOf(peer);
     if (index < 0) continue;

@@ -1,4 +1,4 @@
-// Files that a person takes away: a picture as PNG or SVG, and numbers as CSV.
+// Downloads: a picture as PNG or SVG, and numbers as CSV.
 
 function saveBlob(blob, name) {
   const link = element('a', '', {href: URL.createObjectURL(blob), download: name});
@@ -10,7 +10,7 @@ function escapeXml(text) {
   return String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
 
-// Records what is drawn on a canvas's context as SVG: the calls that shapes.js and panel.js make.
+// Records drawing calls of a canvas's context as SVG: those that shapes.js and panel.js use.
 class SvgContext {
   constructor(width, height) {
     this.parts = [];
@@ -113,7 +113,7 @@ function csvText(text) {
   return /[",\n\r]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
 }
 
-// A row for each tick, view and body: the poses of the page, in millimetres' precision.
+// Returns a row for each tick, view and body: the page's poses, rounded to millimetres.
 function csvOf(views, range) {
   const lines = ['run,tick,time_s,view,body,x,y,angle,error_m'];
   for (const view of views) {

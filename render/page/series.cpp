@@ -15,7 +15,7 @@ PageSeries EmptySeries(const Recording& recording) {
   return series;
 }
 
-/// One peer's views of one body, where it is not that peer's own.
+/// Adds the path errors of one body in one peer's views, where it is not that peer's own.
 void AddPathErrors(const Recording& recording, const std::vector<const View*>& views,
                    const BodyPath& truth, const RevisionHistory* changing, PartId id,
                    Screen& screen, std::vector<MeanSquare>* series) {

@@ -1,5 +1,5 @@
-// Bodies, ground, water and regions on a panel. `c` is a canvas's context, or what records the same
-// calls as SVG (save.js).
+// Bodies, ground, water and regions on a panel. `c` is a canvas's context, or a recorder of the
+// same calls as SVG (save.js).
 
 function tracePolygon(c, viewport, points, pose, closed) {
   const cos = Math.cos(pose[2]);
@@ -34,7 +34,7 @@ function traceBody(c, viewport, body, pose) {
   for (const shape of body.shapes) traceOutline(c, viewport, shape, pose);
 }
 
-// A radius of each disc, by which a turn is seen.
+// Adds a radius to each disc, so that its rotation is visible.
 function traceSpokes(c, viewport, body, pose) {
   c.beginPath();
   for (const [kind, radius, ...points] of body.shapes) {
@@ -59,8 +59,8 @@ function strokeBody(c, viewport, body, pose) {
   c.stroke();
 }
 
-// Filled by whose it is: full where the owner shows it, lighter where it is followed, palest where
-// it is only displayed.
+// Returns a body's fill colour by authority: full in the authority's view, lighter where the body
+// is followed, palest where it is only displayed.
 function bodyFill(owner, role, heat) {
   if (heat !== null) return heatColour(heatOf(heat));
   const share = role === 0 ? 0 : role === 1 ? 0.45 : 0.75;
@@ -102,7 +102,7 @@ function drawGrid(c, viewport) {
   return step;
 }
 
-// How long a step of the grid is.
+// Draws a bar with the length of a step of the grid.
 function drawScaleBar(c, viewport, step) {
   const {rect} = viewport;
   const right = rect.x + rect.width - 12;
@@ -158,7 +158,7 @@ function traceBlocks(c, viewport, blocks, pad = 0) {
   }
 }
 
-// Many bricks are drawn once for a camera and kept as a picture, for each run.
+// Draws many bricks once for a camera, and keeps the picture for each run.
 const brickPictures = new Map();
 
 function drawBricks(c, viewport, run) {
@@ -197,7 +197,7 @@ function drawGround(c, viewport, run, world, tick) {
   drawBricks(c, viewport, run);
   if (world.holes.length > 0) {
     c.fillStyle = COLOURS.theme.panel;
-    traceBlocks(c, viewport, world.holes, 0.7);  // and the soft edges of what was there
+    traceBlocks(c, viewport, world.holes, 0.7);  // also erases the antialiased edges
     c.fill();
     c.fillStyle = COLOURS.theme.ground;
   }
@@ -212,7 +212,7 @@ function drawGround(c, viewport, run, world, tick) {
   }
 }
 
-// Ground that is a line across the panel is filled below.
+// Fills the area below ground that is a line across the panel.
 function shadeBelow(c, viewport, points, pose) {
   for (let i = 4; i < points.length; i += 2)
     if ((points[i] - points[i - 2]) * (points[2] - points[0]) <= 0) return;

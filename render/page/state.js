@@ -1,5 +1,4 @@
-// What the person who looks has chosen, and its place in the address, so that a link shows the
-// same.
+// The viewer's choices, stored in the address, so that a link shows the same page.
 
 const LAYERS = {
   truth: {name: 'Oracle', key: 'o', hint: 'outline of the truth where the view differs'},
@@ -51,7 +50,7 @@ function writeFragment() {
 
 const numbersOf = (text) => text.split(',').map(Number);
 
-// Takes what makes sense for these runs; the rest stays as it is.
+// Applies the choices that are valid for these runs; the rest stays as it is.
 function readFragment(runs) {
   const words = new Map(
       location.hash.slice(1).split('&').map((word) => [word.split('=')[0], word.split('=')[1]]));

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// One strand over time.
+/// The points of one strand over time.
 struct StrandPath {
   std::vector<std::int64_t> ticks;
   std::vector<std::vector<std::int64_t>> columns;  ///< mm: x and y of each point, by tick

@@ -1,8 +1,8 @@
 #pragma once
 /// Strands of a view (hair, flags) as columns of a review page.
 ///
-/// A section, all numbers varints: number of strands; of each: its index in the scene, the part it
-/// hangs on, its width in mm, its points, how many ticks it is known in; these ticks, then x and y
+/// Format of a section, all numbers varints: number of strands; for each: its index in the scene,
+/// its part, its width in mm, the number of points, the number of ticks; these ticks, then x and y
 /// of each point in mm, as columns of first differences over the ticks.
 
 #include "render/page/column.h"
@@ -10,7 +10,7 @@
 
 namespace seam {
 
-/// Empty where the peer showed none.
+/// Returns the section of a peer; empty if its views have no strands.
 PageBytes EncodeStrands(const Playback& playback, int peer);
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-// A measure over time, a curve for each view; and the marks of events above it.
+// The strip: a measure over time, a curve for each view, with the marks of events above.
 
 const STRIP = {
   left: 52,
@@ -20,7 +20,7 @@ class Strip {
   constructor(canvas) {
     this.canvas = canvas;
   }
-  // Ticks to px and back.
+  // Converts ticks to px and back.
   x(tick) {
     return STRIP.left + this.plotWidth() * tick / Math.max(1, this.last);
   }
@@ -147,9 +147,9 @@ function axisLength(metres) {
 }
 
 const LOSS_ROW_PX = 24;
-// When and where something was lost: a row for each channel, a mark for each loss.
+// Lost messages over time: a row for each channel, a mark for each loss.
 class Losses extends Strip {
-  // Rows of [label, [[from, to, lost, kind], ...]] in ticks since the first.
+  // Returns rows of [label, [[from, to, lost, kind], ...]] in ticks since the first.
   rowsOf(runs) {
     const rows = new Map();
     for (const run of runs) {
@@ -162,8 +162,8 @@ class Losses extends Strip {
     }
     return [...rows].sort((a, b) => (a[0] < b[0] ? -1 : 1));
   }
-  // Takes its place on the page, before the widths of the other canvases are asked for: with it the
-  // page may get a scroll bar.
+  // Sets rows and height of the canvas. Call before the widths of the other canvases are read,
+  // since the page may get a scroll bar.
   place(runs) {
     this.rows = this.rowsOf(runs);
     this.canvas.hidden = this.rows.length === 0;
@@ -194,7 +194,7 @@ class Losses extends Strip {
     c.fillStyle = COLOURS.theme.ink;
     c.fillRect(this.x(tick) - 0.6, 0, 1.2, this.height);
   }
-  // The loss at a place of the canvas in words; nothing where there is none.
+  // Returns a text about the loss at a place of the canvas; nothing where there is none.
   textAt(x, y, seconds) {
     const row = this.rows && this.rows[Math.floor(y / LOSS_ROW_PX)];
     if (!row) return '';
@@ -208,7 +208,7 @@ class Losses extends Strip {
   }
 }
 
-// The marks: one line for each event, by kind; a click goes to the nearest.
+// The marks: one line for each event, by kind. A click jumps to the nearest.
 class Marks extends Strip {
   draw(events, tick, last) {
     const c = this.prepare(last);

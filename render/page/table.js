@@ -1,5 +1,5 @@
-// Bodies by their error, and what a range of time comes to. Text of a recording goes into elements
-// as text alone.
+// Tables: bodies by error, and measures over a range of time. Texts of a recording are inserted as
+// text nodes only.
 
 const TABLE_ROWS_MAX = 100;
 
@@ -15,7 +15,7 @@ function swatch(colour) {
   return made;
 }
 
-// A body on one view: its error now and at worst in the range.
+// A body in one view: its error now and the greatest in the range.
 function bodyRow(view, track, tick, [from, to]) {
   let worst = -1;
   for (let i = from; i <= Math.min(to, track.error.length - 1); ++i)
@@ -30,7 +30,8 @@ function bodyRow(view, track, tick, [from, to]) {
   };
 }
 
-// Bodies of all views with the largest error of any, the largest first, what is not shown last.
+// Returns the bodies of all views with the largest error of any view, the largest first, bodies
+// that are not shown last.
 function bodyRows(views, tick, range) {
   const rows = new Map();
   for (const view of views) {
@@ -64,7 +65,7 @@ function fillBodyTable(body, views, tick, range, onFollow) {
   }));
 }
 
-// A row for each view on a panel, and one for all views of its run.
+// Returns a row for each view on a panel, and one for all views of its run.
 function rangeRows(views, measure, range) {
   const runs = [...new Set(views.map((view) => view.run))];
   const rows = views.map((view, i) => ({name: view.label(), colour: curveColour(i), of: [view]}));

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// From one sample on to the next hole: [begin, end) of the samples.
+/// Samples without a gap: [begin, end).
 struct Span {
   std::size_t begin = 0, end = 0;
 };

@@ -15,8 +15,8 @@ std::string Point(const Vec2& p) {
   return fmt::format("{},{}", Thousandths(double{p.x()}), Thousandths(double{p.y()}));
 }
 
-/// [kind, radius, x, y, ...]: 0 a polygon, 1 a disc (centre, rim point), 2 ground's chain, 3 a
-/// line.
+/// Returns [kind, radius, x, y, ...]; kind 0: polygon, 1: disc (centre, rim point), 2: chain of
+/// ground, 3: line.
 std::string OutlineJson(const Outline& outline) {
   const bool disc = outline.kind == ShapeKind::kCircle;
   const bool chain = outline.kind == ShapeKind::kChain;
@@ -59,7 +59,7 @@ std::string RegionsJson(const Playback& playback) {
   return JsonList(regions);
 }
 
-/// Tick by tick where an imposed motion has the anchored body: [x, y, angle, ...].
+/// Returns the poses of a kinematic body tick by tick: [x, y, angle, ...].
 std::string MotionJson(const Playback& playback, const BodyShapes& body) {
   std::vector<std::string> numbers;
   const Recording& recording = playback.recording();
@@ -70,7 +70,7 @@ std::string MotionJson(const Playback& playback, const BodyShapes& body) {
   return fmt::format(R"({{"id":{},"path":{}}})", body.id, JsonList(numbers));
 }
 
-/// Bricks that blasts have freed until then: [left, bottom, width, height], units of 5 cm.
+/// Returns the bricks that blasts have freed so far: [left, bottom, width, height], units of 5 cm.
 std::string HolesJson(const Scene& scene) {
   std::vector<std::string> holes;
   for (const Brick& brick : FreedBricks(scene.bricks, scene.parts)) {
@@ -132,7 +132,7 @@ std::string PageWorlds::Json() const {
 
 PageBytes EncodeBricks(const Playback& playback) {
   std::vector<std::int64_t> columns[4];
-  const auto first = playback.RevisionAfter(0);  // what is blown out later is in the worlds' holes
+  const auto first = playback.RevisionAfter(0);  // bricks freed later are in the worlds' holes
   const FeatherStore* store = first->bricks.get();
   for (int cell = 0; store != nullptr && cell < store->cell_count(); ++cell) {
     for (const BrickBlock& b : BlocksOf(*store, cell)) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What a recording's bodies look like, as the JSON of a review page: each body once, and each
-/// world (a revision of the scene) as a list of bodies, joints, waters, bricks and regions.
+/// Shapes of a recording's bodies, as the JSON of a review page: each body once, and each world (a
+/// revision of the scene) as a list of bodies, joints, waters, bricks and regions.
 
 #include <cstdint>
 #include <map>
@@ -19,9 +19,9 @@ class PageWorlds {
   /// `playback` must outlive this.
   explicit PageWorlds(const Playback& playback);
 
-  /// The index of the world after so many edits; it is made when it is asked for.
+  /// Returns the index of the world after `edits` edits; creates it at the first call.
   int IndexOf(int edits);
-  /// {"bodies":[...],"worlds":[...],"moved":[...],...}; call it last.
+  /// Returns {"bodies":[...],"worlds":[...],"moved":[...],...}; call it last.
   std::string Json() const;
 
  private:
@@ -34,8 +34,8 @@ class PageWorlds {
   std::map<std::string, int> pooled_;
 };
 
-/// A scene's bricks as few rectangles, units of 5 cm: how many, then as first differences all left
-/// edges, all lower edges, all widths and all heights.
+/// Encodes a scene's bricks as few rectangles, units of 5 cm: their number, then as first
+/// differences all left edges, all lower edges, all widths and all heights.
 PageBytes EncodeBricks(const Playback& playback);
 
 /// A region of a player, or its buffer zone: a polygon, m.
@@ -46,8 +46,8 @@ struct PageRegion {
   std::vector<Vec2> corners;
 };
 
-/// All regions that a page shows: the one place that says what a region looks like. Empty where the
-/// mode has none.
+/// Returns all regions that a page shows; the only definition of their shape. Empty where the mode
+/// has none.
 std::vector<PageRegion> RegionsOfPage(const Playback& playback);
 
 }  // namespace seam

@@ -14,11 +14,11 @@ constexpr double kSamplesPerSecond = 30;
 constexpr double kSmooth_s = 0.12;  ///< standard deviation of the smoothing in time
 constexpr float kMargin = 0.06f;    ///< of the box, on each side
 constexpr float kLeast_m = 1.5f;    ///< the smallest height and width that are shown
-constexpr float kAlone = 3;         ///< what a single body is shown with, of its own size
-constexpr float kMoved_m = 0.1f;    ///< what moves less does not widen the picture
+constexpr float kAlone = 3;         ///< box around a single body, in multiples of its size
+constexpr float kMoved_m = 0.1f;    ///< bodies that move less are not fitted
 constexpr float kTurned_rad = 0.3f;
 
-/// Visits each of the bodies as truth and view have it.
+/// Visits the poses of each body in the oracle and in the view.
 template <class Visit>
 void ForEachPose(const CameraView& view, const std::set<PartId>* only, double s, Visit visit) {
   const Playback& playback = *view.playback;
@@ -39,8 +39,8 @@ std::vector<double> Samples(double from_s, double to_s) {
   return times;
 }
 
-/// Each box the mean of its neighbours by a Gaussian in time; where that would cut off more than
-/// the margin, as large as it must be.
+/// Smooths boxes by a Gaussian in time, and enlarges a box where smoothing would cut off more than
+/// the margin.
 std::vector<WorldBox> Smoothed(const std::vector<WorldBox>& raw) {
   const double sigma = kSmooth_s * kSamplesPerSecond;
   const int reach = static_cast<int>(std::ceil(2 * sigma));
@@ -49,7 +49,7 @@ std::vector<WorldBox> Smoothed(const std::vector<WorldBox>& raw) {
   for (int i = 0; i < count; ++i) {
     Vec2 min(0, 0), max(0, 0);
     float sum = 0;
-    // The same number of neighbours on both sides, or the ends would be drawn inwards.
+    // The same number of neighbours on both sides; otherwise the ends would be pulled inwards.
     const int near = std::min({reach, i, count - 1 - i});
     for (int k = -near; k <= near; ++k) {
       const auto weight = static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)));
@@ -69,7 +69,7 @@ std::vector<WorldBox> Smoothed(const std::vector<WorldBox>& raw) {
 
 WorldBox SceneBox(const Scene& scene) { return {scene.camera.min, scene.camera.max}; }
 
-/// The part of a name, or a player's vehicle.
+/// Returns the part with a name, or the vehicle of the player with that name.
 PartId PartNamed(const Scene& scene, const std::string& name) {
   for (const Part& part : scene.parts) {
     if (part.name == name) return part.id;
@@ -86,7 +86,7 @@ PartId PartNamed(const Scene& scene, const std::string& name) {
                       DidYouMean(name, known));
 }
 
-/// Where a part is, in truth if that is known.
+/// Returns the position of a part, in the oracle if known, else in the view.
 std::optional<Vec2> PlaceOf(const CameraView& view, PartId part, double s) {
   const Playback& playback = *view.playback;
   const double tick = playback.TickAt(s);
@@ -96,7 +96,7 @@ std::optional<Vec2> PlaceOf(const CameraView& view, PartId part, double s) {
   return std::nullopt;
 }
 
-/// Fills what is empty from its neighbours, `otherwise` where all are.
+/// Fills empty boxes from their neighbours, with `otherwise` if all are empty.
 void FillHoles(std::vector<WorldBox>* boxes, const WorldBox& otherwise) {
   WorldBox last = otherwise;
   for (const WorldBox& box : *boxes) {
@@ -190,7 +190,7 @@ CameraPath::CameraPath(const std::vector<CameraView>& views, const CameraWish& w
       wish.bodies.empty() ? MovingBodies(views, from_s, to_s) : wish.bodies;
   for (const double s : times) {
     WorldBox box = BoxOf(views, bodies, s);
-    // Something flung out of the scene's picture must not make the rest of it tiny.
+    // A body flung out of the scene's box must not make the rest of the picture tiny.
     if (!box.empty() && wish.bodies.empty()) {
       const WorldBox cut{box.min.cwiseMax(own.min), box.max.cwiseMin(own.max)};
       if (!cut.empty() && cut.min.y() < cut.max.y()) box = cut;

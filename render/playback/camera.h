@@ -1,6 +1,6 @@
 #pragma once
-/// Which part of the world a sequence shows at each moment: the same for all panels of a page, and
-/// without a jitter of its own.
+/// The camera of a sequence: the displayed box of the world at each moment, the same for all panels
+/// of a page, and smoothed against jitter.
 
 #include <string>
 #include <vector>
@@ -18,25 +18,25 @@ struct WorldBox {
   Vec2 size() const { return max - min; }
   Vec2 centre() const { return (min + max) / 2; }
   void Add(const Vec2& p, float radius);
-  /// A body's outlines at a pose.
+  /// Adds a body's outlines at a pose.
   void Add(const BodyShapes& body, const Pose& pose);
   void Add(const WorldBox& other);
 };
 
-/// What was asked of the camera.
+/// Requested camera.
 struct CameraWish {
   enum class Kind {
-    kFit,     ///< what moves, as large as the panel allows
-    kScene,   ///< the scene's own box, or about the part that its camera follows
+    kFit,     ///< moving bodies, as large as the panel allows
+    kScene,   ///< the scene's own box, or one about the part that its camera follows
     kFixed,   ///< a place and a height
-    kFollow,  ///< a part, with as much around it as `height` says
+    kFollow,  ///< a part, with a box of `height` around it
   };
   Kind kind = Kind::kFit;
-  std::string part;   ///< kFollow: by its name, or a player's: the player's vehicle
+  std::string part;   ///< kFollow: name of a part, or of a player for the player's vehicle
   Vec2 centre{0, 0};  ///< kFixed, m
-  float height = 0;   ///< kFixed, kFollow: m that are visible; 0: the scene's box
-  float zoom = 1;     ///< of all kinds: so many times larger
-  /// kFit: only these bodies are fitted (assembly ids); empty: all that move.
+  float height = 0;   ///< kFixed, kFollow: visible height, m; 0: the scene's box
+  float zoom = 1;     ///< magnification, for all kinds
+  /// kFit: bodies to fit (assembly ids); empty: all moving ones.
   std::set<PartId> bodies;
 };
 
@@ -46,14 +46,15 @@ struct CameraView {
   int peer = 0;
 };
 
+/// The camera over time.
 class CameraPath {
  public:
-  /// Looks at from_s..to_s of all views once. Throws OperatorError for a part that the scene does
-  /// not have.
+  /// Computes the path for from_s..to_s from all views. Throws OperatorError for a part that the
+  /// scene does not have.
   CameraPath(const std::vector<CameraView>& views, const CameraWish& wish, double from_s,
              double to_s);
 
-  /// What is to be visible at a moment, m.
+  /// Returns the visible box at a moment, m.
   WorldBox At(double s) const;
 
  private:
@@ -62,10 +63,10 @@ class CameraPath {
   float zoom_ = 1;
 };
 
-/// Bodies that move by more than a little in from_s..to_s, in truth or in one of the views.
+/// Returns the bodies that move noticeably in from_s..to_s, in the oracle or in one of the views.
 std::set<PartId> MovingBodies(const std::vector<CameraView>& views, double from_s, double to_s);
 
-/// The box of those bodies at a moment, in truth and in all views. Empty where none is there.
+/// Returns the box of `bodies` at a moment, in the oracle and in all views. Empty without any.
 WorldBox BoxOf(const std::vector<CameraView>& views, const std::set<PartId>& bodies, double s);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers as a reader wants them: three digits and a unit.
+/// Readable numbers: about three digits and a unit.
 
 #include <string>
 
@@ -9,7 +9,7 @@ namespace seam {
 std::string FormatLength(double metres);
 /// "3.20 s".
 std::string FormatTime(double seconds);
-/// With `digits` behind the point.
+/// Formats a number with `digits` decimals.
 std::string FormatNumber(double value, int digits);
 
 }  // namespace seam

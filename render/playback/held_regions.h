@@ -1,5 +1,5 @@
 #pragma once
-/// Where authority follows the players: the region of each, as what it holds makes it.
+/// Regions of players where authority follows the players: computed from the held bodies.
 
 #include <vector>
 
@@ -7,19 +7,20 @@
 
 namespace seam {
 
-/// The box around all bodies that a client has authority over in a view, and kHeldMargin more.
+/// The box around all bodies under a client's authority in a view, enlarged by kHeldMargin.
 struct HeldRegion {
   int peer = 0;
   Vec2 min{0, 0}, max{0, 0};  ///< m
 };
 
-/// Whether regions are what the peers hold: the mode has regions, and the scene fixes none.
+/// True if regions follow the held bodies: the mode has regions, and the scene fixes none or
+/// overrides them by planner rules (PlannerRules::given).
 bool RegionsAreHeld(const Playback& playback);
 
-/// At a moment, by peer, ascending; empty where regions are not held.
+/// Returns the regions at a moment, by peer, ascending; empty without RegionsAreHeld.
 std::vector<HeldRegion> HeldRegions(const Playback& playback, const Moment& moment);
 
-/// m beyond the bodies.
+/// Margin around the bodies, m.
 constexpr float kHeldMargin = 1;
 
 }  // namespace seam

@@ -9,11 +9,11 @@ namespace seam {
 namespace {
 
 constexpr float kShownMin = 1.0f;        ///< m/s; weaker ones would clutter a stack
-constexpr float kGroundShownMin = 3.0f;  ///< m/s, against what never moves
-constexpr double kSameMeeting_s = 0.35;         ///< pushes of a pair within this are one meeting
-constexpr float kNear_m = 3.0f;          ///< of several this near each other one is marked
+constexpr float kGroundShownMin = 3.0f;  ///< m/s, against anchored bodies
+constexpr double kSameMeeting_s = 0.35;         ///< impulses of a pair within this are one contact
+constexpr float kNear_m = 3.0f;          ///< of several marks this near each other one is kept
 constexpr std::size_t kMarksMax = 5;     ///< at a time
-constexpr float kStronger = 1.5f;        ///< unless one is this much stronger than the last
+constexpr float kStronger = 1.5f;        ///< a new mark within kSameMeeting_s if stronger by this factor
 
 struct Push {
   double tick = 0;
@@ -21,7 +21,7 @@ struct Push {
   Mark mark;
 };
 
-/// The strongest, and of those near each other in position and time only one.
+/// Keeps the strongest marks, and only one of several near each other in position and time.
 std::vector<Mark> Thinned(std::vector<Mark> marks, double same_ticks) {
   std::stable_sort(marks.begin(), marks.end(),
                    [](const Mark& a, const Mark& b) { return a.dv > b.dv; });
@@ -53,13 +53,13 @@ std::vector<Mark> MarksBefore(const Recording& recording, int peer, double tick,
   std::stable_sort(pushes.begin(), pushes.end(),
                    [](const Push& a, const Push& b) { return a.tick < b.tick; });
   std::vector<Mark> marks;
-  std::map<std::pair<int, int>, Mark> last;  // by pair, whether marked or not
+  std::map<std::pair<int, int>, Mark> last;  // by pair, marked or not
   for (const Push& push : pushes) {
     const bool ground = push.pair.first < 0;
     const auto before = last.find(push.pair);
     const bool again = before != last.end() && push.tick - before->second.tick <= same &&
                        push.mark.dv < kStronger * before->second.dv;
-    // A meeting keeps the strength of its strongest push, so that its echoes are not marked.
+    // A contact keeps the strength of its strongest impulse, so that its echoes are not marked.
     Mark kept = push.mark;
     if (again) kept.dv = std::max(kept.dv, before->second.dv);
     last[push.pair] = kept;

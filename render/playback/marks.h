@@ -1,6 +1,6 @@
 #pragma once
-/// Which impacts of a recording are worth a mark: a collision, not the thousand small pushes of a
-/// wheel that rolls or a stack that rests.
+/// Selects the impacts of a recording to be marked: collisions, not the many small impulses of a
+/// rolling wheel or a resting stack.
 
 #include <vector>
 
@@ -9,14 +9,15 @@
 
 namespace seam {
 
+/// A marked impact.
 struct Mark {
   double tick = 0;
   Vec2 point{0, 0};  ///< m
   float dv = 0;      ///< m/s
 };
 
-/// Marks of a peer's world in (tick - span, tick], ticks. A pair of bodies that met with a similar
-/// strength shortly before has none.
+/// Returns the marks of a peer's world in (tick - span, tick], ticks. Leaves out repeated impacts
+/// of a pair of bodies with similar strength.
 std::vector<Mark> MarksBefore(const Recording& recording, int peer, double tick, double span);
 
 }  // namespace seam

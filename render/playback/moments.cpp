@@ -8,11 +8,11 @@
 namespace seam {
 namespace {
 
-constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
+constexpr float kJumpMin = 1.0f;       ///< m/s in one tick; only a collision causes this
 constexpr float kStrongImpact = 3.0f;  ///< m/s
 constexpr double kSameContact_s = 0.05;       ///< impacts within this belong to one contact
 
-/// Those that an impact of that moment names, with what the scene watches.
+/// Adds the bodies of the impacts at that moment to `bodies`; without any, takes strong impacts.
 std::set<PartId> BodiesOf(const Playback& playback, double s, std::set<PartId> bodies) {
   const double tick = s * playback.tick_hz(), same = kSameContact_s * playback.tick_hz();
   for (const Impacts& impacts : playback.recording().impacts) {
@@ -43,7 +43,7 @@ std::int64_t WatchedTick(const Playback& playback) {
   return -1;
 }
 
-/// The first strong impact between bodies that move.
+/// Returns the tick of the first strong impact between moving bodies, or -1.
 std::int64_t ImpactTick(const Playback& playback) {
   std::int64_t first = -1;
   for (const Impacts& impacts : playback.recording().impacts)
@@ -59,7 +59,7 @@ double Seconds(const Playback& playback, std::int64_t tick) {
   return static_cast<double>(tick) / playback.tick_hz();
 }
 
-/// The body that any client's view had furthest from the truth.
+/// Returns the body with the greatest distance from the oracle in any peer's view.
 std::set<PartId> WorstBody(const Playback& playback, double tick) {
   PartId worst = -1;
   float most = 0;
@@ -112,7 +112,7 @@ std::optional<ShownMoment> WorstMoment(const std::vector<Playback>& playbacks) {
   for (const Playback& playback : playbacks) {
     const std::vector<double>& errors = playback.ErrorByTick(-1);
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (!(errors[i] > most)) continue;  // nor is NaN
+      if (!(errors[i] > most)) continue;  // also skips NaN
       most = errors[i];
       const std::int64_t tick = playback.ErrorFirstTick() + static_cast<std::int64_t>(i);
       worst = ShownMoment{Seconds(playback, tick), {}};
@@ -130,14 +130,14 @@ std::optional<ShownMoment> HandOverMoment(const std::vector<Playback>& playbacks
     for (const auto& [tick, view] : views->second) {
       for (std::size_t i = 0; i < view.id.size(); ++i) {
         const int holder = view.authority[i];
-        if (holder <= 0) continue;  // the server's, or on the way
+        if (holder <= 0) continue;  // held by the server, or being handed over
         const auto [known, first] = holders.emplace(view.id[i], holder);
         if (!first && known->second != holder) {
           return ShownMoment{Seconds(playback, tick), {view.id[i]}};
         }
       }
     }
-    // Where the server's view lacks what clients hold (--publish own), what the clients claim.
+    // The server's view may lack bodies held by clients (--publish own): use the clients' claims.
     for (const HandOverSeen& seen : ListHandOvers(playback.recording())) {
       if (seen.from > 0 && seen.to > 0) return ShownMoment{Seconds(playback, seen.tick), {seen.id}};
     }

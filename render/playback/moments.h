@@ -1,6 +1,5 @@
 #pragma once
-/// Moments of a recording that somebody wants to see: its main contact, when it was most wrong,
-/// when authority changed hands.
+/// Notable moments of a recording: its main contact, its greatest error, its first hand-over.
 
 #include <optional>
 #include <set>
@@ -10,26 +9,28 @@
 
 namespace seam {
 
-/// When, and which bodies it is about (assembly ids); empty: all.
+/// A time and the bodies involved (assembly ids); empty: all.
 struct ShownMoment {
   double s = 0;
   std::set<PartId> bodies;
 };
 
-/// When the first watched collision happens (by the oracle's jump of velocity), else the first
-/// strong impact between things that move; nullopt: nothing of that kind was recorded.
+/// Returns the first watched collision (by the oracle's jump of velocity), else the first strong
+/// impact between moving bodies; nullopt: nothing of that kind was recorded.
 std::optional<ShownMoment> ContactMoment(const std::vector<Playback>& playbacks);
 
-/// When the views were most wrong, and the body that was; nullopt: never, or nobody knows.
+/// Returns the moment of the greatest error of all views, with the worst body; nullopt: no error or
+/// no oracle.
 std::optional<ShownMoment> WorstMoment(const std::vector<Playback>& playbacks);
 
-/// The first change of authority from one client to another, as the server shows it.
+/// Returns the first change of authority from one client to another: by the server's view, else by
+/// the clients' views.
 std::optional<ShownMoment> HandOverMoment(const std::vector<Playback>& playbacks);
 
-/// Assemblies that the scene's first watch looks at; empty without one.
+/// Returns the struck assemblies of the scene's first watched collision; empty without one.
 std::set<PartId> StruckBodies(const Playback& playback);
 
-/// The main contact, else the worst moment, else the middle.
+/// Returns the main contact, else the moment of the greatest error, else the middle.
 ShownMoment MainMoment(const std::vector<Playback>& playbacks);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// The colour of a peer in a recording: the one that its player has in the scene, or the palette's.
+/// The colour of a peer in a recording: its player's colour in the scene, or the palette's.
 
 #include "render/canvas/palette.h"
 #include "render/playback/playback.h"

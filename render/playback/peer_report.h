@@ -1,5 +1,5 @@
 #pragma once
-/// What peers said of their network, once a second.
+/// Peers' reports about their network, once a second.
 
 #include <cstdint>
 
@@ -7,10 +7,10 @@
 
 namespace seam {
 
-/// The last report by a moment. Peer 0 has no network of its own: the worst of its clients' each.
+/// The last report up to a moment. Peer 0 has no network of its own: the worst value of any client.
 struct PeerReport {
   std::int32_t rtt_us = -1;     ///< least round trip of the last window, us; -1 unknown
-  std::int32_t jitter_us = -1;  ///< nine of ten round trips exceeded it by no more, us; -1 unknown
+  std::int32_t jitter_us = -1;  ///< us; nine of ten round trips exceed rtt_us by less; -1 unknown
   double loss_percent = -1;     ///< datagrams lost on the way in; -1 unknown
 };
 

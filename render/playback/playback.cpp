@@ -12,13 +12,13 @@
 namespace seam {
 namespace {
 
-/// The body's index in a view, or npos.
+/// Returns the body's index in a view, or npos.
 std::size_t PlaceOf(const View& view, PartId id) {
   const int i = IndexOf(view, id);
   return i < 0 ? std::string::npos : static_cast<std::size_t>(i);
 }
 
-/// Shapes of so many revisions are kept.
+/// Greatest number of revisions with cached shapes.
 constexpr std::size_t kDrawnRevisionsMax = 64;
 
 Pose PoseIn(const View& view, std::size_t i) { return {{view.x[i], view.y[i]}, view.angle[i]}; }
@@ -27,7 +27,7 @@ Pose Blend(const Pose& a, const Pose& b, float blend) {
   return {a.position + blend * (b.position - a.position), a.angle + blend * (b.angle - a.angle)};
 }
 
-/// Views further apart than this are a hole in the recording, not a motion: ticks.
+/// Views further apart than this are a gap in the recording and not interpolated, ticks.
 constexpr std::int64_t kGapTicksMax = 12;
 
 Scene SceneOf(const Recording& recording) {
@@ -115,7 +115,7 @@ void Playback::MeasureErrors() {
   measures_ = Measure(*recording_, *oracle_);
   error_first_tick_ = measures_->first_tick;
   Keep(-1, *measures_);
-  // One peer's curve is the same measure of a recording that has this peer alone.
+  // A peer's curve is the measure of a recording with this peer's views alone.
   for (const auto& [peer, views] : recording_->views) {
     Recording alone;
     alone.views[peer] = views;
@@ -128,7 +128,8 @@ void Playback::MeasureErrors() {
   }
 }
 
-/// Where nothing was compared a measure says 0, which a picture must not show as no error.
+/// True if a measure compared views at the tick. Otherwise its error is 0, and a picture must not
+/// show that as no error.
 bool Playback::Compared(int peer, std::int64_t tick) const {
   if (oracle_->ids.empty() || !oracle_->At(tick, oracle_->ids.front())) return false;
   for (const auto& [from, views] : recording_->views)
@@ -136,7 +137,7 @@ bool Playback::Compared(int peer, std::int64_t tick) const {
   return false;
 }
 
-/// Takes a measure's errors by tick into a peer's.
+/// Copies a measure's errors by tick to a peer's.
 void Playback::Keep(int peer, const Measures& measures) {
   std::vector<double>& errors = errors_[peer];
   for (std::size_t i = 0; i < measures.error_by_tick_m.size(); ++i) {
@@ -168,8 +169,8 @@ int Playback::PeerOr(int peer) const {
 }
 
 int Playback::PlayerOf(int peer) const {
-  // A player's peer is who has authority over the player's own vehicle in that peer's last view.
-  // One that nobody owns tells nothing: authority over it goes by region.
+  // A peer drives a player if it has authority over the player's own vehicle in its last view. A
+  // vehicle without an owner does not count: authority over it goes by region.
   const auto owned = [this](const BodyShapes& body) {
     return std::any_of(body.parts.begin(), body.parts.end(), [&](PartId part) {
       const int owner = scene_.parts[static_cast<std::size_t>(part)].owner;
@@ -184,7 +185,7 @@ int Playback::PlayerOf(int peer) const {
     const std::size_t i = owned(body) ? PlaceOf(last, body.id) : std::string::npos;
     if (i != std::string::npos && last.authority[i] == peer) return body.owner_player;
   }
-  // Nobody's vehicle (a central server has it all): players join in the scene's order.
+  // No vehicle found (a central server has them all): players join in the scene's order.
   return peer <= static_cast<int>(scene_.players.size()) ? peer - 1 : -1;
 }
 
@@ -281,7 +282,7 @@ std::optional<double> Playback::ViewAgeMs(int peer) const {
 
 void Playback::MeasureTick(std::int64_t tick) {
   if (!oracle_) return;
-  Recording now;  // without the scene's text: nothing but poses is measured here
+  Recording now;  // without the scene's text, so that only poses are measured
   now.first_tick = now.last_tick = tick;
   for (const auto& [peer, views] : recording_->views) {
     const auto view = views.find(tick);

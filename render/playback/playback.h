@@ -1,5 +1,5 @@
 #pragma once
-/// A recording made ready for drawing: shapes by body, poses at any time, errors by peer.
+/// A recording prepared for drawing: shapes by body, poses at any time, errors by peer.
 
 #include <map>
 #include <memory>
@@ -26,84 +26,85 @@ struct Shown {
   int authority = 0;
 };
 
-/// Two neighbouring views of one peer and how far the moment lies between them.
+/// Two neighbouring views of one peer, and the position of the moment between them.
 struct Moment {
-  const View* before = nullptr;  ///< nullptr: this peer showed nothing yet
+  const View* before = nullptr;  ///< nullptr: this peer has no view yet
   const View* after = nullptr;
   float blend = 0;  ///< 0 at before, 1 at after
-  double tick = 0;  ///< what was asked for
+  double tick = 0;  ///< the requested tick
 };
 
-/// Poses are interpolated between the views on either side, never extrapolated: where a view is
-/// missing at the end, the last one stays.
+/// A recording with its scene, oracle and errors. Poses are interpolated between neighbouring
+/// views, never extrapolated: after the last view, its poses stay.
 class Playback {
  public:
   /// Without an oracle there are no ghosts and no errors. Parses recording.room.scene_text; throws
   /// OperatorError when that is no scene.
   Playback(Recording recording, std::optional<Oracle> oracle);
-  /// The same for a scene that needs no parsing.
+  /// Like the first constructor, with a parsed scene.
   Playback(Recording recording, Scene scene, std::optional<Oracle> oracle);
-  /// Of a recording that still grows and that the caller owns. Its errors are not measured at
-  /// once; MeasureTick adds them.
+  /// For a recording that still grows and is owned by the caller. Errors are not measured at once;
+  /// MeasureTick adds them.
   Playback(const Recording* growing, std::optional<Oracle> oracle);
 
   const Recording& recording() const { return *recording_; }
   const Scene& scene() const { return scene_; }
-  /// At first, before any edit.
+  /// Return the bodies before any edit.
   const std::vector<BodyShapes>& moving() const { return revisions_->first->moving; }
   const std::vector<BodyShapes>& anchored() const { return revisions_->first->anchored; }
-  /// After so many edits of the recording.
+  /// Returns the shapes after `edits` edits of the recording.
   std::shared_ptr<const DrawnRevision> RevisionAfter(int edits) const;
-  /// What the moment's view is made of.
+  /// Returns the shapes of the moment's view.
   std::shared_ptr<const DrawnRevision> RevisionOf(const Moment& moment) const;
-  /// Scene and composition of the same.
+  /// Returns scene and composition of the moment's view.
   std::shared_ptr<const SceneRevision> WorldOf(const Moment& moment) const;
   bool has_oracle() const { return oracle_.has_value(); }
   const Oracle& oracle() const { return *oracle_; }
 
-  /// Nothing when the recording names one that we do not know.
+  /// Returns the mode; nullopt for an unknown name.
   std::optional<Mode> mode() const { return FindMode(recording_->room.mode); }
   int tick_hz() const { return recording_->room.tick_hz; }
-  /// The tick of a time; a whole number where rounding alone keeps it from one.
+  /// Returns the tick of a time; a value within rounding of a whole number becomes whole.
   double TickAt(double seconds) const;
   double first_s() const;
   double last_s() const;
-  /// Peers that showed something, ascending.
+  /// Returns the peers with views, ascending.
   std::vector<int> peers() const;
-  /// `peer` if it showed something, else the lowest that did, else -1.
+  /// Returns `peer` if it has views, else the lowest peer with views, else -1.
   int PeerOr(int peer) const;
-  /// The scene's player that a peer drives (by the authority over its vehicle), -1: none.
+  /// Returns the scene's player that a peer drives: by authority over the vehicle, else by the
+  /// peer's number; -1: none.
   int PlayerOf(int peer) const;
-  /// Of the scene as it was at first; "" for what came later.
+  /// Returns a part's name; "" for a part inserted at run time.
   const std::string& PartName(PartId part) const;
-  /// By player, as the scene says them (common/scene/player_colours.h); empty where it says none.
+  /// Returns the scene's colours by player (common/scene/player_colours.h); empty without any.
   const std::vector<std::string>& player_colours() const { return player_colours_; }
-  /// "server", "ann (peer 1)" or "peer 3".
+  /// Returns "server", "ann (peer 1)" or "peer 3".
   std::string PeerName(int peer) const;
-  /// "buffer · retrospect", "strict", "oracle".
+  /// Returns "buffer · retrospect", "strict", "oracle".
   std::string Label() const;
 
   Moment MomentAt(int peer, double tick) const;
   std::optional<Shown> Find(const Moment& moment, PartId id) const;
-  /// Of any part.
+  /// Returns the oracle's pose of any part, interpolated between ticks.
   std::optional<Pose> Truth(PartId id, double tick) const;
-  /// Where an anchored body is: at its start, unless it is kinematic.
+  /// Returns the pose of an anchored body: its start, unless it is kinematic.
   Pose Anchored(const BodyShapes& body, double tick) const;
-  /// A part as shown, whichever body it is in.
+  /// Returns the displayed pose of a part, whatever its body.
   std::optional<Pose> FindPart(const Moment& moment, PartId part) const;
-  /// How old what a peer's view shows of others is, on average over the recording, ms; empty
-  /// without an oracle, and where nothing tells it (docs/metrics.md).
+  /// Returns the mean view age of a peer over the recording, ms; nullopt without an oracle or
+  /// without a reliable age (view_age_ms in docs/metrics.md).
   std::optional<double> ViewAgeMs(int peer) const;
 
-  /// RMS error of a peer's view at a tick, m; peer -1: of all views. NaN where the oracle or the
-  /// views know nothing; empty without an oracle.
+  /// Returns the RMS error of a peer's view by tick, m; peer -1: of all views. NaN where the oracle
+  /// or the views lack the tick; empty without an oracle.
   const std::vector<double>& ErrorByTick(int peer) const;
-  /// Tick of the first entry of ErrorByTick.
+  /// Returns the tick of the first entry of ErrorByTick.
   std::int64_t ErrorFirstTick() const { return error_first_tick_; }
   std::optional<double> ErrorAt(int peer, double tick) const;
-  /// Adds the errors of a tick that came in, live. Ticks must ascend; skipped ones are unknown.
+  /// Adds the errors of a newly received tick. Ticks must ascend; skipped ones are unknown.
   void MeasureTick(std::int64_t tick);
-  /// Empty without an oracle.
+  /// Returns nullopt without an oracle.
   const std::optional<Measures>& measures() const { return measures_; }
 
  private:
@@ -115,14 +116,14 @@ class Playback {
   std::shared_ptr<const Recording> recording_;
   Scene scene_;
   std::optional<Oracle> oracle_;
-  /// Shapes by revision, a bounded number of them.
+  /// Cache of shapes by revision, with a bounded size.
   struct KnownRevisions {
-    std::size_t edits = 0;  // of the recording, when `all` was made
+    std::size_t edits = 0;  // number of the recording's edits when `all` was made
     std::unique_ptr<RevisionHistory> all;
     std::shared_ptr<const DrawnRevision> first;
     std::map<int, std::shared_ptr<const DrawnRevision>> drawn;  // by key
   };
-  /// Of all edits heard so far.
+  /// Returns the history with all edits received so far.
   const RevisionHistory& AllRevisions() const;
   std::shared_ptr<const DrawnRevision> Drawn(
       const std::shared_ptr<const SceneRevision>& revision) const;

@@ -17,213 +17,207 @@ namespace {
 
 using namespace seam;
 
-CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
-  CLI::App* run = app.add_subcommand("run", "record one session in virtual time");
+Command* DefineRun(Command& app, RunCommand& c) {
+  Command* run = &app.Add("run", "record one session in virtual time");
   SessionSettings& s = c.settings;
-  run->add_option("SCENE", s.scene, "scene file, or the name of a scene")->required();
-  run->add_option("-o,--output", c.log, "LCM log to write")->required();
-  run->add_option("--mode", s.mode, "oracle | central | strict | buffer");
-  run->add_option("--reconcile", s.reconcile, "rule for mode buffer (default rollback)");
-  run->add_option("--predict", s.predict, "of mode central's clients: own | all (default all)");
-  run->add_option("--impair", s.impair, "network, both directions: a profile's name or a list");
-  run->add_option("--seed", s.seed, "of network and bots")->check(CLI::Range(0, 1000000000));
-  run->add_option("--send-hz", s.send_hz, "state messages per second")
-      ->check(CLI::Range(1, kSendHzMax));
-  run->add_option("--duration", s.duration_s, "seconds after tick 0 (0: the scene's own)")
-      ->check(CLI::Range(0.0, kDurationMax));
-  run->add_option("--players", s.players, "the first so many join, the others are absent (0: all)")
-      ->check(CLI::Range(0, kPlayersMax));
-  run->add_option("--publish", s.publish,
+  run->Option("SCENE", s.scene, "scene file, or the name of a scene").Required();
+  run->Option("-o,--output", c.log, "LCM log to write").Required();
+  run->Option("--mode", s.mode, "oracle | central | strict | buffer");
+  run->Option("--reconcile", s.reconcile, "rule for mode buffer (default rollback)");
+  run->Option("--predict", s.predict, "of mode central's clients: own | all (default all)");
+  run->Option("--impair", s.impair, "network, both directions: a profile's name or a list");
+  run->Option("--seed", s.seed, "of network and bots").Range(0, 1000000000);
+  run->Option("--send-hz", s.send_hz, "state messages per second")
+      .Range(1, kSendHzMax);
+  run->Option("--duration", s.duration_s, "seconds after tick 0 (0: the scene's own)")
+      .Range(0.0, kDurationMax);
+  run->Option("--players", s.players, "the first so many join, the others are absent (0: all)")
+      .Range(0, kPlayersMax);
+  run->Option("--publish", s.publish,
                   "of server and clients: all (default), own, none or auto");
-  run->add_option("--drive", s.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
-  run->add_option("--smooth", c.smooth,
+  run->Option("--drive", s.drive, "script | bot").OneOf({"script", "bot"});
+  run->Option("--smooth", c.smooth,
                   "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
-      ->check(CLI::IsMember({"on", "off"}) | CLI::Range(kSmoothRateMin, kSmoothRateMax));
-  run->add_option("--set", c.set, "KEY=VALUE of the scene: solver.substeps=2 (repeatable)")
-      ->allow_extra_args(false);
-  run->add_option("--buffer", c.buffer_m, "width of the buffer zone, m (as --set buffer=M)");
-  run->add_option("--input-delay", c.input_delay_ticks,
+      .OneOfOrRange({"on", "off"}, kSmoothRateMin, kSmoothRateMax);
+  run->Option("--set", c.set, "KEY=VALUE of the scene: solver.substeps=2 (repeatable)")
+      .OneValueEach();
+  run->Option("--buffer", c.buffer_m, "width of the buffer zone, m (as --set buffer=M)");
+  run->Option("--input-delay", c.input_delay_ticks,
                   "ticks from an input to its acting (as --set input_delay=N)")
-      ->check(CLI::Range(0, kInputDelayTicksMax));
-  run->add_flag("--force", c.force, "overwrite the log");
-  run->add_flag("!--no-floor", c.floor, "do not measure the run and its floor");
+      .Range(0, kInputDelayTicksMax);
+  run->Switch("--force", c.force, "overwrite the log");
+  run->Switch("!--no-floor", c.floor, "do not measure the run and its floor");
   return run;
 }
 
-CLI::App* DefineCheck(CLI::App& app, CheckCommand& c) {
-  CLI::App* check = app.add_subcommand("check", "what a scene says that is surely not meant");
-  check->add_option("SCENES", c.scenes, "scene files, or names of scenes")->required();
-  check->add_option("-o,--output", c.picture, "draw the scene into this PNG");
-  check->add_flag("--force", c.force, "overwrite the PNG");
+Command* DefineCheck(Command& app, CheckCommand& c) {
+  Command* check = &app.Add("check", "what a scene says that is surely not meant");
+  check->Option("SCENES", c.scenes, "scene files, or names of scenes").Required();
+  check->Option("-o,--output", c.picture, "draw the scene into this PNG");
+  check->Switch("--force", c.force, "overwrite the PNG");
   return check;
 }
 
-CLI::App* DefineDivergence(CLI::App& app, DivergenceCommand& c) {
-  CLI::App* divergence = app.add_subcommand(
+Command* DefineDivergence(Command& app, DivergenceCommand& c) {
+  Command* divergence = &app.Add(
       "first-divergence", "where two recordings' views differ first (status 1), or equal (0)");
-  divergence->add_option("A", c.log_a, "an LCM log")->required();
-  divergence->add_option("B", c.log_b, "an LCM log of the same scene")->required();
-  divergence->add_option("--peer", c.peer, "compare this peer's views alone")
-      ->check(CLI::Range(0, 31));
-  divergence->add_flag("--common", c.common, "leave out views that only one of them has");
+  divergence->Option("A", c.log_a, "an LCM log").Required();
+  divergence->Option("B", c.log_b, "an LCM log of the same scene").Required();
+  divergence->Option("--peer", c.peer, "compare this peer's views alone")
+      .Range(0, 31);
+  divergence->Switch("--common", c.common, "leave out views that only one of them has");
   return divergence;
 }
 
-CLI::App* DefineSweep(CLI::App& app, SweepCommand& c) {
-  CLI::App* sweep = app.add_subcommand("sweep", "run and measure all combinations of settings");
-  sweep->add_option("FILE", c.file, "what to vary (TOML; docs/lab.md)")->required();
-  sweep->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
-  sweep->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      ->check(CLI::Range(1, 256));
-  sweep->add_flag("--force", c.force, "begin the table anew");
-  sweep->add_flag("--quiet", c.quiet, "no progress line");
+Command* DefineSweep(Command& app, SweepCommand& c) {
+  Command* sweep = &app.Add("sweep", "run and measure all combinations of settings");
+  sweep->Option("FILE", c.file, "what to vary (TOML; docs/lab.md)").Required();
+  sweep->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
+  sweep->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      .Range(1, 256);
+  sweep->Switch("--force", c.force, "begin the table anew");
+  sweep->Switch("--quiet", c.quiet, "no progress line");
   return sweep;
 }
 
-CLI::App* DefinePhysics(CLI::App& app, PhysicsCommand& c) {
-  CLI::App* physics =
-      app.add_subcommand("physics", "solver settings on the hard cases, or on your own scenes");
-  physics->add_option("SCENES", c.scenes, "your own: judged by their exact(t) (docs/lab.md)");
-  physics->add_option("--seconds", c.seconds, "simulated of SCENES (default: the scene's, 60 most)")
-      ->check(CLI::Range(0.1, kDurationMax));
-  physics->add_option("--cases", c.cases, "names (default: all)")->delimiter(',');
-  physics->add_option("--grid", c.grid, "quick | report | full")
-      ->check(CLI::IsMember({"quick", "report", "full"}));
-  physics->add_option("-o,--output", c.table, "CSV table to write, or to complete");
-  physics->add_option("--scenes", c.folder, "folder of the hard scenes (default: scenes/hard)");
-  physics->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      ->check(CLI::Range(1, 256));
-  physics->add_flag("--force", c.force, "begin the table anew");
-  physics->add_flag("--quiet", c.quiet, "no progress line");
+Command* DefinePhysics(Command& app, PhysicsCommand& c) {
+  Command* physics =
+      &app.Add("physics", "solver settings on the hard cases, or on your own scenes");
+  physics->Option("SCENES", c.scenes, "your own: judged by their exact(t) (docs/lab.md)");
+  physics->Option("--seconds", c.seconds, "simulated of SCENES (default: the scene's, 60 most)")
+      .Range(0.1, kDurationMax);
+  physics->Option("--cases", c.cases, "names (default: all)").CommaSeparated();
+  physics->Option("--grid", c.grid, "quick | report | full")
+      .OneOf({"quick", "report", "full"});
+  physics->Option("-o,--output", c.table, "CSV table to write, or to complete");
+  physics->Option("--scenes", c.folder, "folder of the hard scenes (default: scenes/hard)");
+  physics->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      .Range(1, 256);
+  physics->Switch("--force", c.force, "begin the table anew");
+  physics->Switch("--quiet", c.quiet, "no progress line");
   return physics;
 }
 
-void DefineTuneGait(CLI::App& tune, TuneGaitCommand& c) {
-  CLI::App* gait = tune.add_subcommand("gait", "search a character's gains by CMA-ES");
-  gait->add_option("OBJECTIVE", c.objective, "what to search (TOML; docs/lab.md)")->required();
-  gait->add_option("-o,--output", c.output, "gains file to put the result into");
-  gait->add_option("--jobs", c.jobs, "trials at a time (default: one a core)")
-      ->check(CLI::Range(1, 256));
-  gait->add_option("--generations", c.generations, "instead of the objective's; 0: tables only")
-      ->check(CLI::Range(0, 100000));
-  gait->add_option("--seed", c.seed, "instead of the objective's")->check(CLI::Range(0, 1000000));
+void DefineTuneGait(Command& tune, TuneGaitCommand& c) {
+  Command* gait = &tune.Add("gait", "search a character's gains by CMA-ES");
+  gait->Option("OBJECTIVE", c.objective, "what to search (TOML; docs/lab.md)").Required();
+  gait->Option("-o,--output", c.output, "gains file to put the result into");
+  gait->Option("--jobs", c.jobs, "trials at a time (default: one a core)")
+      .Range(1, 256);
+  gait->Option("--generations", c.generations, "instead of the objective's; 0: tables only")
+      .Range(0, 100000);
+  gait->Option("--seed", c.seed, "instead of the objective's").Range(0, 1000000);
 }
 
-CLI::App* DefineTune(CLI::App& app, TuneCommand& c, TuneGaitCommand& gait) {
-  CLI::App* tune = app.add_subcommand("tune", "the cheapest solver setting below an error");
+Command* DefineTune(Command& app, TuneCommand& c, TuneGaitCommand& gait) {
+  Command* tune = &app.Add("tune", "the cheapest solver setting below an error");
   DefineTuneGait(*tune, gait);
-  const CLI::Option* scene =
-      tune->add_option("SCENE", c.scene, "scene file, or the name of a scene");
-  const CLI::Option* error =
-      tune->add_option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
-          ->check(CLI::Range(0.0, 1e9));
-  // Required, but not of `tune gait`.
-  tune->callback([tune, scene, error] {
-    if (tune->get_subcommands().empty() && scene->empty()) throw CLI::RequiredError("SCENE");
-    if (tune->get_subcommands().empty() && error->empty()) throw CLI::RequiredError("--error");
-  });
-  tune->add_flag("--keep-hz", c.keep_hz, "leave tick_hz as it is");
-  tune->add_option("--seconds", c.seconds, "simulated (default: the case's; else up to 10)")
-      ->check(CLI::Range(0.1, kDurationMax));
-  tune->add_option("--budget", c.budget_s, "CPU seconds of its runs, predicted (default: 120)")
-      ->check(CLI::Range(0.001, 1e6));
-  tune->add_option("--case", c.hard, "the hard case, where a scene has several");
+  const Flag scene = tune->Option("SCENE", c.scene, "scene file, or the name of a scene");
+  const Flag error = tune->Option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
+          .Range(0.0, 1e9);
+  tune->RequireWithoutCommand({scene, error});  // not of `tune gait`
+  tune->Switch("--keep-hz", c.keep_hz, "leave tick_hz as it is");
+  tune->Option("--seconds", c.seconds, "simulated (default: the case's; else up to 10)")
+      .Range(0.1, kDurationMax);
+  tune->Option("--budget", c.budget_s, "CPU seconds of its runs, predicted (default: 120)")
+      .Range(0.001, 1e6);
+  tune->Option("--case", c.hard, "the hard case, where a scene has several");
   return tune;
 }
 
-CLI::App* DefineOverhead(CLI::App& app, OverheadCommand& c) {
-  CLI::App* overhead = app.add_subcommand("overhead", "what a step costs beside Box2D alone");
-  overhead->add_option("SCENES", c.scenes, "scene files (default: four of scenes, two hard ones)");
-  overhead->add_option("-o,--output", c.table, "CSV table to write, or to complete");
-  overhead->add_option("--repeats", c.repeats, "of which the least counts")
-      ->check(CLI::Range(1, 1000));
-  overhead->add_flag("--force", c.force, "begin the table anew");
+Command* DefineOverhead(Command& app, OverheadCommand& c) {
+  Command* overhead = &app.Add("overhead", "what a step costs beside Box2D alone");
+  overhead->Option("SCENES", c.scenes, "scene files (default: four of scenes, two hard ones)");
+  overhead->Option("-o,--output", c.table, "CSV table to write, or to complete");
+  overhead->Option("--repeats", c.repeats, "of which the least counts")
+      .Range(1, 1000);
+  overhead->Switch("--force", c.force, "begin the table anew");
   return overhead;
 }
 
-CLI::App* DefineBenches(CLI::App& app, const char* name, const char* what, BenchCommand& c) {
-  CLI::App* benches = app.add_subcommand(name, what);
-  benches->add_option("NAMES", c.benches, "which (default: all)");
-  benches->add_option("-o,--output", c.folder, "folder for a CSV and a Markdown table each");
-  benches->add_flag("--quick", c.quick, "smaller and fewer");
+Command* DefineBenches(Command& app, const char* name, const char* what, BenchCommand& c) {
+  Command* benches = &app.Add(name, what);
+  benches->Option("NAMES", c.benches, "which (default: all)");
+  benches->Option("-o,--output", c.folder, "folder for a CSV and a Markdown table each");
+  benches->Switch("--quick", c.quick, "smaller and fewer");
   return benches;
 }
 
-CLI::App* DefineFairness(CLI::App& app, FairnessCommand& c) {
-  CLI::App* fairness =
-      app.add_subcommand("fairness", "a mirrored crash between a near and a far player");
-  fairness->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
-  fairness->add_option("--scene", c.scene, "two players' cars that meet (default: headon)");
-  fairness->add_option("--methods", c.methods, "strict, buffer/fade, ... (default: all)")
-      ->delimiter(',');
-  fairness->add_option("--near", c.near_path, "the near player's network, either way");
-  fairness->add_option("--far", c.far_path, "the far player's network, either way");
-  fairness->add_option("--seeds", c.seeds, "from 1, each both ways round (default: 8)")
-      ->check(CLI::Range(1, 1000));
-  fairness->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      ->check(CLI::Range(1, 256));
-  fairness->add_flag("--force", c.force, "begin the table anew");
-  fairness->add_flag("--quiet", c.quiet, "no progress line");
+Command* DefineFairness(Command& app, FairnessCommand& c) {
+  Command* fairness =
+      &app.Add("fairness", "a mirrored crash between a near and a far player");
+  fairness->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
+  fairness->Option("--scene", c.scene, "two players' cars that meet (default: headon)");
+  fairness->Option("--methods", c.methods, "strict, buffer/fade, ... (default: all)")
+      .CommaSeparated();
+  fairness->Option("--near", c.near_path, "the near player's network, either way");
+  fairness->Option("--far", c.far_path, "the far player's network, either way");
+  fairness->Option("--seeds", c.seeds, "from 1, each both ways round (default: 8)")
+      .Range(1, 1000);
+  fairness->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      .Range(1, 256);
+  fairness->Switch("--force", c.force, "begin the table anew");
+  fairness->Switch("--quiet", c.quiet, "no progress line");
   return fairness;
 }
 
-CLI::App* DefineTitles(CLI::App& app, TitlesCommand& c) {
-  CLI::App* titles = app.add_subcommand("titles", "do the scenes do what their titles say?");
-  titles->add_option("SCENES", c.scenes, "names (default: all that have a sentence)");
-  titles->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
-  titles->add_option("--impair", c.networks, "profile's name or list; repeatable (default: 4g)")
-      ->allow_extra_args(false);
-  titles->add_option("--seeds", c.seeds, "from 1 (default: 10)")->check(CLI::Range(1, 10000));
-  titles->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      ->check(CLI::Range(1, 256));
-  titles->add_flag("--force", c.force, "begin the table anew");
-  titles->add_flag("--quiet", c.quiet, "no progress line");
+Command* DefineTitles(Command& app, TitlesCommand& c) {
+  Command* titles = &app.Add("titles", "do the scenes do what their titles say?");
+  titles->Option("SCENES", c.scenes, "names (default: all that have a sentence)");
+  titles->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
+  titles->Option("--impair", c.networks, "profile's name or list; repeatable (default: 4g)")
+      .OneValueEach();
+  titles->Option("--seeds", c.seeds, "from 1 (default: 10)").Range(1, 10000);
+  titles->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      .Range(1, 256);
+  titles->Switch("--force", c.force, "begin the table anew");
+  titles->Switch("--quiet", c.quiet, "no progress line");
   return titles;
 }
 
-CLI::App* DefineLoad(CLI::App& app, LoadCommand& c) {
-  CLI::App* load = app.add_subcommand("load", "what sessions cost the server and a client");
-  load->add_option("SCENES", c.scenes, "scene files or names")->required();
-  load->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
-  load->add_option("--methods", c.methods, "buffer, central/own, ... (default: both sides)")
-      ->delimiter(',');
-  load->add_option("--impair", c.network, "profile's name or list (default: demo)");
-  load->add_option("--drive", c.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
-  load->add_option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
-      ->check(CLI::Range(0.0, kDurationMax));
-  load->add_option("--seeds", c.seeds, "from 1 (default: 1)")->check(CLI::Range(1, 10000));
-  load->add_option("--jobs", c.jobs, "runs at a time (default: 1; more blur CPU times)")
-      ->check(CLI::Range(1, 256));
-  load->add_flag("--force", c.force, "begin the table anew");
-  load->add_flag("--quiet", c.quiet, "no progress line");
+Command* DefineLoad(Command& app, LoadCommand& c) {
+  Command* load = &app.Add("load", "what sessions cost the server and a client");
+  load->Option("SCENES", c.scenes, "scene files or names").Required();
+  load->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
+  load->Option("--methods", c.methods, "buffer, central/own, ... (default: both sides)")
+      .CommaSeparated();
+  load->Option("--impair", c.network, "profile's name or list (default: demo)");
+  load->Option("--drive", c.drive, "script | bot").OneOf({"script", "bot"});
+  load->Option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
+      .Range(0.0, kDurationMax);
+  load->Option("--seeds", c.seeds, "from 1 (default: 1)").Range(1, 10000);
+  load->Option("--jobs", c.jobs, "runs at a time (default: 1; more blur CPU times)")
+      .Range(1, 256);
+  load->Switch("--force", c.force, "begin the table anew");
+  load->Switch("--quiet", c.quiet, "no progress line");
   return load;
 }
 
-CLI::App* DefineHandOver(CLI::App& app, HandOverCommand& c) {
-  CLI::App* hand_over = app.add_subcommand("hand-over", "how long changes of authority take");
-  hand_over->add_option("SCENES", c.scenes, "scene files or names")->required();
-  hand_over->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
-  hand_over->add_option("--players", c.players, "the first so many join (default: all)")
-      ->check(CLI::Range(0, kPlayersMax));
-  hand_over->add_option("--impair", c.network, "profile's name or list (default: demo)");
-  hand_over->add_option("--drive", c.drive, "script | bot")
-      ->check(CLI::IsMember({"script", "bot"}));
-  hand_over->add_option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
-      ->check(CLI::Range(0.0, kDurationMax));
-  hand_over->add_option("--seeds", c.seeds, "from 1 (default: 1)")->check(CLI::Range(1, 10000));
-  hand_over->add_option("--jobs", c.jobs, "runs at a time (default: 1)")->check(CLI::Range(1, 256));
-  hand_over->add_flag("--force", c.force, "begin the table anew");
-  hand_over->add_flag("--quiet", c.quiet, "no progress line");
+Command* DefineHandOver(Command& app, HandOverCommand& c) {
+  Command* hand_over = &app.Add("hand-over", "how long changes of authority take");
+  hand_over->Option("SCENES", c.scenes, "scene files or names").Required();
+  hand_over->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
+  hand_over->Option("--players", c.players, "the first so many join (default: all)")
+      .Range(0, kPlayersMax);
+  hand_over->Option("--impair", c.network, "profile's name or list (default: demo)");
+  hand_over->Option("--drive", c.drive, "script | bot")
+      .OneOf({"script", "bot"});
+  hand_over->Option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
+      .Range(0.0, kDurationMax);
+  hand_over->Option("--seeds", c.seeds, "from 1 (default: 1)").Range(1, 10000);
+  hand_over->Option("--jobs", c.jobs, "runs at a time (default: 1)").Range(1, 256);
+  hand_over->Switch("--force", c.force, "begin the table anew");
+  hand_over->Switch("--quiet", c.quiet, "no progress line");
   return hand_over;
 }
 
-CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
-  CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
-  report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
-  report->add_option("-o,--output", c.out, "folder to write (default out/report)");
-  report->add_option("--sweeps", c.sweeps, "folder of the sweeps' files, to be named");
-  report->add_option("--markdown", c.markdown, "fill the tables into this page of the docs");
-  report->add_flag("--png", c.png, "plots as PNG, not SVG");
+Command* DefineReport(Command& app, ReportCommand& c) {
+  Command* report = &app.Add("report", "plots and tables of what was swept, as a page");
+  report->Option("DATA", c.data, "folder of CSV tables (default out/report/data)");
+  report->Option("-o,--output", c.out, "folder to write (default out/report)");
+  report->Option("--sweeps", c.sweeps, "folder of the sweeps' files, to be named");
+  report->Option("--markdown", c.markdown, "fill the tables into this page of the docs");
+  report->Switch("--png", c.png, "plots as PNG, not SVG");
   return report;
 }
 
@@ -245,9 +239,9 @@ int main(int argc, char** argv) {
   HandOverCommand hand_over;
   ReportCommand report;
   // The subcommands, each with what it runs.
-  std::vector<std::pair<const CLI::App*, std::function<int()>>> commands;
-  const auto define = [&](CLI::App& app) {
-    app.require_subcommand(1);
+  std::vector<std::pair<const Command*, std::function<int()>>> commands;
+  const auto define = [&](Command& app) {
+    app.RequireCommand();
     commands = {{DefineRun(app, run), [&] { return RunLog(run); }},
                 {DefineCheck(app, check), [&] { return RunCheck(check); }},
                 {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
@@ -276,7 +270,7 @@ int main(int argc, char** argv) {
                           {"--reconcile", ReconcilerNames()}}};
   return RunCommandLine(text, argc, argv, define, [&] {
     for (const auto& [app, command] : commands) {
-      if (app->parsed()) return command();
+      if (app->chosen()) return command();
     }
     return 2;
   });

@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t kEventsShown = 20;
 
-/// "label      text", a line of the list.
+/// Formats a line of the list: "label      text".
 std::string Line(const char* label, const std::string& text) {
   return fmt::format("  {:<10} {}\n", label, text);
 }
 
-/// "3 crates", "1 crate".
+/// Formats a count with its noun: "3 crates", "1 crate".
 std::string Count(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
@@ -36,7 +36,7 @@ std::string Views(const Scene& scene, const Recording& recording) {
   return text.empty() ? "none" : text + " by tick";
 }
 
-/// Those with a view, and of many of the others the first.
+/// Lists the players with a view, and the first of those without.
 std::string Players(const Scene& scene, const Recording& recording) {
   constexpr int kAbsentNamed = 8;
   std::string text;

@@ -1,5 +1,5 @@
 #pragma once
-/// What is in a recording, for people who want to know before they draw or measure it.
+/// Summary of a recording's contents, to be read before drawing or measuring it.
 
 #include <string>
 
@@ -8,12 +8,12 @@
 
 namespace seam {
 
-/// A line that begins with `name`, and below it, indented: method and network, players, views,
-/// bodies, messages, damage, and the events, of many the first 20. Texts of the recording are shown
-/// without what a terminal obeys. Ends with a line end.
+/// Formats a line that begins with `name`, and below it, indented: method and network, players,
+/// views, bodies, messages, damage, and the first 20 events. Characters of the recording's texts
+/// that a terminal might obey are replaced. Ends with a line end.
 std::string FormatContents(const std::string& name, const Recording& recording);
 
-/// "server", the name of the player whose place it is, or "peer 7" for a spectator.
+/// Returns "server", the name of the peer's player, or "peer 7" for a spectator.
 std::string ViewNameOf(const Scene& scene, int peer);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// Which views of a recording show a part of the bodies only, as those of `--publish own` do.
+/// Finds the views of a recording that lack some of the bodies, as those of `--publish own` do.
 
 #include <cstddef>
 #include <functional>
@@ -11,16 +11,16 @@
 
 namespace seam {
 
-/// How many bodies the views of a peer have, of how many that there were: means over its ticks.
+/// Mean number of bodies in a peer's views and mean number of existing bodies, over its ticks.
 struct ShownBodies {
   double shown = 0, of = 0;
 };
 
-/// By peer, those whose views lack bodies. Requires a scene that ParseScene accepted.
+/// Returns, by peer, the views that lack bodies. Requires a scene that ParseScene accepted.
 std::map<int, ShownBodies> PartialViews(const Scene& scene, const Recording& recording);
 
-/// What `partial` says, in a line: whose views, with three names, and what follows from it. ""
-/// where all views show all. `name_of`: of a peer.
+/// Formats `partial` as a line: at most three peers, the number of further ones, and the
+/// consequence. "" where all views show all bodies. `name_of`: returns the name of a peer.
 std::string PartialViewsText(const std::map<int, ShownBodies>& partial,
                              const std::function<std::string(int)>& name_of);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a player drives itself, and so sees without a delay of the network.
+/// Bodies that a player drives, and therefore sees without network delay.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace seam {
 
-/// By body: whether its mechanism holds the player's vehicle, a character of the player's, a part
-/// that Part::owner gives it, or the part with a seat on which the player sits.
+/// Returns, by body, true if its mechanism holds the player's vehicle, a character of the player, a
+/// part with the player as Part::owner, or a part with a seat on which the player sits.
 std::vector<bool> DrivenBy(const World& world, int player);
 
 }  // namespace seam

@@ -16,11 +16,11 @@
 namespace seam {
 namespace {
 
-/// What one player could have shown at a tick to come.
+/// The best prediction that one player could have made for a later tick.
 struct Guess {
   int player = 0;
   std::int64_t tick = 0;
-  std::vector<BodyState> states;  // by body; empty: the truth, nothing was held wrongly
+  std::vector<BodyState> states;  // by body; empty: equals the truth, no input was held wrongly
 };
 
 std::vector<BodyState> ReadAll(const World& world) {
@@ -29,7 +29,7 @@ std::vector<BodyState> ReadAll(const World& world) {
   return states;
 }
 
-/// The truth, and from its barriers every player's guesses.
+/// Simulates the truth, and from its barriers every player's predictions.
 class Guesser {
  public:
   Guesser(const Recording& recording, const Scene& scene, KnownInputs known, int every)
@@ -43,7 +43,7 @@ class Guesser {
     }
   }
 
-  /// Where a barrier is due: takes it, and makes the guesses that begin here.
+  /// Takes a barrier where one is due, and makes the predictions that begin here.
   void GuessAll() {
     if (world_.tick() % every_ != 0) return;
     const WorldSnapshot now = world_.Barrier();
@@ -62,7 +62,7 @@ class Guesser {
     if (away) GoBackTo(now);
   }
 
-  /// Makes the next tick, and compares what was guessed of it.
+  /// Steps to the next tick, and compares the predictions for it.
   void Step() {
     const std::int64_t tick = world_.tick() + 1;
     for (const int player : inputs_.players()) inputs_.Apply(&world_, player, tick);
@@ -76,7 +76,7 @@ class Guesser {
 
   void Apply(const std::vector<Edit>& edits) {
     if (edits.empty() || !world_.Apply(edits)) return;
-    guesses_.clear();  // of other bodies
+    guesses_.clear();  // their bodies no longer exist
     LookAgain();
   }
 
@@ -84,7 +84,7 @@ class Guesser {
   std::optional<double> rms() const { return apart_.Root(); }
 
  private:
-  /// At what the bodies are made of.
+  /// Updates ownership and extents after the bodies changed.
   void LookAgain() {
     for (const int player : inputs_.players()) own_[player] = DrivenBy(world_, player);
     extents_.clear();
@@ -103,7 +103,7 @@ class Guesser {
     const auto known = known_.find({other, player});
     return known == known_.end() ? tick : known->second[static_cast<std::size_t>(tick)];
   }
-  /// The tick up to which all inputs are known there: 0 or later, since where it begins is known.
+  /// Returns the tick up to which the player knows all inputs; at least 0, since tick 0 is known.
   std::int64_t Oldest(int player, std::int64_t tick) const {
     std::int64_t oldest = tick;
     for (const int other : inputs_.players()) {
@@ -118,7 +118,7 @@ class Guesser {
     return true;
   }
 
-  /// From the world as it is, with barriers where the truth has them.
+  /// Predicts from the present world, with barriers where the truth has them.
   void MakeGuess(Guess* guess) {
     for (const int other : inputs_.players()) {
       inputs_.Hold(&world_, other,
@@ -151,7 +151,7 @@ class Guesser {
   World world_;
   const RecordedInputs inputs_;
   const KnownInputs known_;
-  std::map<std::int64_t, std::vector<Guess>> due_;  // by the tick at which they begin
+  std::map<std::int64_t, std::vector<Guess>> due_;  // by the tick of their start
   std::map<int, std::vector<bool>> own_;            // by player, by body
   std::vector<Extent> extents_;                     // by body
   std::vector<Guess> guesses_;

@@ -1,6 +1,6 @@
 #pragma once
-/// What nobody could have shown better over the recorded network: exact physics from the exact
-/// state, with the others' inputs as far as they can have been known.
+/// Information limit: the least error that any method could reach over the recorded network, with
+/// exact physics from the exact state and the other players' inputs as far as they had arrived.
 
 #include <cstdint>
 #include <map>
@@ -12,25 +12,27 @@
 
 namespace seam {
 
-/// By player (first) and another one (second), by tick from 0 to recording.last_tick: the newest
-/// tick of the first one's inputs that the other can know when its screen shows that tick, never a
-/// later one; -1: none. By the server's clock, the times at which the server took inputs, and the
-/// players' round trips; docs/metrics.md says how. Players without inputs are absent; empty when
-/// the recording has no views of the server.
+/// Newest known inputs, by source player (first) and receiving player (second), then by tick from 0
+/// to recording.last_tick: the newest tick of the source's inputs that the receiver can know when
+/// its screen shows that tick, never a later one; -1: none.
 using KnownInputs = std::map<std::pair<int, int>, std::vector<std::int64_t>>;
+/// Finds the known inputs from the server's clock, the times at which the server received inputs,
+/// and the players' round trips; docs/metrics.md has the formula. Players without inputs are
+/// absent; empty when the recording has no views of the server.
 KnownInputs FindKnownInputs(const Recording& recording);
 
-/// RMS displacement, m, of what is not a player's own, between the truth and what that player could
-/// have known of it at that tick, over all players and every `every`-th tick:
+/// Returns the RMS displacement, m, of bodies that are not a player's own, between the truth and
+/// the best prediction that this player could have made for that tick, over all players and every
+/// `every`-th tick:
 ///
 ///   truth of tick f --- exact physics; own inputs exact, each other player's inputs as
 ///                       recorded up to what FindKnownInputs says, then held ---> tick t
 ///
 /// with f the newest multiple of `every` that is not after any of these. The world has a barrier at
 /// every `every`-th tick, so that the limit is exactly 0 where no held input differs. Ticks with an
-/// edit in between are left out. nullopt: nothing is unknown to anybody (mode oracle, one player,
-/// or no inputs), or there is no such tick. Costs one oracle, and t - f ticks for each player and
-/// tick at which an input is held wrongly. Throws as ComputeOracle does.
+/// edit between f and t are left out. nullopt: every input is known to all (mode oracle, one
+/// player, or no inputs), or there is no such tick. Costs one oracle, and t - f ticks for each
+/// player and tick at which an input is held wrongly. Throws as ComputeOracle does.
 std::optional<double> InformationLimit(const Recording& recording, int every = 2);
 
 }  // namespace seam

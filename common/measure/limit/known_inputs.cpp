@@ -1,4 +1,4 @@
-/// What is known of a player's inputs elsewhere, by the recording's own times.
+/// Finds when a player's inputs are known to other players, by the recording's own times.
 
 #include <algorithm>
 #include <vector>
@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// When the server had what of one player.
+/// Arrival times of one player's inputs at the server.
 class Arrivals {
  public:
   Arrivals(const std::map<std::int64_t, Inputs>& pieces,
@@ -28,15 +28,15 @@ class Arrivals {
     late_us_ = Middle(&ways).value_or(0);
   }
 
-  /// The newest tick that had come by then; nullopt: none.
+  /// Returns the newest tick that had arrived by then; nullopt: none.
   std::optional<std::int64_t> NewestAt(std::int64_t utime) const {
     const auto after = std::upper_bound(newest_.begin(), newest_.end(),
                                         std::make_pair(utime, std::int64_t{INT64_MAX}));
     if (after == newest_.begin()) return std::nullopt;
     return std::prev(after)->second;
   }
-  /// How long after the server made a tick it had the input for it, in the median; negative where
-  /// clients run ahead of the server.
+  /// Returns the median time from the server's step of a tick to the arrival of its input; negative
+  /// where clients run ahead of the server.
   std::int64_t late_us() const { return late_us_; }
 
   static std::optional<std::int64_t> Middle(std::vector<std::int64_t>* values) {
@@ -51,8 +51,8 @@ class Arrivals {
   std::int64_t late_us_ = 0;
 };
 
-/// How long after the server a player has what the server has, measured to the server's view of the
-/// tick that this player shows then: its way back, and as much more as it runs ahead.
+/// Returns how long after the server a player knows an input, measured to the server's view of the
+/// tick that the player shows then: the way back, plus the time by which the player runs ahead.
 std::int64_t BehindUs(const Recording& recording, int player, const Arrivals& own) {
   std::vector<std::int64_t> round_trips;
   const auto stats = recording.stats.find(player + 1);  // peer p plays player p - 1
@@ -85,7 +85,7 @@ KnownInputs FindKnownInputs(const Recording& recording) {
       std::int64_t newest = -1;
       for (std::size_t tick = 0; tick < ticks; ++tick) {
         const auto view = server->second.find(static_cast<std::int64_t>(tick));
-        // Where the log lacks a view, what was known before still is.
+        // Without a view in the log, the last known tick stays.
         if (view != server->second.end()) {
           newest = came.NewestAt(view->second.utime - behind_us).value_or(-1);
         }

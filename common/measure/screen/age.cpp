@@ -16,8 +16,8 @@ struct Trial {
   double way = 0;  // m, of one tick, summed over the samples
 };
 
-/// Linear least squares: between two ticks the oracle is A + f B with 0 <= f <= 1. Before its
-/// first tick it is where it was in that. nullopt where the oracle is not known.
+/// Fits by linear least squares: between two ticks the oracle is A + f B with 0 <= f <= 1. Before
+/// its first tick the oracle has the pose of that tick. nullopt where the oracle is not known.
 std::optional<Trial> Try(const BodyPath& shown, const BodyPath& truth, double radius,
                          const std::vector<std::int64_t>& ticks, std::int64_t age) {
   double dd = 0, db = 0, bb = 0, way = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which tick a displayed pose shows: the age at which the oracle's path fits best.
+/// Age of displayed poses: the delay at which the oracle's path fits best.
 
 #include <vector>
 
@@ -7,32 +7,33 @@
 
 namespace seam {
 
-/// The oldest that is looked for, s.
+/// Greatest age that is searched for, s.
 constexpr double kAgeMax = 1;
-/// One age is found for each span of this length, s.
+/// Length of the spans; each has one age, s.
 constexpr double kAgeSpan = 0.5;
-/// A body that is slower on average tells no age, m/s.
+/// Least mean speed of a body for a reliable age, m/s.
 constexpr double kAgeSpeedMin = 0.1;
-/// Nor does one that is off the oracle's path by more than this share of the way in the span.
+/// Greatest RMS misfit for a reliable age, as a share of the oracle's path length in the span.
 constexpr double kAgeMisfitMax = 0.1;
 
-/// The age of what is shown of one body in one span.
+/// The age of one body's displayed poses in one span.
 struct ViewAge {
   double ticks = 0;   ///< 0..kAgeMax
-  double way = 0;     ///< m that the oracle's body goes in the span; a turn counts at its radius
-  bool told = false;  ///< it moves, and what is shown is on its path: the age means something
+  double way = 0;     ///< m, path length of the oracle's body; turns count at its radius
+  bool told = false;  ///< true if the age is reliable: the body moves and its poses fit the path
 };
 
-/// The age, between 0 and kAgeMax, with the least sum of squares of what is shown in the ticks from
-/// `first` to `last` against the oracle that much earlier, which moves on straight lines between
-/// its ticks; the least of equal ones. `radius`: the body's, m.
+/// Finds the age, between 0 and kAgeMax, with the least sum of squared differences between the
+/// displayed poses of the ticks `first` to `last` and the oracle's that much earlier. The oracle is
+/// interpolated linearly between ticks; of equally good ages the least is returned. `radius`: the
+/// body's, m.
 ViewAge FitAge(const BodyPath& shown, const BodyPath& truth, double radius, std::int64_t first,
                std::int64_t last, int tick_hz);
 
-/// The ages of what a peer shows of one body: of the spans since shown.first().
+/// The ages of one body in one peer's views, for each span since shown.first().
 class ViewAges {
  public:
-  /// FitAge of each span.
+  /// Calls FitAge for each span.
   ViewAges(const BodyPath& shown, const BodyPath& truth, double radius, int tick_hz);
 
   /// Requires a tick of `shown`.

@@ -11,16 +11,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A blow takes this many ticks, and is looked for before and after it for this many, to tell it
-/// from a force that goes on.
+/// Duration of an impact, and the gap before and after it at which velocity changes are compared to
+/// distinguish the impact from a lasting force, ticks.
 constexpr std::int64_t kBlowTicks = 2, kAround = 2;
-/// A view is at most so much ahead of the oracle or behind it, s.
+/// Greatest lead and lag of a view against the oracle, s.
 constexpr double kEarly = 0.1, kLate = 1.0;
-/// Bodies touch as far apart as this, m.
+/// Greatest gap of touching bodies, m.
 constexpr double kTouch = 0.1;
-constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max() / 2;
+constexpr std::int64_t kNeverTick = std::numeric_limits<std::int64_t>::max() / 2;
 
-/// m/s, of the tick that leads to `tick`.
+/// Returns the velocity in the step that leads to `tick`, m/s.
 Vector2d Velocity(const BodyPath& path, std::int64_t tick, double h) {
   return (path.At(tick).position - path.At(tick - 1).position) / h;
 }
@@ -38,7 +38,7 @@ void Blows::Begin(PartId id, const BodyPath& truth, double radius) {
     const Vector2d dv = change(tick);
     const double usual = std::max(change(tick - reach).norm(), change(tick + reach).norm());
     if (dv.norm() < kBlowMin + usual) continue;
-    if (change(tick + 1).norm() > dv.norm()) continue;  // it is just beginning
+    if (change(tick + 1).norm() > dv.norm()) continue;  // the impact is still beginning
     Blow blow;
     blow.id = id;
     blow.tick = tick + 1;
@@ -48,7 +48,7 @@ void Blows::Begin(PartId id, const BodyPath& truth, double radius) {
     blow.radius = radius;
     tick += reach;
     const std::optional<std::int64_t> due = Answer(blow, truth);
-    if (!due) continue;  // the next blow takes back what this one gave
+    if (!due) continue;  // the next impact reverses this one
     blow.answer_due = *due;
     blows_.push_back(std::move(blow));
   }
@@ -61,7 +61,7 @@ std::optional<std::int64_t> Blows::Answer(const Blow& blow, const BodyPath& path
   const auto late = static_cast<std::int64_t>(std::llround(kLate / h_));
   for (std::int64_t tick = blow.tick - early; tick <= blow.tick + late; ++tick) {
     if (!path.Whole(tick - 1, tick + 1)) continue;
-    // Over two ticks: a jump forth and back in the next is no answer.
+    // Over two ticks: a jump that is undone in the next tick is no response.
     const Vector2d v = (path.At(tick + 1).position - path.At(tick - 1).position) / (2 * h_);
     if ((v - blow.before).dot(way) >= due) return tick;
   }
@@ -73,7 +73,7 @@ void Blows::Show(int peer, const ShownBody& body) {
     Blow& blow = blows_[b];
     if (!body.shown.Has(blow.tick)) continue;
     const std::optional<std::int64_t> answer = Answer(blow, body.shown);
-    blow.late[peer] = answer ? *answer - blow.answer_due : kNever;
+    blow.late[peer] = answer ? *answer - blow.answer_due : kNeverTick;
   }
 }
 
@@ -83,7 +83,7 @@ void Blows::Notice(BodySeconds* seconds) const {
   std::stable_sort(order.begin(), order.end(),
                    [](const Blow* a, const Blow* b) { return a->tick < b->tick; });
   const auto delay = static_cast<std::int64_t>(std::floor(kContactDelay / h_ + 1e-9));
-  // Whether `a` answers later than `b`.
+  // Marks `a` for each peer on whose screen it responds later than `b`.
   const auto compare = [&](const Blow& a, const Blow& b) {
     for (const auto& [peer, late] : a.late) {
       const auto other = b.late.find(peer);

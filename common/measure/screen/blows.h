@@ -1,5 +1,5 @@
 #pragma once
-/// Two bodies strike each other: on a screen, does one respond later than the other?
+/// Collisions of two bodies: detects that on a screen one body responds later than the other.
 
 #include <map>
 #include <vector>
@@ -8,19 +8,20 @@
 
 namespace seam {
 
+/// Collects the impacts of all bodies and their responses on each peer's screen.
 class Blows {
  public:
   /// `h`: s per tick.
   explicit Blows(double h) : h_(h) {}
 
-  /// Finds the oracle's blows against a body; the calls of Show that follow are of that body.
+  /// Finds the oracle's impacts on a body. The following calls of Show are for that body.
   void Begin(PartId id, const BodyPath& truth, double radius);
-  /// When the body answers to each of them on that peer's screen.
+  /// Records when the body responds to each of its impacts on that peer's screen.
   void Show(int peer, const ShownBody& body);
-  /// Notices the later one of two bodies that answer to the same blow more than kContactDelay
-  /// apart. A blow is the same if it is in the same or the next tick of the oracle, and the bodies
-  /// are as near as their radii let them touch. A body that never answers is later than one that
-  /// does.
+  /// Marks, in `seconds`, the later of two bodies that respond to the same impact more than
+  /// kContactDelay apart. Two impacts are the same if they are in the same or successive ticks of
+  /// the oracle and the bodies are as near as their radii let them touch. A body that never
+  /// responds is later than one that does.
   void Notice(BodySeconds* seconds) const;
 
  private:
@@ -31,15 +32,15 @@ class Blows {
     Eigen::Vector2d before{0, 0};      // m/s, velocity before it
     Eigen::Vector2d change{0, 0};      // m/s
     double radius = 0;                 // m
-    std::int64_t answer_due = 0;       // tick of the oracle's own answer
-    std::map<int, std::int64_t> late;  // ticks after that, by peer; kNever
+    std::int64_t answer_due = 0;       // tick of the oracle's own response
+    std::map<int, std::int64_t> late;  // ticks after answer_due, by peer; kNever: no response
   };
-  /// The tick in which a path has made half of the blow's change; nullopt: never.
+  /// Returns the tick at which a path has half of the impact's velocity change; nullopt: never.
   std::optional<std::int64_t> Answer(const Blow& blow, const BodyPath& path) const;
 
   double h_;
   std::vector<Blow> blows_;
-  std::size_t begin_ = 0;  // of the present body's
+  std::size_t begin_ = 0;  // first index of the present body
 };
 
 }  // namespace seam

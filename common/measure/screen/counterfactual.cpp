@@ -8,13 +8,13 @@
 namespace seam {
 namespace {
 
-/// The last that was recorded up to `tick`.
+/// Returns the last input that was recorded up to `tick`.
 Input InputAt(const std::map<std::int64_t, Input>& inputs, std::int64_t tick) {
   const auto after = inputs.upper_bound(tick);
   return after == inputs.begin() ? Input() : std::prev(after)->second;
 }
 
-/// The axes for `tick`, and what buttons do that go down in it.
+/// Sets a player's axes, and triggers the actions of buttons that go down.
 void Press(World* world, int player, const Input& before, const Input& now) {
   world->SetInput(player, now);
   const int pressed = now.buttons & ~before.buttons;
@@ -118,7 +118,7 @@ Effect Counterfactual::Of(const InputChange& change, std::int64_t ticks, double 
   const auto revision = own_edits_.At(RevisionAt(from));
   Extents extents(&own_edits_);
   const double hz = std::max(1, recording_.room.tick_hz);
-  // Who sits where is an edit of the recording, of which the oracle may have more or fewer.
+  // Seats are edits of the recording; the oracle may have another number of edits.
   int edits = 0;
   for (const auto& [number, order] : recording_.edits) edits += order.tick <= from ? 1 : 0;
   const std::vector<PartId>& own = own_->ByScene(edits, change.player);

@@ -1,6 +1,6 @@
 #pragma once
-/// What an input did: the oracle's world with it, against the same world in which the player had
-/// gone on as before.
+/// Effect of an input change: the oracle's world with the change, compared with the same world in
+/// which the player's input stays as before.
 
 #include <map>
 #include <vector>
@@ -10,33 +10,34 @@
 
 namespace seam {
 
-/// Inputs of all players by tick, as they were recorded.
+/// Recorded inputs by player, then by tick.
 using InputTape = std::map<int, std::map<std::int64_t, Input>>;
+/// Returns the inputs of all players of a recording.
 InputTape TapeOf(const Recording& recording);
 
-/// A tick in which a player's input is another than in the tick before.
+/// A tick in which a player's input differs from that of the tick before.
 struct InputChange {
   int player = 0;
   std::int64_t tick = 0;
   Input before;
 };
 
-/// Not more than `count` of each player, evenly chosen, from `first` to `last`.
+/// Returns at most `count` changes of each player, evenly chosen, from tick `first` to `last`.
 std::vector<InputChange> ChangesOf(const InputTape& tape, std::int64_t first, std::int64_t last,
                                    int count);
 
-/// What a change does to the body that it moves most.
+/// Effect of an input change on the body that it moves most.
 struct Effect {
-  PartId id = -1;                         ///< -1: to none
-  double radius = 0;                      ///< m; 0: the place alone counts, else the turn as well
-  std::vector<Eigen::Vector3d> velocity;  ///< m/s, with less without; since the change's tick
+  PartId id = -1;                         ///< -1: no body moves differently
+  double radius = 0;                      ///< m; 0: only the position counts, else rotation as well
+  std::vector<Eigen::Vector3d> velocity;  ///< m/s, difference by tick, since the change's tick
 };
 
-/// Both worlds begin where the oracle is in the tick before the change, at rest in its contacts and
-/// joints, and go on for `ticks`, without edits; in one of them the player's input stays what it
-/// was. The body is looked for among the player's own, or among all if it has none by the scene;
-/// it is the one whose velocity differs most, of the place if that reaches `speed_min` (m/s), else
-/// of its turn, as the velocity of its farthest point.
+/// Computes effects with two worlds. Both begin with the oracle's states of the tick before the
+/// change, without accumulated impulses of contacts and joints, and run for `ticks` without edits;
+/// in one of them the player's input stays as it was. The body is chosen among the player's own, or
+/// among all if the scene gives it none: the one with the greatest difference of velocity, of the
+/// position if that reaches `speed_min` (m/s), else of the rotation at its farthest point.
 class Counterfactual {
  public:
   Counterfactual(const Recording& recording, const Oracle& oracle, const RevisionHistory& recorded,
@@ -50,7 +51,7 @@ class Counterfactual {
 
   const Recording& recording_;
   const Oracle& oracle_;
-  const RevisionHistory own_edits_;  // with the oracle's own edits
+  const RevisionHistory own_edits_;  // built from the oracle's own edits
   OwnBodies* own_;
   InputTape tape_;
 };

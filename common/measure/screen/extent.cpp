@@ -10,12 +10,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Of the turn from `a` to `b` to `c`: positive to the left.
+/// Returns the cross product of the turn from `a` to `b` to `c`: positive to the left.
 double Turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Corners in the part's own frame; the centres of a circle or of a capsule's ends.
+/// Returns the corners in the part's own frame; for a circle its centre, for a capsule the centres
+/// of its ends.
 std::vector<Vector2d> CornersOf(const Part& part) {
   if (part.kind == ShapeKind::kCircle) return {Vector2d(0, 0)};
   if (part.kind == ShapeKind::kBox) {
@@ -49,7 +50,8 @@ Extent::Extent(const Scene& scene, const Assembly& assembly) {
   KeepHull(std::move(corners));
 }
 
-/// Andrew's monotone chain: what is inside the others' hull is never displaced most.
+/// Keeps the convex hull of the corners (Andrew's monotone chain): an inner point is never
+/// displaced most.
 void Extent::KeepHull(std::vector<Vector2d> corners) {
   std::sort(corners.begin(), corners.end(), [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();

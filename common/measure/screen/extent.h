@@ -1,6 +1,6 @@
 #pragma once
-/// How far two poses of a body are apart: the largest displacement of a point of it, so that a turn
-/// counts by what it moves.
+/// Distance of two poses of a body: the largest displacement of any of its points, so that a
+/// rotation counts by the displacement that it causes.
 
 #include <map>
 #include <utility>
@@ -22,21 +22,21 @@ struct DoublePose {
       : position(state.position.cast<double>()), angle(double{state.angle}) {}
 };
 
-/// A body's material, as far as its displacement depends on it: discs in its root's frame, most of
-/// them of radius 0. Empty: the body is a point at its origin.
+/// The convex hull of a body, as discs in its root's frame, most of them of radius 0. Without discs
+/// the body is a point at its origin.
 class Extent {
  public:
   Extent() = default;
   Extent(const Scene& scene, const Assembly& assembly);
 
-  /// m: the largest |A p - B p| over the body's points p. From pose B to pose A a point p of the
-  /// body is displaced by t + D p with D = R_A - R_B, which is a rotation times s = 2
-  /// |sin(turn/2)|: a convex function of p, so the largest value is at a corner; over a disc with
-  /// centre c and radius r it is |t + D c| + s r.
+  /// Returns the largest |A p - B p| over the body's points p, m. From pose B to pose A a point p
+  /// of the body is displaced by t + D p with D = R_A - R_B, a rotation times s = 2 |sin(turn/2)|.
+  /// The length is a convex function of p, so its maximum is at a corner; over a disc with centre c
+  /// and radius r it is |t + D c| + s r.
   double Displacement(const DoublePose& a, const DoublePose& b) const;
-  /// m: of the point farthest from the origin.
+  /// Returns the distance of the farthest point from the origin, m.
   double radius() const { return radius_; }
-  /// m: from a point of the root's frame to the body's farthest point.
+  /// Returns the distance from a point of the root's frame to the body's farthest point, m.
   double ReachFrom(const Eigen::Vector2d& point) const;
 
  private:
@@ -50,12 +50,12 @@ class Extent {
   double radius_ = 0;
 };
 
-/// The extents of a session's bodies, each looked up once.
+/// The extents of a session's bodies, each computed once.
 class Extents {
  public:
-  /// `revisions` nullptr: all bodies are points. Else it must outlive this.
+  /// `revisions`: must outlive this; nullptr: all bodies are points.
   explicit Extents(const RevisionHistory* revisions) : revisions_(revisions) {}
-  /// Of the assembly of that id after so many edits; a point if there is none.
+  /// Returns the extent of assembly `id` after `edits` edits; a point if there is none.
   const Extent& Of(int edits, PartId id);
 
  private:

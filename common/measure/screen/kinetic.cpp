@@ -1,4 +1,5 @@
-/// Kinetic energy in every second, of what peers show and of their physics, against the oracle's.
+/// Kinetic energy in every second, by peers' displayed poses and by their velocities, against the
+/// oracle's.
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +12,10 @@
 namespace seam {
 namespace {
 
-/// Windows in which the oracle has less than this share of its greatest energy tell nothing.
+/// Windows in which the oracle has less than this share of its greatest energy are ignored.
 constexpr double kShareMin = 0.05;
 
-/// J, once by the poses of two successive ticks, once by the velocities of the states.
+/// Energy, J: by the poses of two successive ticks (posed), and by the states' velocities (moving).
 struct Kinetic {
   double posed = 0, moving = 0;
 
@@ -25,7 +26,7 @@ struct Kinetic {
   }
 };
 
-/// The pose is that of the root part, whose centre of mass is somewhere else.
+/// Returns the energy by poses. A pose is of the root part, so the centre of mass is computed.
 double Posed(const MassProperties& mass, const BodyState& before, const BodyState& now, double h) {
   const Eigen::Vector2d v =
       (RootFrame(now).ToWorld(mass.centre) - RootFrame(before).ToWorld(mass.centre)) / h;
@@ -42,14 +43,14 @@ Kinetic Of(const MassProperties& mass, const BodyState& before, const BodyState&
   return {Posed(mass, before, now, h), Moving(mass, now)};
 }
 
-/// Of one peer in one window: its bodies' sums over ticks, and the oracle's of the same bodies in
-/// the same ticks.
+/// Energies of one peer in one window: sums over its bodies and ticks, and the oracle's for the
+/// same bodies and ticks.
 struct Window {
   Kinetic shown, due;
-  Kinetic hottest, hottest_due;  // of the bodies
+  Kinetic hottest, hottest_due;  // greatest of any body
 };
 
-/// Masses of the bodies after so many edits.
+/// Masses of bodies by number of edits.
 class Masses {
  public:
   explicit Masses(const RevisionHistory& revisions) : revisions_(revisions) {}
@@ -75,7 +76,7 @@ void Raise(Kinetic* most, const Kinetic& value) {
   most->moving = std::max(most->moving, value.moving);
 }
 
-/// One body of one peer, into that peer's windows.
+/// Adds one body of one peer to that peer's windows.
 void Add(const std::vector<const View*>& views, const Oracle& oracle,
          const RevisionHistory& revisions, PartId id, double h, Masses* masses,
          std::vector<Window>* windows) {
@@ -122,7 +123,7 @@ void MeasureKinetic(const Recording& recording, const Oracle& oracle,
   const std::vector<PartId> ids = ShownIds(recording);
   for (const auto& [peer, of_peer] : recording.views) {
     const std::vector<const View*> views = ViewsByTick(recording, peer);
-    // A last window that is not whole has fewer ticks, of both.
+    // An incomplete last window has fewer ticks, of peer and oracle alike.
     std::vector<Window> windows;
     for (const PartId id : ids) Add(views, oracle, revisions, id, h, &masses, &windows);
     all.insert(all.end(), windows.begin(), windows.end());

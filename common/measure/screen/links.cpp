@@ -1,4 +1,4 @@
-/// Mechanisms' links that are longer on a screen than they are.
+/// Finds links of mechanisms that are stretched on a screen.
 
 #include <algorithm>
 
@@ -12,8 +12,8 @@ namespace {
 
 using Bodies = std::vector<BodyState>;
 
-/// The joints of a revision, with the length that a stretch is measured by: from the joint to the
-/// farthest point of the body that it holds, of the shorter one of two.
+/// The joints of a revision, each with its link's length: from the joint to the farthest point of
+/// the joined body, of the shorter one of two.
 struct Links {
   explicit Links(const SceneRevision& revision)
       : ids(revision.ids), joints(revision.scene(), revision.composition()) {
@@ -36,7 +36,7 @@ struct Links {
   std::vector<PartId> ids;
   JointMeter joints;
   std::vector<double> lengths;              // m, by joint
-  std::vector<std::vector<PartId>> bodies;  // by joint: those that move
+  std::vector<std::vector<PartId>> bodies;  // by joint: its moving bodies
 };
 
 std::optional<Bodies> Shown(const View& view, const std::vector<PartId>& ids) {
@@ -48,7 +48,7 @@ std::optional<Bodies> Shown(const View& view, const std::vector<PartId>& ids) {
   return states;
 }
 
-/// How far the oracle's own joints are apart, if it has all these bodies.
+/// Returns the drift of the oracle's joints; zeros if the oracle lacks any of the bodies.
 std::vector<double> Due(const Oracle& oracle, const Links& links, std::int64_t tick) {
   Bodies states;
   for (const PartId id : links.ids) {

@@ -13,8 +13,8 @@ double Bend(const Vector2d& before, const Vector2d& after) {
   return std::abs(std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after)));
 }
 
-/// The bend of the oracle's path by legs of `n` ticks, where it is shown at `tick`; half a turn
-/// where it is so slow that it has no direction, nullopt where it is not known.
+/// Returns the bend of the oracle's path over legs of `n` ticks at the tick that is shown at
+/// `tick`; half a turn where the oracle is too slow for a direction, nullopt where it is not known.
 std::optional<double> TrueBend(const ShownBody& body, std::int64_t tick, std::int64_t n,
                                std::int64_t aged) {
   const auto before = body.TrueWay(tick - n, tick, aged);

@@ -6,7 +6,7 @@
 namespace seam {
 namespace {
 
-/// Ticks of the windows: 1, 2, 4, ... and half a second.
+/// Returns the lengths of the windows in ticks: 1, 2, 4, ... and half a second.
 std::vector<std::int64_t> Windows(double h) {
   const std::int64_t longest = std::max<std::int64_t>(1, std::llround(kVelocityLong / h));
   std::vector<std::int64_t> windows;
@@ -15,7 +15,7 @@ std::vector<std::int64_t> Windows(double h) {
   return windows;
 }
 
-/// How far the oracle's body goes in each of a span of ticks, where it is shown by one age, m.
+/// Returns the lengths of the oracle's steps in a span of ticks, shifted by the age at `aged`, m.
 std::vector<double> TrueSteps(const ShownBody& body, std::int64_t from, std::int64_t to,
                               std::int64_t aged) {
   std::vector<double> steps;
@@ -31,12 +31,13 @@ bool IsWrong(const ShownBody& body, std::int64_t tick, std::int64_t n) {
   const std::optional<Place3> due = body.TrueWay(tick - n, tick, tick);
   if (!due) return false;
   Place3 apart = Between(body.shown.At(tick - n), body.shown.At(tick), body.radius) - *due;
-  // Both turns are known but for whole turns.
+  // Both rotations are known up to whole turns.
   if (body.radius > 0) apart.z() = body.radius * WrapAngle(apart.z() / body.radius);
   const double off = apart.norm();
   const double tau = static_cast<double>(n) * body.h;
   if (off <= kWayFloor || off <= kVelocityFloor * tau) return false;
-  // The oracle's speed: with a tick on either side, since a bounce within the window stops it.
+  // The oracle's mean speed, with a tick on either side: a bounce within the window cancels its
+  // displacement.
   double way = 0;
   const std::vector<double> steps = TrueSteps(body, tick - n - 1, tick + 1, tick);
   for (const double step : steps) way += step;

@@ -23,7 +23,7 @@ bool OwnBodies::Has(const View& view, std::size_t i) {
 }
 
 const std::vector<PartId>& OwnBodies::ByScene(int edits, int player) {
-  // Who sits where changes no body, so the revision's key would not do.
+  // Seating changes no body, so the revision's key does not distinguish it.
   const auto [place, made] = own_.try_emplace({edits, player});
   if (made && revisions_ != nullptr) place->second = Find(edits, player);
   return place->second;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which bodies of a view are the viewer's own, and which are others'.
+/// Tells a player's own bodies in a view from those of other players.
 
 #include <map>
 #include <utility>
@@ -11,22 +11,21 @@ namespace seam {
 
 /// Peer p plays the scene's player p - 1: the server gives that place while it is free. A body is
 /// the peer's own if its mechanism holds, after the view's edits, the player's `vehicle`, a part
-/// whose `owner` is the player, a character of the player, or a part with a seat that the player
-/// sits on. Who has authority does not count, so that all methods are judged by the same bodies.
-/// The server, peer 0, has nothing of its own.
+/// with the player as `owner`, a character of the player, or a part with a seat that the player
+/// sits on. Authority does not count, so that all methods are compared by the same bodies. The
+/// server, peer 0, has no bodies of its own.
 class OwnBodies {
  public:
-  /// Without revisions nothing is known of the scene, and nothing is anybody's own. They must
-  /// outlive this.
+  /// `revisions`: must outlive this; nullptr: the scene is not known and no body has an owner.
   OwnBodies(const Recording& recording, const RevisionHistory* revisions);
-  /// Body `i` of the view.
+  /// True if body `i` of the view is the viewer's own.
   bool Has(const View& view, std::size_t i);
-  /// The ids of the bodies that are the player's own by the scene, ascending.
+  /// Returns the ids of the player's own bodies after `edits` edits, ascending.
   const std::vector<PartId>& ByScene(int edits, int player);
 
  private:
   struct Sitting {
-    int number = 0;  // of the edit
+    int number = 0;  // edit number
     int seat = -1, player = -1;
   };
   std::vector<PartId> Find(int edits, int player) const;

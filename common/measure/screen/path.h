@@ -1,5 +1,5 @@
 #pragma once
-/// One body's poses tick by tick: what a peer shows of it, or where the oracle has it.
+/// One body's poses tick by tick: as a peer displays them, or as the oracle has them.
 
 #include <cstdint>
 #include <map>
@@ -11,33 +11,34 @@
 
 namespace seam {
 
-/// Position and turn as one vector: m, m, and the turn as the way of a point at a body's radius.
+/// Displacement and rotation as one vector: m, m, and the rotation as arc length at the radius, m.
 using Place3 = Eigen::Vector3d;
 
+/// Poses of one body over a range of ticks, with gaps.
 class BodyPath {
  public:
   BodyPath(std::int64_t first_tick, std::int64_t last_tick);
 
   std::int64_t first() const { return first_; }
   std::int64_t last() const { return first_ + static_cast<std::int64_t>(samples_.size()) - 1; }
-  /// The body is known there.
+  /// True if the pose is known at the tick.
   bool Has(std::int64_t tick) const;
-  /// It is known in all these ticks, and of the same parts.
+  /// True if the pose is known in all these ticks, and the body has the same parts.
   bool Whole(std::int64_t from, std::int64_t to) const;
   /// Requires Has.
   const DoublePose& At(std::int64_t tick) const;
-  /// Between two ticks, on the straight way. Requires Has at both.
+  /// Interpolates linearly between two ticks. Requires Has at both.
   DoublePose At(double tick) const;
   bool Has(double tick) const;
   bool Whole(double from, double to) const;
 
-  /// `same`: of the same parts as in the tick before.
+  /// Sets the pose of a tick. `same`: the body has the same parts as in the tick before.
   void Set(std::int64_t tick, const DoublePose& pose, bool same);
 
  private:
   struct Sample {
     DoublePose pose;
-    int form = -1;  // rises whenever the body is not what it was; -1: not known
+    int form = -1;  // increases when the body's parts change or after a gap; -1: not known
   };
   const Sample* Find(std::int64_t tick) const;
 
@@ -46,23 +47,26 @@ class BodyPath {
   int form_ = 0;
 };
 
-/// From `a` to `b`, the turn wrapped to half a turn either way and multiplied by `radius` (m).
+/// Returns the displacement from `a` to `b`; the rotation is wrapped to +-pi and multiplied by
+/// `radius` (m).
 inline Place3 Between(const DoublePose& a, const DoublePose& b, double radius) {
   const Eigen::Vector2d d = b.position - a.position;
   return {d.x(), d.y(), radius * WrapAngle(b.angle - a.angle)};
 }
 
-/// A peer's views by tick, nullptr where there is none.
+/// Returns a peer's views by tick since the recording's first; nullptr where there is none.
 std::vector<const View*> ViewsByTick(const Recording& recording, int peer);
 
-/// `revisions` nullptr: bodies never change. `views`: ViewsByTick.
+/// Returns a body's displayed path. `views`: of ViewsByTick. `revisions` nullptr: bodies never
+/// change.
 BodyPath ShownPath(const Recording& recording, const std::vector<const View*>& views,
                    const RevisionHistory* revisions, PartId id);
 
-/// From a second before the recording's first tick on, as far as the oracle goes.
+/// Returns the oracle's path of a body, from a second before the recording's first tick or from the
+/// oracle's first tick.
 BodyPath TruePath(const Recording& recording, const Oracle& oracle, PartId id);
 
-/// Ids of all bodies that any view shows, ascending.
+/// Returns the ids of all bodies that any view shows, ascending.
 std::vector<PartId> ShownIds(const Recording& recording);
 
 }  // namespace seam

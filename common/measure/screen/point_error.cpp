@@ -1,5 +1,5 @@
-/// Displayed pose against the oracle's by the largest displacement of a point of the body: of what
-/// clients see of others, of their own, and of the server's view.
+/// Point error: the largest displacement of a point of a body between displayed and oracle's pose,
+/// for other players' bodies and own bodies in clients' views, and for the server's view.
 
 #include <cmath>
 

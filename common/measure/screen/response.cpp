@@ -13,29 +13,30 @@
 namespace seam {
 namespace {
 
-constexpr int kChangesMax = 16;     ///< of each player
-constexpr double kHorizon = 1;      ///< s: how long an answer is waited for
+constexpr int kChangesMax = 16;     ///< examined changes of each player
+constexpr double kHorizon = 1;      ///< s: greatest response time
 constexpr double kEffectMin = 0.2;  ///< m/s: weaker inputs are left out
-/// A body answers when the input has changed its velocity by so much, m/s, for so many ticks: the
-/// first of an effect tells most, since what is late catches up.
+/// A body responds when the input has changed its velocity by kAnswer, m/s, for kKept ticks. The
+/// threshold is low because the onset tells most: a late body catches up.
 constexpr double kAnswer = 0.1;
 constexpr std::int64_t kKept = 3;
-/// But by at least this many times what was wrong with the velocity before: its mean, and how much
-/// it varied.
+/// The change must also exceed the velocity error before the change: its mean and its standard
+/// deviation, each times its factor.
 constexpr double kBiasFactor = 1.5, kNoiseFactor = 3;
-/// Where the oracle's own answer takes longer, what is late has caught up before it can be seen, s.
+/// Greatest response time of the oracle, s: in a slower response a late view catches up unseen.
 constexpr double kOnsetMax = 0.25;
-/// The view's age and its error before the change are taken over so long, s.
+/// Time before the change over which the view's age and error are measured, s.
 constexpr double kBefore = 0.25;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// One change and what it does, seen along one direction.
+/// One input change with its effect, along one direction.
 struct Question {
   InputChange change;
   Effect effect;
   Eigen::Vector3d way{0, 0, 0};  // unit
 
-  /// m/s along the way, of the oracle with the input less without; nullopt beyond what is known.
+  /// Returns the oracle's velocity with the input less that without, along `way`, m/s; nullopt
+  /// beyond the simulated ticks.
   std::optional<double> At(double tick) const {
     const double t = tick - static_cast<double>(change.tick);
     if (t <= -1) return 0;
@@ -61,7 +62,7 @@ std::optional<Question> Ask(const InputChange& change, Effect effect) {
   return question;
 }
 
-/// The tick of the oracle's own answer, if it is one of that many m/s; nullopt: none in time.
+/// Returns the tick at which the oracle's own response reaches `due`, m/s; nullopt: not in time.
 std::optional<std::int64_t> TrueAnswer(const Question& question, double due, double h) {
   const auto onset_max = static_cast<std::size_t>(std::llround(kOnsetMax / h));
   const std::size_t known = question.effect.velocity.size();
@@ -72,7 +73,7 @@ std::optional<std::int64_t> TrueAnswer(const Question& question, double due, dou
   return std::nullopt;
 }
 
-/// What one screen shows of the body, less what it would show without the input: along the way.
+/// The displayed velocity of the body less the one without the input, along the question's `way`.
 class Difference {
  public:
   Difference(const Question& question, const BodyPath& shown, const BodyPath& truth, double h)
@@ -96,7 +97,7 @@ class Difference {
     noise_ = std::sqrt(std::max(0.0, squares / count - bias_ * bias_));
   }
   double age() const { return age_; }
-  /// m/s that stand out from what was wrong before the change, whose mean is taken off.
+  /// Returns the threshold of a response, m/s: above the velocity error before the change.
   double due() const {
     return std::max({kAnswer, kBiasFactor * std::abs(bias_), kNoiseFactor * noise_});
   }
@@ -123,14 +124,14 @@ class Difference {
   double h_, age_ = 0, bias_ = 0, noise_ = 0;
 };
 
-/// How many ticks later than the oracle a screen answers.
+/// The ticks at which a screen and the oracle respond.
 struct Answer {
-  double tick = kNever;    // kNever: it does not
+  double tick = kNever;    // kNever: no response
   std::int64_t truth = 0;  // the oracle's tick
 };
 
-/// nullopt where nothing can be said: the body is so far off the oracle's motion that the input
-/// does not stand out, or it moves as if by the input before that acts.
+/// Finds the response on a screen. nullopt if it cannot be determined: the body is so far off the
+/// oracle's motion that the input does not stand out, or it seems to respond before the oracle.
 std::optional<Answer> AnswerOf(const Question& question, const Difference& screen, double h) {
   const double due = screen.due();
   const std::optional<std::int64_t> truth = TrueAnswer(question, due, h);
@@ -155,7 +156,7 @@ std::optional<double> Median(std::vector<double> values) {
   return std::isfinite(median) ? std::optional<double>(median) : std::nullopt;
 }
 
-/// Whether the times tell anything: a bus without a clock gives all the same.
+/// True if the recorded times advance: a bus without a clock gives all views the same time.
 bool TimesPass(const Recording& recording) {
   for (const auto& [peer, times] : recording.view_us) {
     const double ticks = static_cast<double>(times.rbegin()->first - times.begin()->first);
@@ -165,7 +166,7 @@ bool TimesPass(const Recording& recording) {
   return !recording.view_us.empty();
 }
 
-/// When the bus heard a view, us.
+/// Returns the time at which the bus received a view, us.
 std::optional<double> HeardUs(const Recording& recording, int peer, std::int64_t tick) {
   const auto of_peer = recording.view_us.find(peer);
   if (of_peer == recording.view_us.end()) return std::nullopt;
@@ -211,7 +212,7 @@ void MeasureResponse(const Recording& recording, const Oracle& oracle, int input
       }
       const auto seen_us = HeardUs(recording, peer, static_cast<std::int64_t>(answer->tick));
       if (!seen_us) continue;
-      // The body's own inertia is no latency; the step in which the input acts is.
+      // The body's own inertia is no latency; the step in which the input takes effect is.
       const auto inertia = static_cast<double>(answer->truth - change.tick - 1);
       kind.push_back((*seen_us - *read_us) * 1e-3 - 1000 * inertia * h);
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// The measures of what a person sees on a screen, one per file; docs/metrics.md defines each.
+/// The measures of displayed motion as a person sees it, one per file; defined in docs/metrics.md.
 
 #include "common/measure/measure.h"
 #include "common/measure/screen/extent.h"
@@ -7,24 +7,24 @@
 
 namespace seam {
 
-/// What they all look up.
+/// Caches that these measures share.
 struct Screen {
-  /// `revisions` nullptr: the scene is not known. Both must outlive this.
+  /// `revisions` nullptr: the scene is not known. Both arguments must outlive this.
   Screen(const Recording& recording, const RevisionHistory* revisions)
       : extents(revisions), own(recording, revisions) {}
   Extents extents;
   OwnBodies own;
 };
 
-/// point_error.cpp: error_others_m, error_own_m, error_server_m.
+/// point_error.cpp: sets error_others_m, error_own_m and error_server_m.
 void MeasurePointError(const Recording& recording, const Oracle& oracle, Screen& screen,
                        Measures* measures);
 
-/// screen.cpp: path_error_rms_m, view_age_ms and seen, of the screens of all clients.
+/// screen.cpp: sets path_error_rms_m, view_age_ms and seen, from the views of all clients.
 void MeasureScreens(const Recording& recording, const Oracle& oracle,
                     const RevisionHistory* revisions, Screen& screen, Measures* measures);
 
-/// kinetic.cpp: energy_ratio_min, energy_ratio_max, hottest_ratio, of all peers.
+/// kinetic.cpp: sets energy_ratio_min, energy_ratio_max and hottest_ratio, from all peers' views.
 void MeasureKinetic(const Recording& recording, const Oracle& oracle,
                     const RevisionHistory& revisions, Measures* measures);
 

@@ -1,40 +1,40 @@
 #pragma once
-/// From where on a person notices what is wrong with a motion. docs/metrics.md has the sources.
+/// Thresholds from which a person notices an error of motion. docs/metrics.md has the sources.
 
 #include <cmath>
 
 namespace seam {
 
-/// Share of the velocity by which it may be wrong: over one tick, and over half a second.
+/// Tolerated velocity error as a share of the velocity: over one tick, and over kVelocityLong.
 constexpr double kVelocityShareTick = 1.0, kVelocityShareLong = 0.07;
 constexpr double kVelocityLong = 0.5;  ///< s
-/// Of velocities that are wrong by less than this, or for a way of less than this, nobody notices
-/// anything: 1 cm is half a pixel where 40 m are 2000 pixels wide. m/s, m
+/// Velocity error, m/s, and displacement error, m, below which nobody notices anything: 1 cm is
+/// half a pixel where 40 m are 2000 pixels wide.
 constexpr double kVelocityFloor = 0.1, kWayFloor = 0.01;
 
-constexpr double kContactDelay = 0.1;  ///< s: an effect later than this has another cause
-/// A blow changes a velocity by at least this within two ticks, m/s.
+constexpr double kContactDelay = 0.1;  ///< s: a later effect looks as if it had another cause
+/// Least change of velocity by an impact within two ticks, m/s.
 constexpr double kBlowMin = 1;
 
-/// A body stands still for so long, s, while the oracle's goes faster than this, m/s.
+/// Least duration of a noticed stop, s, and least speed of the oracle's body meanwhile, m/s.
 constexpr double kStopLong = 0.08, kStopTruthMin = 0.5;
-/// And "still" is slower than this share of that.
+/// A body stands still below this share of the oracle's speed.
 constexpr double kStopShare = 0.1;
 
-/// A bend of the path, rad: between its directions over so long a time before and after it, s, at
-/// not less than this speed, m/s.
+/// Least noticed bend of the path, rad; duration of the legs before and after it over which the
+/// directions are taken, s; least speed on both legs, m/s.
 constexpr double kKink = 12 * 3.14159265358979323846 / 180, kKinkLeg = 0.05, kKinkSpeedMin = 0.5;
-/// The oracle's path has its own bends as far from there, s.
+/// Bends of the oracle's path within this time of a bend excuse it, s.
 constexpr double kKinkReach = 0.1;
 
-/// Of the length of a mechanism's link.
+/// Least noticed stretch, as a share of the length of a mechanism's link.
 constexpr double kStretch = 0.03;
 
-/// Slower bodies do not move, m/s: seconds in which a body does not move are not counted.
+/// Least speed of a moving body, m/s. Seconds in which a body does not move are not counted.
 constexpr double kMovesMin = 0.1;
 
-/// The share of the velocity that may be wrong over `tau` s, of ticks of `h` s: on a straight line
-/// between the two ends in logarithms of both.
+/// Returns the tolerated share of velocity error over `tau` s, for ticks of `h` s: interpolated
+/// linearly between the two ends in logarithms of time and share.
 inline double VelocityShare(double tau, double h) {
   if (tau <= h) return kVelocityShareTick;
   const double part = std::log(tau / h) / std::log(kVelocityLong / h);

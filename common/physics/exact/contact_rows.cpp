@@ -10,7 +10,7 @@ namespace {
 constexpr double kPushOut = 0.2;
 constexpr double kPushOutMost = 2;
 /// m/s: slower impacts have no restitution even without gravity.
-constexpr double kSlowest = 1e-6;
+constexpr double kSlowestSliding = 1e-6;
 
 void Split(const b2Fixture* fixture, const ExactBody& body, double px, double py, double* turning_x,
            double* turning_y, double* still_x, double* still_y) {
@@ -72,7 +72,7 @@ void ReadContact(const std::vector<ExactBody>& bodies, double rest, ExactContact
   contact->friction = static_cast<double>(made->GetFriction());
   contact->restitution = static_cast<double>(made->GetRestitution());
   contact->threshold =
-      std::min(static_cast<double>(made->GetRestitutionThreshold()), rest + kSlowest);
+      std::min(static_cast<double>(made->GetRestitutionThreshold()), rest + kSlowestSliding);
   contact->returns = contact->restitution >= 1 && rest == 0;
   contact->belt = static_cast<double>(made->GetTangentSpeed());
   const ExactBody& a = bodies[static_cast<std::size_t>(contact->a)];

@@ -6,23 +6,21 @@
 #include <utility>
 
 #include "common/physics/exact/engine_members.h"
+#include "common/physics/exact/shared_rules.h"
 
 namespace seam {
 namespace {
 
 /// Restitution from here on counts as 1.
 constexpr float kEverything = 0.999f;
-/// A body has an impact after a fall of more steps than this; else it rests. kSlowest: m/s added,
-/// for scenes without gravity.
-constexpr double kRestSteps = 4, kSlowest = 1e-3;
+/// Speed above which a body has an impact even without gravity, m/s; added to the fall of kRestSteps.
+constexpr double kSlowestElastic = 1e-3;
 /// Impacts per contact in one step; and limit of contact checks in a step, which must end even
 /// where thousands of bodies start in one place.
-constexpr std::size_t kImpactsEach = 8, kLooksMost = 5000000;
-/// Tries with less restitution if an impact with friction would gain energy; the last has none.
-constexpr int kSofterTries = 3;
+constexpr std::size_t kElasticImpactsEach = 8, kLooksMost = 5000000;
 /// Iterations over the points and directions of a contact, until no impulse changes by more than
 /// this share.
-constexpr int kRounds = 300;
+constexpr int kSweepsMax = 300;
 constexpr double kSame = 1e-12;
 /// A gain of energy up to this share counts as rounding.
 constexpr double kRounded = 1e-7;
@@ -96,7 +94,7 @@ void ElasticImpacts::Find(b2World* world, float h) {
     b2Body* const b = fixture_b->GetBody();
     if (!Free(a) || !Free(b)) continue;
     const float pull = std::max(Pull(*world, a).Length(), Pull(*world, b).Length());
-    const double rest = kSlowest + kRestSteps * static_cast<double>(h * pull);
+    const double rest = kSlowestElastic + kRestSteps * static_cast<double>(h * pull);
     const float usual =
         std::min(fixture_a->GetRestitutionThreshold(), fixture_b->GetRestitutionThreshold());
     // For impacts of continuous collision, too.
@@ -178,7 +176,7 @@ double ElasticImpacts::Solve(const Touch& touch, double share, double* pushed, d
     target[i] = -back * normal;
     pushed[i] = rubbed[i] = 0;
   }
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSweepsMax; ++round) {
     double most = 0, change = 0;
     for (int i = 0; i < touch.points; ++i) {
       const Point& p = touch.point[i];
@@ -265,7 +263,7 @@ void ElasticImpacts::Act(b2World* world, float h) {
   touches_.clear();
   Find(world, h);
   const std::size_t touches = std::max<std::size_t>(touches_.size(), 1);
-  const std::size_t most = std::min(kImpactsEach * touches, kLooksMost / touches);
+  const std::size_t most = std::min(kElasticImpactsEach * touches, kLooksMost / touches);
   for (std::size_t blow = 0; blow < most; ++blow) {
     Touch* fastest = nullptr;
     for (Touch& touch : touches_) {

@@ -11,7 +11,7 @@ namespace seam {
 namespace {
 
 /// Limit of an impulse, as a multiple of all momentum.
-constexpr double kImpulseMost = 3;
+constexpr double kFallbackImpulseMost = 3;
 
 double Length(const b2Vec2& v) { return static_cast<double>(v.Length()); }
 
@@ -82,7 +82,7 @@ void ExactStep::LeaveToEngine(float h, const Found& found) {
       if (joint.drives) momentum += static_cast<double>(h) * joint.most;
     }
   }
-  if (pressed <= kImpulseMost * momentum) return;
+  if (pressed <= kFallbackImpulseMost * momentum) return;
   for (b2Contact* contact : found.contacts) {
     b2Manifold& manifold = *contact->GetManifold();
     for (int i = 0; i < manifold.pointCount; ++i) {

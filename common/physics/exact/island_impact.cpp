@@ -5,13 +5,11 @@
 
 #include "common/physics/exact/island.h"
 
+#include "common/physics/exact/shared_rules.h"
+
 namespace seam {
 namespace {
 
-/// Gap below which a limit or a contact counts as reached, m or rad.
-constexpr double kReached = 1e-6;
-/// Tries with less restitution if an impact with friction would gain energy; the last has none.
-constexpr int kSofterTries = 3;
 /// Impacts in one substep, for each contact.
 constexpr int kImpactsEach = 8;
 /// Shares by which diagonal entries are enlarged in an impact. More takes energy where a mechanism

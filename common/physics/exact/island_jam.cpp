@@ -17,7 +17,7 @@ constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
 /// kGainKept: share of that sum left per substep.
 constexpr double kGainOnce = 2, kGainLasting = 4, kGainKept = 0.998;
 /// Limit of a contact's impulse, as a multiple of all momentum.
-constexpr double kImpulseMost = 50;
+constexpr double kJamImpulseMost = 50;
 /// The same limit for the next step's warm start.
 constexpr double kCarriedMost = 3;
 /// Bodies are thrown at up to this many times the speed of a kinematic one.
@@ -57,11 +57,11 @@ double ExactIsland::MostImpulse(const Pace& pace) const {
   for (const Row& row : rows_) {
     if (row.kind == RowKind::kMotor) sum += row.most;
   }
-  return kImpulseMost * sum;
+  return kJamImpulseMost * sum;
 }
 
 double ExactIsland::MostWarmStart(const Pace& pace) const {
-  return kCarriedMost / kImpulseMost * MostImpulse({pace.h * pace.substeps, 1});
+  return kCarriedMost / kJamImpulseMost * MostImpulse({pace.h * pace.substeps, 1});
 }
 
 void ExactIsland::BoundWarmStart() const {

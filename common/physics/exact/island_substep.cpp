@@ -8,6 +8,8 @@
 
 #include "common/physics/exact/island.h"
 
+#include "common/physics/exact/shared_rules.h"
+
 namespace seam {
 namespace {
 
@@ -25,8 +27,6 @@ constexpr double kLasts = 0.999;
 /// The inertia is computed anew while it is too small by more than this factor.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
-/// Gap below which a limit or a contact counts as reached, m or rad.
-constexpr double kReached = 1e-6;
 /// Growth of energy from which a substep without contacts is checked.
 constexpr double kMuchMore = 2;
 /// A motor that lacks this much speed applies its maximum, rad/s or m/s.

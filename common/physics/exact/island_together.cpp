@@ -6,6 +6,8 @@
 
 #include "common/physics/exact/island.h"
 
+#include "common/physics/exact/shared_rules.h"
+
 namespace seam {
 namespace {
 
@@ -22,8 +24,6 @@ constexpr double kTurnMost = 1, kDamped = 1e-3, kDampedMore = 10;
 constexpr int kTriesThatFail = 12;
 /// Bodies treated as alike are as hard to turn as a rod of so many times their length.
 constexpr double kHardToTurn = 2;
-/// A body has an impact after a fall of more steps than this; else it rests.
-constexpr double kRestSteps = 4;
 
 }  // namespace
 

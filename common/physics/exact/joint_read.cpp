@@ -16,11 +16,6 @@ constexpr double kNearly = 1 - 1e-6;
 constexpr double kNearAngle = 0.1, kNearLength = 0.1;
 
 template <typename Made>
-const Made& As(const ExactJoint& joint) {
-  return *static_cast<const Made*>(joint.made);
-}
-
-template <typename Made>
 void ReadAnchors(const Made& made, ExactJoint* out) {
   out->anchor_a = made.GetLocalAnchorA();
   out->anchor_b = made.GetLocalAnchorB();

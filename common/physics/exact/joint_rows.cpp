@@ -13,11 +13,6 @@ constexpr double kPoseShare = 0.3;
 /// Two points closer than this have no direction, m.
 constexpr double kNoDirection = 1e-9;
 
-template <typename Made>
-const Made& As(const ExactJoint& joint) {
-  return *static_cast<const Made*>(joint.made);
-}
-
 /// Coefficients of the ends' velocities in a row's speed.
 struct Jacobian {
   double ax, ay, aw, bx, by, bw;

@@ -55,6 +55,12 @@ struct ExactJoint {
   JointImpulses impulses;
 };
 
+/// Casts the engine's joint to its own type.
+template <typename Made>
+const Made& As(const ExactJoint& joint) {
+  return *static_cast<const Made*>(joint.made);
+}
+
 /// True if a distance joint has a fixed length.
 inline bool IsRod(const ExactJoint& joint) { return joint.lower >= joint.upper; }
 
