@@ -119,7 +119,7 @@ void Display::Remap(const BodyRemap& change) {
   seats_.Forget();
   corrected_until_.assign(world_.composition().mechanisms.size(), 0);
   far_.assign(world_.composition().mechanisms.size(), Nowhere());
-  if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
+  if (config_.policy->IsOracle()) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
     smoother_.Moved(static_cast<int>(body), change.jumps[body]);
   }
@@ -220,8 +220,7 @@ void Display::Leave(int body) {
 }
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
-  if (config_.mode == Mode::kOracle) return;  // no body is only displayed
-  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // it has none
+  const double delay = config_.policy->Reckons() ? 0 : delay_.Advance();  // it has none
   reckoner_.Begin(next);
   CheckParked(next, seen);
   leaving_.clear();
@@ -237,7 +236,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
       state.spin = 0;
-    } else if (config_.mode == Mode::kBuffer) {
+    } else if (config_.policy->Reckons()) {
       state = AlongReckoned(body, state);
     } else {
       state = AlongSnapshots(body, snapshots_.Interpolate(body, static_cast<double>(next) - delay),

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@
 #include "common/sync/correct/corrector.h"
 #include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
+#include "common/sync/edits/edit_queue.h"
 #include "common/sync/impact_reporter.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
@@ -99,21 +101,18 @@ class Replica {
   /// else, each after the tick that its order names. A peer that rolls back goes back to that tick;
   /// other peers, and orders too old for a replay, apply it now; an order of a future tick waits.
   /// Returns false, and ignores the order, if it is not the next one.
-  /// In mode oracle every peer edits alone: Step queues edits found by physics, the server's orders
-  /// of these are ignored, and an edit from outside is queued by the Step of its tick.
   bool Queue(const EditOrder& order);
   /// True if the next queued edit is due.
   bool has_queued() const;
   /// The next edit to apply. Requires has_queued().
-  const Edit& next_queued() const { return queued_.front().edit; }
+  const Edit& next_queued() const { return queue_->front().edit; }
   /// Applies all queued edits that are due.
   void ApplyEdits();
   /// Applies the next queued edit. Returns the remap of bodies, or nullopt if they are unchanged.
   /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
   /// applied two at once would stay an epoch behind. Requires has_queued().
   std::optional<BodyRemap> ApplyNextEdit();
-  /// Returns the edits that this peer found as the authority of the affected bodies; in mode oracle
-  /// all that physics finds.
+  /// Returns the edits that this peer found as the authority of the affected bodies.
   std::vector<FoundEdit> TakeProposals() { return proposals_.Take(); }
   /// True if the body has had the same parts since revision `edits`.
   bool SameBody(int body, int edits) const { return memory_.track(body).changed_at <= edits; }
@@ -170,11 +169,6 @@ class Replica {
  private:
   friend struct ReplicaTestAccess;
 
-  /// An edit to be applied after a tick.
-  struct QueuedEdit {
-    Edit edit;
-    std::int64_t tick = 0;
-  };
   /// A proposal whose order is pending, with its parts and tick.
   struct Awaited {
     EditKey key{};
@@ -185,7 +179,6 @@ class Replica {
   void FollowRoles();
   /// Returns body indices, ascending.
   std::vector<int> BodiesOf(const std::vector<int>& mechanisms) const;
-  void QueueOutsideEdits();
   /// Call after a step, also one of a replay. Finds edits proposed by physics.
   void FindEdits();
   /// True if another edit of the edit's mechanism is pending: this one was found in a world without
@@ -220,18 +213,16 @@ class Replica {
   Reach reach_;
   RestCommit rest_;
   SendScheduler scheduler_;
+  std::unique_ptr<EditQueue> queue_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
   std::vector<int> heard_players_;                   // players with new or future inputs
   std::vector<int> pressed_now_;                     // by player
   std::vector<int> pressed_missed_;                  // by player: presses that came too late for a
                                                      // replay
-  std::vector<QueuedEdit> queued_;                   // ordered, not yet applied; ticks ascend
   std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
   std::vector<Awaited> awaited_;                     // pending proposals; only if this peer rolls
                                                      // back
-  std::map<std::int64_t, std::vector<Edit>>
-      outside_edits_;                                    // mode oracle: edits from outside, by tick
   std::vector<ExactStates> released_;                    // states that ApplyGrants released, not
                                                          // yet sent
 };

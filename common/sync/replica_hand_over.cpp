@@ -14,7 +14,7 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
   // Every peer writes these states as they are. If a state rested on an assumed input, the effect
   // of the real input would be lost.
   const auto final_tick = [&](int m) {
-    if (!config_.rolls_back) return tick();
+    if (!config_.policy->SendsCompleteTicks()) return tick();
     const std::int64_t complete = std::min(reach_.CompleteTick(m), replay_.settled());
     bool known = true;
     EachIdOf(world_.composition(), m, [&](PartId id) {

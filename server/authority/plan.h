@@ -57,7 +57,7 @@ struct MechanismView {
 /// The complete planner input; mechanisms are given by index into `mechanisms`. Times of past
 /// changes (for the dwell) are in it too, as data.
 struct AuthorityView {
-  Mode mode = Mode::kBuffer;
+  const Policy* policy = &BufferPolicy(false);
   int tick_hz = 60;
   float buffer_m = 0;          ///< width of the buffer zone
   Vec2 gravity{0, 0};          ///< m/s^2

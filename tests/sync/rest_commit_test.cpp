@@ -25,7 +25,7 @@ class OnTheGround {
     rest.BeforeStep();
     world->Step();
     memory.RecordContacts(roles.table());
-    if (config.rolls_back) reach.Look();
+    if (config.policy->SendsCompleteTicks()) reach.Look();
     rest.AfterStep();
     memory.Record();
   }

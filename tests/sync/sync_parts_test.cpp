@@ -311,11 +311,11 @@ TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
   EXPECT_EQ(MakeSyncConfig("strict", "").reconcile, nullptr);
   EXPECT_THROW(MakeSyncConfig("strict", "fade"), OperatorError);
   EXPECT_THROW(MakeSyncConfig("lockstep", ""), OperatorError);
-  for (const Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
-    EXPECT_EQ(FindMode(ToString(mode)), mode);
+  for (const std::string& mode : ModeNames()) {
+    EXPECT_EQ(FindPolicy(mode, "", false)->mode(), mode);
   }
   for (const char* name : {"", "lockstep", "Oracle", "buffer "}) {
-    EXPECT_EQ(FindMode(name), std::nullopt) << name;
+    EXPECT_EQ(FindPolicy(name, "", false), nullptr) << name;
   }
 }
 

@@ -88,7 +88,7 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   const float angle_then = then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
   in.remote = Unpack(states, i, angle_then);
   const bool quiet = in.local.velocity.norm() < kQuiet && std::fabs(in.local.spin) < kQuiet;
-  const bool goes_back = config_.GoesBack(roles_.self());
+  const bool goes_back = config_.policy->GoesBack(roles_.self());
   if ((states.flags[i] & kStateAsleep) != 0 && quiet && !goes_back) {
     TakeRest(body, in.local, in.remote);
     return;

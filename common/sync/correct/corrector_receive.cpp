@@ -101,7 +101,7 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
     ++result->unknown;
     return false;
   }
-  const bool trusts = config_.GoesBack(roles_.self()) && roles_.Simulates(body);
+  const bool trusts = config_.policy->GoesBack(roles_.self()) && roles_.Simulates(body);
   if (track.placed && trusts && replay_.LacksEdit(states.revision, states.tick)) {
     ++result->stale;  // its sender will roll back and send another state
     return false;

@@ -26,7 +26,7 @@ Motion Corrector::WantedMotion(int body) const {
   if (roles_.RoleOf(m) != kRoleRemote) {
     return presence_.Idle(m) ? Motion::kAbsent : Motion::kDynamic;
   }
-  if (config_.mode != Mode::kBuffer) return Motion::kKinematic;
+  if (!config_.policy->Reckons()) return Motion::kKinematic;
   return presence_.Near(m) ? Motion::kPrescribed : Motion::kAbsent;
 }
 

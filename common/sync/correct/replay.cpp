@@ -108,7 +108,7 @@ bool Replay::IsAlone() const {
 }
 
 void Replay::TakeBarrier() {
-  if (!config_.TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
+  if (!config_.policy->TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
   // A body that has just fallen asleep is rebuilt once as it lies.
   const bool is_alone = IsAlone(), alone = std::exchange(was_alone_, is_alone) && is_alone;
   const std::int64_t every = alone ? config_.tick_hz / kAlonePart : 0;

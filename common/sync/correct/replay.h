@@ -29,7 +29,7 @@
 
 namespace seam {
 
-/// Does nothing at peers that never roll back (SyncConfig::GoesBack).
+/// Does nothing at peers that never roll back (Policy::GoesBack).
 class Replay {
  public:
   /// All must outlive this. `inputs`: by player.

@@ -85,7 +85,7 @@ void Replay::ForgetHeard() {
     BodyTrack& track = memory_.track(body);
     track.told_tick = std::min(track.told_tick, world_.tick());
   }
-  if (!config_.GoesBack(roles_.self())) return;
+  if (!config_.policy->GoesBack(roles_.self())) return;
   Snapshots& heard = memory_.snapshots();
   for (const int body : world_.present()) {
     if (!roles_.Simulates(body)) continue;
@@ -130,13 +130,13 @@ void Replay::DropBarriers() {
 }
 
 bool Replay::IsBeforeEdit(std::int64_t tick) const {
-  return config_.GoesBack(roles_.self()) && tick < edited_tick_ &&
+  return config_.policy->GoesBack(roles_.self()) && tick < edited_tick_ &&
          tick >= edited_tick_ - config_.tick_hz;
 }
 
 /// Call after edits. Recreated bodies mean a rebuilt world, so this tick becomes a barrier too.
 void Replay::BarrierAfterEdits() {
-  if (std::exchange(edited_, false) && config_.GoesBack(roles_.self())) AddBarrier(false);
+  if (std::exchange(edited_, false) && config_.policy->GoesBack(roles_.self())) AddBarrier(false);
 }
 
 void Replay::GoOn() {

@@ -96,12 +96,10 @@ class RestCommit {
     int times = 0;                 ///< releases by pushes since its authority last spoke of it
   };
 
-  bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
+  bool Off() const { return config_.policy->IsOracle() || !world_.scene().solver.sleep; }
   /// True if the physics alone decides about waking and sleeping, and no body is held against it:
   /// all peers come to the same result from the same inputs, or one peer simulates everything.
-  bool Trusts() const {
-    return config_.GoesBack(roles_.self()) || config_.mode == Mode::kCentral;
-  }
+  bool Trusts() const { return config_.policy->TrustsSleep(); }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   int AuthorityOf(int body) const { return roles_.table().at(world_.mechanism(body)).authority; }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }

@@ -34,7 +34,7 @@ bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int
   };
   const auto asleep = [&](int b) {
     const std::int64_t assumed =
-        config_.rolls_back ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
+        config_.policy->SendsCompleteTicks() ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
     return watch_.asleep(b) >= Ticks(kAsleepFor) + assumed;
   };
   if (each(own, asleep)) return true;
