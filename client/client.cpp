@@ -26,7 +26,7 @@ static_assert(kPingQuietUs + kUsualMaxUs <= kLeaseUs / 2,
 /// A neutral input that has been sent for this long, s, has arrived in spite of loss.
 constexpr std::int64_t kInputKnownAfter = 2;
 /// Most ticks stepped in one call. If further behind than kGiveUpTicks we rejoin.
-constexpr int kStepsMax = 20;
+constexpr int kCatchUpSteps = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
 /// A late joiner waits this long after its last hello for all bodies' states, us; then it starts
 /// with those it has.
@@ -170,7 +170,7 @@ void Client::StepDue(std::int64_t now_us) {
     Join(now_us);
     return;
   }
-  for (int steps = 0; steps < kStepsMax && replica_->tick() < due; ++steps) {
+  for (int steps = 0; steps < kCatchUpSteps && replica_->tick() < due; ++steps) {
     late_us_ = std::max(late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
     worst_late_us_ = std::max(worst_late_us_, late_us_);
     StepOnce(now_us);

@@ -15,11 +15,11 @@ void LoadMeter::Note(std::int64_t now_us, std::int64_t cpu_us, int ticks, std::i
     ++calls_;
     late_ += late_us > tick_us ? 1 : 0;
     due_us_ += ticks * tick_us;
-    Half& half = now_us - began_us_ < kWindowUs / 2 ? first_ : second_;
+    Half& half = now_us - began_us_ < kMeterUs / 2 ? first_ : second_;
     ++half.calls;
     half.late_us += late_us;
   }
-  if (began_us_ >= 0 && (now_us - began_us_ < kWindowUs || due_us_ == 0)) return;
+  if (began_us_ >= 0 && (now_us - began_us_ < kMeterUs || due_us_ == 0)) return;
   if (began_us_ >= 0) {
     std::int64_t load = (cpu_us - began_cpu_us_) * 1000 / due_us_;
     if (TooLate(static_cast<double>(tick_us))) load = std::max<std::int64_t>(load, kLateLoad);

@@ -20,7 +20,7 @@ class LoadMeter {
   /// constant small lateness.
   std::int16_t permille() const { return permille_; }
 
-  static constexpr std::int64_t kWindowUs = 500000;
+  static constexpr std::int64_t kMeterUs = 500000;
   static constexpr std::int16_t kLateLoad = 1250;
   /// Least change of lateness between the two halves of a window to count as a trend, in ticks:
   /// more than calls differ by scheduling.

@@ -52,33 +52,30 @@ void Define(Command& app, Flags& f) {
   app.Option("server", f.server, "host:port of seam-server (port 7777 if left out)");
   app.Option("--name", f.name, "player of the scene to be");
   app.Switch("--watch", f.watch, "only look on, as a guest or under --name");
-  app.Switch("--show", f.show,
-               "draw the world in this terminal (--drive keyboard does that too)");
-  app.Option("--drive", f.drive,
-                 "none | bot | keyboard | name of the player whose script to play");
+  app.Switch("--show", f.show, "draw the world in this terminal (--drive keyboard does that too)");
+  app.Option("--drive", f.drive, "none | bot | keyboard | name of the player whose script to play");
   app.Option("--impair", f.impair, "impair this client's network, both directions");
   app.Option("--seed", f.seed, "of the impairment").Range(0, 1000000000);
   app.Option("--smooth", f.smooth,
-                 "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
+             "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
       .OneOfOrRange({"on", "off"}, kSmoothRateMin, kSmoothRateMax);
-  app.Option("--duration", f.duration_s, "seconds to run (0: until stopped)")
-      .Range(0.0, 1e6);
+  app.Option("--duration", f.duration_s, "seconds to run (0: until stopped)").Range(0.0, 1e6);
   app.Option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
       .Range(0.1, 1e6);
   app.Option("--cpu-throttle", f.throttle,
-                 "be a machine that is so many times slower: the server gives it less to simulate")
+             "be a machine that is so many times slower: the server gives it less to simulate")
       .Range(1.0, 100.0);
   app.Option("--key", f.key,
-                 "keep the secret of our place in this file (mode 0600): after a restart the "
-                 "place, with its car, is ours again at once");
+             "keep the secret of our place in this file (mode 0600): after a restart the "
+             "place, with its car, is ours again at once");
   app.Option("--record", f.record, "write an LCM log of the bus to this file");
   app.Switch("--force", f.force, "overwrite the --record file");
   app.Option("--room", f.room, "the room to join (default: the server's first)");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.Option("--publish", f.publish,
-                 "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
-                 "at most " +
-                     std::to_string(kPublishAllMost) + " bodies, else own)");
+             "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
+             "at most " +
+                 std::to_string(kPublishAllMost) + " bodies, else own)");
   app.Switch("--quiet", f.quiet, "no progress line");
 }
 

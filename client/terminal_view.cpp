@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kFrameUs = 1000000 / 15;
 constexpr int kGroundColour = 250;
-constexpr float kFar = 30000;  // m; no brick is further away
+constexpr float kBricksWithin = 30000;  // m; no brick is further away
 constexpr int kColumnsMax = 400, kRowsMax = 200;
 
 /// Maps the world to dots. A braille cell is about twice as high as wide and has 2 by 4 dots, so
@@ -105,8 +105,8 @@ void DrawBricks(const FeatherStore& bricks, const View2& camera, BrailleCanvas* 
   const Vec2 half = Vec2(static_cast<float>(camera.width), static_cast<float>(camera.height)) /
                     (2 * camera.dots_per_m);
   const auto units = [](float m) { return static_cast<int>(std::lround(m / kBrickUnit)); };
-  const Vec2 low = (camera.centre - half).cwiseMax(-kFar).cwiseMin(kFar);
-  const Vec2 high = (camera.centre + half).cwiseMax(-kFar).cwiseMin(kFar);
+  const Vec2 low = (camera.centre - half).cwiseMax(-kBricksWithin).cwiseMin(kBricksWithin);
+  const Vec2 high = (camera.centre + half).cwiseMax(-kBricksWithin).cwiseMin(kBricksWithin);
   for (const Brick& brick :
        bricks.InBox(units(low.x()), units(low.y()), units(high.x()), units(high.y()))) {
     const BrickKind& kind = bricks.kinds()[static_cast<std::size_t>(brick.kind)];
@@ -183,8 +183,8 @@ std::string BrailleCanvas::Text() const {
 }
 
 int TerminalColour(int peer) {
-  constexpr int kColours[] = {33, 208, 36, 176, 220, 117, 95, 99, 29, 181};
-  return peer <= 0 ? 246 : kColours[(peer - 1) % 10];
+  constexpr int kColourCodes[] = {33, 208, 36, 176, 220, 117, 95, 99, 29, 181};
+  return peer <= 0 ? 246 : kColourCodes[(peer - 1) % 10];
 }
 
 void DrawInTerminal(const Client& client, const FeatherStore* bricks, BrailleCanvas* canvas) {

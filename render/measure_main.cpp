@@ -208,7 +208,7 @@ void Define(Command& app, Options& options) {
   app.Option("--from", options.range.from_s, "measure from this moment of the session on, s");
   app.Option("--to", options.range.to_s, "measure up to this moment of the session, s");
   app.Option("--oracle", options.oracle,
-                 "a recording made with --mode oracle; without it the oracle is computed");
+             "a recording made with --mode oracle; without it the oracle is computed");
   app.Option("--csv", options.csv, "write the table as CSV to this file too");
   app.Switch("--append", options.append, "add to the CSV file instead of replacing it");
   app.Option("--names", options.names, "what to call the runs, in the order of the logs")
@@ -216,11 +216,10 @@ void Define(Command& app, Options& options) {
       .OneValueEach();  // the logs may follow it
   app.Switch("--floor", options.floor, "also print what chaos alone does to the first log");
   app.Switch("--limit", options.limit,
-               "also print what nobody could show better over the first log's network");
+             "also print what nobody could show better over the first log's network");
   app.Switch("--losses", options.losses,
-               "also print when and where something was lost, by channel");
-  app.Option("--losses-csv", options.losses_csv,
-                 "write the losses of the log as CSV to this file");
+             "also print when and where something was lost, by channel");
+  app.Option("--losses-csv", options.losses_csv, "write the losses of the log as CSV to this file");
   app.Switch("--list", options.list, "say what is in the logs, and measure nothing");
   app.Switch("--more", options.more, "print the further measures");
 }

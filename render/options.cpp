@@ -179,11 +179,10 @@ void DefineRenderOptions(Command* app, RenderOptions* options) {
   RenderOptions& o = *options;
   o.fonts = kFontFolder;
   app->Option("logs", o.logs, "LCM logs of sessions, or one scene (.toml) as it begins");
-  app->Option("-o,--out", o.out,
-                  "folder for frames, or the .png of --strobe, the .html of --page");
+  app->Option("-o,--out", o.out, "folder for frames, or the .png of --strobe, the .html of --page");
   app->Switch("--compare", o.compare, "several logs in one picture, in step by tick");
   app->Switch("--difference", o.difference,
-                "two logs in one panel: the second over the first, by how far they are apart");
+              "two logs in one panel: the second over the first, by how far they are apart");
   app->Switch("--strobe", o.strobe, "many exposures of one collision in one picture");
   app->Switch("--page", o.page, "one HTML file of all views, to look through in a browser");
   app->Switch("--list", o.list, "say what is in the logs, and draw nothing");
@@ -194,25 +193,23 @@ void DefineRenderOptions(Command* app, RenderOptions* options) {
   app->Option("--from", o.from_s, "first moment, s");
   app->Option("--to", o.to_s, "last moment, s");
   app->Option("--view", o.view_text,
-                  "whose view: a player's name, a peer's number, or all (server)");
+              "whose view: a player's name, a peer's number, or all (server)");
   app->Option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
   app->Option("--threads", o.threads, "frames drawn at a time (number of cores)");
-  app->Option("--camera", o.camera_text,
-                  "fit (default: what moves), scene, or X,Y,HEIGHT in m");
+  app->Option("--camera", o.camera_text, "fit (default: what moves), scene, or X,Y,HEIGHT in m");
   app->Option("--follow", o.camera.part, "a part, or a player's vehicle, stays in the middle");
   app->Option("--zoom", o.camera.zoom, "so many times larger (1)");
   app->Option("--around", o.around,
-                  "0.5 s before to 1 s after: contact, worst, hand-over or a tick");
+              "0.5 s before to 1 s after: contact, worst, hand-over or a tick");
   app->Option("--layers", o.layers_text,
-                  "trails,ghosts,vectors,heat,names or none (trails,ghosts)");
+              "trails,ghosts,vectors,heat,names or none (trails,ghosts)");
   app->Option("--speed", o.speed, "of the sequence: 0.1 is slow motion (1)");
   app->Option("--sheet", o.sheet, "so many moments in one picture: -o is a .png file");
   app->Option("--every", o.every_ticks, "--strobe: ticks between exposures");
   app->Option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
   app->Option("--room", o.room, "which room, if there are several");
   app->Option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
-  app->Option("--video", o.video,
-                  "also make this .mp4, .webm or .gif of the frames, by ffmpeg");
+  app->Option("--video", o.video, "also make this .mp4, .webm or .gif of the frames, by ffmpeg");
   app->Option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
 }
 

@@ -18,7 +18,7 @@ struct RenderOptions {
   bool compare = false, strobe = false, live = false, force = false;
   bool difference = false;  ///< two logs in one panel: then compare is set too
   bool page = false;        ///< one HTML file of all views
-  bool list = false;  ///< prints the contents of the logs, and draws nothing
+  bool list = false;        ///< prints the contents of the logs, and draws nothing
   int fps = 30;
   int width_px = 1280, height_px = 720;
   bool size_given = false;

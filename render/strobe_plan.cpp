@@ -14,7 +14,7 @@ namespace seam {
 namespace {
 
 constexpr double kBeforeHit_s = 0.2, kAfterHit_s = 0.8;  ///< window around the collision
-constexpr int kExposures = 8;                      ///< default number
+constexpr int kExposures = 8;                            ///< default number
 constexpr double kExposuresMax = 200;
 constexpr float kStill_m = 0.3f;  ///< bodies that move less are not fitted
 

@@ -151,7 +151,7 @@ void Broadcast::RefreshDistant(std::int64_t now_us) {
 
 void Broadcast::RefreshDistant(std::int64_t now_us, Session& session) {
   if (session.player < 0) return;
-  constexpr int kEach = kDistantPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
+  constexpr int kEach = kDistantPerSecond / kInterestHz, kLookedAtMost = 16 * kEach;
   const Composition& made = replica_.world().composition();
   const int mechanisms = static_cast<int>(made.mechanisms.size());
   int& next = session.send_queue.nothing;

@@ -84,7 +84,7 @@ class Broadcast {
   /// Sends each client a few mechanisms outside its interest area; clients take turns by tick. To
   /// be called every tick.
   void RefreshDistant(std::int64_t now_us);
-  int ticks_per_look() const { return std::max(1, config_.tick_hz / kLooksPerSecond); }
+  int ticks_per_look() const { return std::max(1, config_.tick_hz / kInterestHz); }
   /// Renumbers after an edit; LookAround is due then.
   void Remap(const BodyRemap& change);
   /// True if there was no LookAround since the last Remap.
@@ -118,7 +118,7 @@ class Broadcast {
   void Say(std::int64_t now_us, const std::string& text);
 
   /// Calls of LookAround a second.
-  static constexpr int kLooksPerSecond = 10;
+  static constexpr int kInterestHz = 10;
   /// Mechanisms out of interest that a receiver is sent per second, in turn, each at most every
   /// kDistantEveryUs: so the cost does not grow with the room. Some 20 bytes for each. With 40 a
   /// second, and each every 10 s, the error of all displayed bodies doubles in a room of 9 players,

@@ -38,7 +38,8 @@ std::string MissingPlayers(const Server& server) {
   return names;
 }
 
-std::string ServerProgress(const Server& server, std::int64_t last_tick, const TickTimes& ticks) {
+std::string ServerProgress(const Server& server, std::int64_t last_tick,
+                           const DurationHistogram& ticks) {
   const std::size_t players = server.scene().players.size();
   const std::string missing = MissingPlayers(server);
   const std::string who = fmt::format("{} of {} players{}", server.player_count(), players,
@@ -48,7 +49,7 @@ std::string ServerProgress(const Server& server, std::int64_t last_tick, const T
   return fmt::format("{}, {}, rtt {}, loss {}, tick p99 {:.2f} ms, {} drops; Ctrl-C stops",
                      Time(server.tick(), last_tick, server.scene().solver.tick_hz), who,
                      Milliseconds(stats.rtt_us), Percent(stats.loss_ppm),
-                     static_cast<double>(ticks.Percentile(99)) * 1e-3, Dropped(stats));
+                     static_cast<double>(ticks.PercentileUs(0.99)) * 1e-3, Dropped(stats));
 }
 
 std::string SessionSummary(const std::vector<ClientAccount>& accounts) {

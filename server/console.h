@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/base/duration_histogram.h"
 #include "server/server.h"
-#include "server/tick_times.h"
 
 namespace seam {
 
@@ -16,8 +16,9 @@ std::string MissingPlayers(const Server& server);
 
 /// Returns the progress line, "12 of 30 s, 1 of 2 players (bob missing), rtt 53 ms, loss 1.2 %,
 /// tick p99 0.24 ms, 0 drops; Ctrl-C stops". `last_tick`: the session's, 0 for none; rtt and loss
-/// are the worst client's.
-std::string ServerProgress(const Server& server, std::int64_t last_tick, const TickTimes& ticks);
+/// are the worst client's. `ticks`: wall time of all ticks so far.
+std::string ServerProgress(const Server& server, std::int64_t last_tick,
+                           const DurationHistogram& ticks);
 
 /// Returns a line for each client that was ready in the room, after a line with the column names;
 /// "" if there was none. Each line ends with a line end.

@@ -86,17 +86,16 @@ void Define(Command& app, Flags& f) {
   app.Option("--mode", f.mode, "oracle | central | strict | buffer");
   app.Option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
   app.Option("--predict", f.predict,
-                 "what clients of mode central simulate ahead: own | all (default all)");
+             "what clients of mode central simulate ahead: own | all (default all)");
   app.Option("--input-delay", f.input_delay_ticks,
-                 "ticks from reading an input to its acting, at every peer (default: the scene's)")
+             "ticks from reading an input to its acting, at every peer (default: the scene's)")
       .Range(0, kInputDelayTicksMax);
   app.Option("--impair", f.impair, "impair the network in both directions by a profile");
   app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);
   app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, 240);
   app.Option("--budget", f.budget,
-                 "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
-  app.Option("--room", f.room,
-                 "name of the room in the channels; of several: NAME-1, NAME-2, ...");
+             "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
+  app.Option("--room", f.room, "name of the room in the channels; of several: NAME-1, NAME-2, ...");
   app.Option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
       .Range(1, kRoomsMax);
   app.Option("--workers", f.workers, "threads that run several rooms (default: one per core)")
@@ -104,22 +103,21 @@ void Define(Command& app, Flags& f) {
   app.Option("--bus-rooms", f.bus_rooms, "of several rooms, which are on the LCM bus")
       .OneOf({"first", "all", "none"});
   app.Option("--metrics", f.metrics_port,
-                 "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
+             "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
       .Range(1, 65535);
   app.Option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
       .Range(0, 31);
   app.Option("--duration", f.duration_s,
-                 "seconds to run after tick 0 (0: until stopped; default: the scene's)")
+             "seconds to run after tick 0 (0: until stopped; default: the scene's)")
       .Range(0.0, 1e6);
-  app.Option(
-      "--record", f.record,
-      "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
+  app.Option("--record", f.record,
+             "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
   app.Switch("--force", f.force, "overwrite the --record file");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.Option("--publish", f.publish,
-                 "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
-                 "at most " +
-                     std::to_string(kPublishAllMost) + " bodies, else own)");
+             "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
+             "at most " +
+                 std::to_string(kPublishAllMost) + " bodies, else own)");
   app.Switch("--quiet", f.quiet, "no progress line, and not who comes and goes");
   app.Switch("--doctor", f.doctor, "check that LCM works on this machine, and exit");
 }

@@ -30,6 +30,9 @@ class AuthoritySource;
 class Rules;
 class ServerCommands;
 
+/// Most datagrams taken in one call: a flood must not keep rooms from stepping.
+constexpr int kDatagramsMax = 4096;
+
 struct ServerConfig {
   SyncConfig sync;
   std::string room = "main";

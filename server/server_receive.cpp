@@ -14,8 +14,6 @@ namespace {
 
 /// Inputs farther from now than this are dropped, ticks.
 constexpr std::int64_t kInputTicksMax = 600;
-/// Most datagrams taken in one call: a flood must not keep the room from stepping.
-constexpr int kDatagramsMax = 4096;
 
 }  // namespace
 

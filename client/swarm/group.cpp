@@ -17,9 +17,9 @@ namespace seam {
 namespace {
 
 /// The longest stay in Run, us.
-constexpr std::int64_t kRunUs = 100000;
+constexpr std::int64_t kStayUs = 100000;
 /// Sockets reported by one system call.
-constexpr int kEvents = 256;
+constexpr int kSocketEvents = 256;
 
 }  // namespace
 
@@ -68,8 +68,8 @@ std::int64_t Group::TickDue(std::int64_t* cpu_us) {
 /// Steps due members before those with datagrams: a due one reads its own, and a call costs as much
 /// as many datagrams, since the member's data has left the processor's caches meanwhile.
 void Group::Run(std::int64_t until_us) {
-  const std::int64_t end_us = std::min(until_us, SteadyClockUs() + kRunUs);
-  std::array<epoll_event, kEvents> events{};
+  const std::int64_t end_us = std::min(until_us, SteadyClockUs() + kStayUs);
+  std::array<epoll_event, kSocketEvents> events{};
   std::int64_t cpu_us = ThreadCpuUs();
   for (std::int64_t now_us = SteadyClockUs(); now_us < end_us && g_stop == 0;
        now_us = SteadyClockUs()) {
@@ -77,7 +77,7 @@ void Group::Run(std::int64_t until_us) {
     now_us = SteadyClockUs();
     Sleep(std::min(due_us, end_us) - now_us);
     cpu_us = ThreadCpuUs();
-    const int ready = epoll_wait(epoll_, events.data(), kEvents, 0);
+    const int ready = epoll_wait(epoll_, events.data(), kSocketEvents, 0);
     for (int i = 0; i < ready; ++i) {
       now_us = SteadyClockUs();
       if (now_us >= due_us) break;  // remaining datagrams wait

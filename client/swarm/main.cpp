@@ -43,8 +43,7 @@ void Define(Command& app, Flags& f) {
   app.Option("--rooms", f.rooms, "spread over the rooms NAME-1 to NAME-N of --room NAME")
       .Range(1, 4096);
   app.Option("--threads", f.threads, "threads that run the clients").Range(1, 256);
-  app.Option("--join-timeout", f.join_s, "seconds until all must have joined")
-      .Range(0.1, 1e6);
+  app.Option("--join-timeout", f.join_s, "seconds until all must have joined").Range(0.1, 1e6);
   app.Option("--metrics", f.metrics, "host:port of the server's page: its figures too");
   app.Option("--lcm-url", f.lcm_url, "LCM bus: the server's figures too (default: none)");
   app.Switch("--quiet", f.quiet, "no progress line");
@@ -94,7 +93,7 @@ void Doze() {
 }
 
 /// Time for members that have waited for others to catch up, us.
-constexpr std::int64_t kSettleUs = 1000000;
+constexpr std::int64_t kCatchUpUs = 1000000;
 
 /// Waits until all clients simulate. False if stopped by a signal.
 bool WaitUntilJoined(const Flags& f, const Swarm& swarm, ProgressLine* line) {
@@ -111,7 +110,7 @@ bool WaitUntilJoined(const Flags& f, const Swarm& swarm, ProgressLine* line) {
     if (line->Due(now_us)) line->Show(now_us, std::to_string(swarm.running()) + " have joined");
     Doze();
   }
-  const std::int64_t settled_us = SteadyClockUs() + kSettleUs;
+  const std::int64_t settled_us = SteadyClockUs() + kCatchUpUs;
   while (SteadyClockUs() < settled_us && g_stop == 0) Doze();
   return g_stop == 0;
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kLookUs = 1000000;
 constexpr std::int64_t kPatienceOfLookUs = 500000;
 /// Bus messages taken in one call: a second of 1000 rooms.
-constexpr int kPollsMax = 1000;
+constexpr int kBusMessagesMax = 1000;
 
 class BusLoads : public Loads {
  public:
@@ -28,7 +28,7 @@ class BusLoads : public Loads {
                    });
   }
   std::vector<RoomLoad> Take(std::int64_t) override {
-    for (std::size_t n = 0, before = 0; n < kPollsMax; ++n, before = heard_.size()) {
+    for (std::size_t n = 0, before = 0; n < kBusMessagesMax; ++n, before = heard_.size()) {
       bus_.Poll(0);
       if (heard_.size() == before) break;
     }

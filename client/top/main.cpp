@@ -24,11 +24,10 @@ struct Flags {
 
 void Define(Command& app, Flags& f) {
   app.Option("page", f.page,
-                 "host:port of the page of a seam-server with --metrics (port 9464 if left out); "
-                 "without it the LCM bus is heard");
+             "host:port of the page of a seam-server with --metrics (port 9464 if left out); "
+             "without it the LCM bus is heard");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL)");
-  app.Option("--times", f.times, "tables to print (0: until stopped)")
-      .Range(0, 1000000);
+  app.Option("--times", f.times, "tables to print (0: until stopped)").Range(0, 1000000);
 }
 
 /// Prints a table. Clears a terminal before each; other outputs get one table after another.

@@ -7,7 +7,7 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kSilentUs = 5000000;
+constexpr std::int64_t kNoLoadUs = 5000000;
 
 double Ms(std::int32_t us) { return us * 1e-3; }
 
@@ -42,9 +42,10 @@ std::string TopTable::Row(const std::string& room, const Heard& heard) {
   };
   double out = 0, in = 0;
   for (int kind = 0; kind <= kTrafficOther; ++kind) {
-    out +=
-        rate(BytesOf(load, load.bytes_out, kind), BytesOf(heard.before, heard.before.bytes_out, kind));
-    in += rate(BytesOf(load, load.bytes_in, kind), BytesOf(heard.before, heard.before.bytes_in, kind));
+    out += rate(BytesOf(load, load.bytes_out, kind),
+                BytesOf(heard.before, heard.before.bytes_out, kind));
+    in += rate(BytesOf(load, load.bytes_in, kind),
+               BytesOf(heard.before, heard.before.bytes_in, kind));
   }
   char text[256];
   std::snprintf(
@@ -70,7 +71,7 @@ std::string TopTable::Text(std::int64_t now_us) const {
       "-s  overs    /min     kB/s     kB/s      /s\n";
   double out[kTrafficOther + 1] = {};
   for (const auto& [room, heard] : rooms_) {
-    if (now_us - heard.now_us > kSilentUs) continue;
+    if (now_us - heard.now_us > kNoLoadUs) continue;
     text += Row(room, heard);
     for (int kind = 0; heard.seconds() > 0 && kind <= kTrafficOther; ++kind) {
       const std::int64_t more = BytesOf(heard.now, heard.now.bytes_out, kind) -

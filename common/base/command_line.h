@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Command {
   Flag Option(const std::string& names, std::int64_t& value, const std::string& about);
   Flag Option(const std::string& names, float& value, const std::string& about);
   Flag Option(const std::string& names, double& value, const std::string& about);
+  Flag Option(const std::string& names, std::optional<int>& value, const std::string& about);
+  Flag Option(const std::string& names, std::optional<double>& value, const std::string& about);
   Flag Option(const std::string& names, std::vector<std::string>& values, const std::string& about);
   /// Adds a flag without a value, which sets `value`; "!--no-floor" clears it.
   void Switch(const std::string& names, bool& value, const std::string& about);

@@ -5,15 +5,16 @@
 
 namespace seam {
 
-void DurationHistogram::Add(std::int64_t us) {
+void DurationHistogram::Add(std::int64_t us, std::int64_t times) {
+  if (times <= 0) return;
   const std::int64_t most = (std::int64_t{1} << kDoublings) - 1;
   const std::int64_t value = std::clamp<std::int64_t>(us, 0, most);
   int shift = 0;  // so that value >> shift is below 2 * kHalf
   while (value >> shift >= 2 * kHalf) ++shift;
   // Below 2 * kHalf each value has a class of its own; then each doubling has kHalf of them.
   const auto index = static_cast<std::size_t>(shift * kHalf + (value >> shift));
-  ++classes_[index];
-  ++count_;
+  classes_[index] += times;
+  count_ += times;
   max_us_ = std::max(max_us_, value);
 }
 

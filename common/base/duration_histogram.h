@@ -9,8 +9,8 @@ namespace seam {
 
 class DurationHistogram {
  public:
-  /// Counts a duration; a negative one counts as 0.
-  void Add(std::int64_t us);
+  /// Counts a duration `times` times; a negative one counts as 0.
+  void Add(std::int64_t us, std::int64_t times = 1);
   void Add(const DurationHistogram& other);
   std::int64_t count() const { return count_; }
   std::int64_t max_us() const { return max_us_; }

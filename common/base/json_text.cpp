@@ -24,9 +24,9 @@ std::uint32_t NextCharacter(const std::string& text, std::size_t* i) {
     if ((next & 0xc0) != 0x80) return kReplacement;
     character = character << 6 | (next & 0x3f);
   }
-  static const std::uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
+  static const std::uint32_t kLeastOfLength[] = {0, 0x80, 0x800, 0x10000};
   const bool surrogate = character >= 0xd800 && character < 0xe000;
-  if (character < kLeast[more] || character > 0x10ffff || surrogate) return kReplacement;
+  if (character < kLeastOfLength[more] || character > 0x10ffff || surrogate) return kReplacement;
   *i += static_cast<std::size_t>(more);
   return character;
 }
@@ -73,8 +73,10 @@ std::string JsonNumber(const std::optional<double>& value) {
 }
 
 std::int64_t Thousandths(double value) {
-  constexpr double kMost = 1e12;  // far beyond any world, and an exact integer
-  return std::isfinite(value) ? std::llround(std::clamp(value * 1000, -kMost, kMost)) : 0;
+  constexpr double kThousandthsMax = 1e12;  // far beyond any world, and an exact integer
+  return std::isfinite(value)
+             ? std::llround(std::clamp(value * 1000, -kThousandthsMax, kThousandthsMax))
+             : 0;
 }
 
 std::string JsonList(const std::vector<std::string>& items) {

@@ -12,7 +12,7 @@ namespace seam {
 namespace {
 
 /// Time between two updates of the line, us.
-constexpr std::int64_t kEveryUs = 200000;
+constexpr std::int64_t kLineEveryUs = 200000;
 /// Shortest time from which a rate is meaningful, s.
 constexpr double kRateFrom_s = 0.2;
 
@@ -50,7 +50,7 @@ ProgressCount::ProgressCount(std::string what, std::string unit, std::int64_t to
     : what_(std::move(what)),
       unit_(std::move(unit)),
       total_(total),
-      line_(quiet, kEveryUs),
+      line_(quiet, kLineEveryUs),
       begin_us_(SteadyClockUs()) {}
 
 double ProgressCount::elapsed_s() const {

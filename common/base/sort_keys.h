@@ -20,19 +20,19 @@ using SortKey = std::uint64_t;
 
 /// Sorts by key and keeps the order of equal keys (stable). `spare` is scratch memory.
 inline void SortByKey(std::vector<SortKey>* keys, std::vector<SortKey>* spare) {
-  constexpr int kDigits = 3, kBits = 11;
-  constexpr std::uint32_t kMask = (1u << kBits) - 1;
-  std::array<std::array<std::uint32_t, 1u << kBits>, kDigits> begin{};
+  constexpr int kDigits = 3, kDigitBits = 11;
+  constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
+  std::array<std::array<std::uint32_t, 1u << kDigitBits>, kDigits> begin{};
   for (const SortKey key : *keys) {
     for (int digit = 0; digit < kDigits; ++digit) {
-      ++begin[static_cast<std::size_t>(digit)][(key >> (32 + digit * kBits)) & kMask];
+      ++begin[static_cast<std::size_t>(digit)][(key >> (32 + digit * kDigitBits)) & kMask];
     }
   }
   spare->resize(keys->size());
   for (int digit = 0; digit < kDigits; ++digit) {
     auto& at = begin[static_cast<std::size_t>(digit)];
     const bool all_alike =
-        !keys->empty() && at[(keys->front() >> (32 + digit * kBits)) & kMask] == keys->size();
+        !keys->empty() && at[(keys->front() >> (32 + digit * kDigitBits)) & kMask] == keys->size();
     if (all_alike) continue;
     std::uint32_t sum = 0;
     for (std::uint32_t& count : at) {
@@ -41,7 +41,7 @@ inline void SortByKey(std::vector<SortKey>* keys, std::vector<SortKey>* spare) {
       sum += here;
     }
     for (const SortKey key : *keys) {
-      (*spare)[at[(key >> (32 + digit * kBits)) & kMask]++] = key;
+      (*spare)[at[(key >> (32 + digit * kDigitBits)) & kMask]++] = key;
     }
     keys->swap(*spare);
   }

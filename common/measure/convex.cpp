@@ -9,7 +9,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-
 /// Returns the unit normal on the right of the direction from `a` to `b`: outwards for
 /// counter-clockwise corners.
 Vector2d RightOf(const Vector2d& a, const Vector2d& b) {

@@ -27,11 +27,6 @@ void ForEachChange(const std::map<std::int64_t, View>& views, const Action& act)
   }
 }
 
-bool Claims(const View& view, PartId id) {
-  const int i = IndexOf(view, id);
-  return i >= 0 && view.role[static_cast<std::size_t>(i)] == kRoleAuthority;
-}
-
 /// Differences of the two authorities, one entry for each hand-over.
 struct Gaps {
   std::vector<double> positions, velocities;  // m, m/s
@@ -84,6 +79,11 @@ void MeasureGaps(const Recording& recording, const RevisionHistory* revisions, M
 }
 
 }  // namespace
+
+bool Claims(const View& view, PartId id) {
+  const int i = IndexOf(view, id);
+  return i >= 0 && view.role[static_cast<std::size_t>(i)] == kRoleAuthority;
+}
 
 void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
                      Measures* measures, const RevisionHistory* revisions) {

@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-
 /// Returns the corners in the part's own frame, counter-clockwise; for a circle its centre, for a
 /// capsule the centres of its ends.
 std::vector<Vector2d> Corners(const Part& part) {

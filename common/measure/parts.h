@@ -57,6 +57,9 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
 void MeasureDisplayed(const Recording& recording, const Oracle& oracle,
                       const RevisionHistory& revisions, Measures* measures);
 
+/// handover.cpp: true if the view's peer claims authority over the body.
+bool Claims(const View& view, PartId id);
+
 /// changes.cpp: sets topology_lag_s, lost and left_bounds.
 void MeasureChanges(const Recording& recording, const RevisionHistory& revisions,
                     Measures* measures);

@@ -17,7 +17,7 @@ constexpr double kOnset = 0.05;
 /// Smaller changes are no collision, kg m/s.
 constexpr double kPeakMin = 1e-6;
 /// The momentum before the collision is the mean over this time, s.
-constexpr double kBefore = 0.1;
+constexpr double kMomentumBefore = 0.1;
 /// The momentum after the collision is the mean between these times after it, s: later than
 /// corrections that take one round trip, before friction takes effect.
 constexpr double kAfterBegin = 0.25, kAfterEnd = 0.5;
@@ -104,7 +104,8 @@ std::optional<double> Rebound(const Recording& recording, const Oracle& oracle,
   const double h = TickSeconds(recording);
   const auto ticks = [h](double seconds) { return std::llround(seconds / h); };
   const auto transfer = [&](const auto& momentum) -> Momentum {
-    const Momentum before = Mean(*onset - std::max(1LL, ticks(kBefore)), *onset - 1, momentum);
+    const Momentum before =
+        Mean(*onset - std::max(1LL, ticks(kMomentumBefore)), *onset - 1, momentum);
     const Momentum after = Mean(*onset + ticks(kAfterBegin), *onset + ticks(kAfterEnd), momentum);
     if (!before || !after) return std::nullopt;
     return Vec(*after - *before);

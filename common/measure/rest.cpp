@@ -11,7 +11,7 @@ namespace seam {
 namespace {
 
 /// A body slower than this is at rest, m/s.
-constexpr float kRestSpeed = 0.01f;
+constexpr float kStillSpeed = 0.01f;
 /// Least time for which the oracle must be at rest at its end, s.
 constexpr double kRestMin = 0.5;
 /// Views may still move for this time after the oracle's rest, because of the network: s.
@@ -19,7 +19,7 @@ constexpr double kSettle = 0.5;
 
 bool AllSlow(const std::vector<BodyState>& states) {
   return std::all_of(states.begin(), states.end(),
-                     [](const BodyState& state) { return state.velocity.norm() < kRestSpeed; });
+                     [](const BodyState& state) { return state.velocity.norm() < kStillSpeed; });
 }
 
 template <class T>

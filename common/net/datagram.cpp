@@ -45,7 +45,7 @@ void DatagramWriter::Append(const DatagramMessage& message) {
 
 const Bytes& DatagramWriter::Finish(const DatagramHeader& header) {
   Put(data_.data(), kDatagramMagic, 4);
-  Put(data_.data() + 8, header.session, 8);
+  Put(data_.data() + kSessionAt, header.session, 8);
   Put(data_.data() + 16, header.sequence, 2);
   Put(data_.data() + 18, header.ack, 2);
   Put(data_.data() + 20, header.ack_bits, 4);
@@ -53,15 +53,20 @@ const Bytes& DatagramWriter::Finish(const DatagramHeader& header) {
   return data_;
 }
 
+bool PeekHeader(ByteView datagram, DatagramHeader* header) {
+  if (datagram.size < kDatagramHeaderBytes) return false;
+  header->session = Get(datagram.data + kSessionAt, 8);
+  header->sequence = static_cast<std::uint16_t>(Get(datagram.data + 16, 2));
+  header->ack = static_cast<std::uint16_t>(Get(datagram.data + 18, 2));
+  header->ack_bits = static_cast<std::uint32_t>(Get(datagram.data + 20, 4));
+  return true;
+}
+
 bool ReadHeader(ByteView datagram, DatagramHeader* header) {
   if (datagram.size < kDatagramHeaderBytes || datagram.size > kDatagramBytesMax) return false;
   if (Get(datagram.data, 4) != kDatagramMagic) return false;
   if (Get(datagram.data + kChecksumAt, 4) != Checksum(datagram)) return false;
-  header->session = Get(datagram.data + 8, 8);
-  header->sequence = static_cast<std::uint16_t>(Get(datagram.data + 16, 2));
-  header->ack = static_cast<std::uint16_t>(Get(datagram.data + 18, 2));
-  header->ack_bits = static_cast<std::uint32_t>(Get(datagram.data + 20, 4));
-  return header->session != 0;
+  return PeekHeader(datagram, header) && header->session != 0;
 }
 
 ByteView FirstUnreliable(ByteView datagram) {

@@ -59,6 +59,9 @@ class DatagramWriter {
   Bytes data_;
 };
 
+/// Reads the header fields of a datagram, unchecked; false if it is shorter than a header.
+bool PeekHeader(ByteView datagram, DatagramHeader* header);
+
 /// Reads and checks the 24 header bytes and the checksum of the whole; false if it is not ours.
 bool ReadHeader(ByteView datagram, DatagramHeader* header);
 

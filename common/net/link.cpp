@@ -29,7 +29,7 @@ constexpr std::int64_t kTimeoutUsMin = 50'000;
 /// Sequence numbers that one ack field and its 32 bits cover.
 constexpr std::int64_t kAckSpan = 33;
 /// Acknowledged records kept for reuse of their memory.
-constexpr std::size_t kSpareMost = 16;
+constexpr std::size_t kSpareRecords = 16;
 
 }  // namespace
 
@@ -189,7 +189,7 @@ struct Link::Impl {
     record->ids.clear();
     record->receipts.clear();
     const bool worth = record->ids.capacity() + record->receipts.capacity() > 0;
-    if (!worth || spare.size() >= kSpareMost) return;
+    if (!worth || spare.size() >= kSpareRecords) return;
     spare.emplace_back();
     spare.back().ids.swap(record->ids);
     spare.back().receipts.swap(record->receipts);

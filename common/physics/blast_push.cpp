@@ -17,20 +17,20 @@ constexpr float kRayGap = 0.06f;  // m, between rays at the radius
 constexpr int kRaysMin = 128, kRaysMax = 1024;
 /// A hit nearer than this, m, has no direction.
 constexpr float kNearMin = 1e-3f;
-constexpr float kTurn = 6.2831853f;  // rad
+constexpr float kFullTurn = 2 * kPiFloat;  // rad
 
 /// The rays of a blast, each with its length up to the first brick.
 class Fan {
  public:
   explicit Fan(const BlastEdit& blast)
       : blast_(blast),
-        count_(std::clamp(static_cast<int>(std::ceil(kTurn * blast.radius / kRayGap)), kRaysMin,
+        count_(std::clamp(static_cast<int>(std::ceil(kFullTurn * blast.radius / kRayGap)), kRaysMin,
                           kRaysMax)),
         reach_(static_cast<std::size_t>(count_), blast.radius) {}
 
   int count() const { return count_; }
   float reach(int ray) const { return reach_[static_cast<std::size_t>(ray)]; }
-  float width() const { return kTurn / static_cast<float>(count_); }  ///< rad
+  float width() const { return kFullTurn / static_cast<float>(count_); }  ///< rad
   b2Vec2 Direction(int ray) const {
     const float angle = (static_cast<float>(ray) + 0.5f) * width();
     return {std::cos(angle), std::sin(angle)};

@@ -42,6 +42,8 @@ struct BlockedDirection {
   int body = -1;
   Vec2 normal{0, 1};  ///< unit
 };
+/// Cosine above which two blocked directions count as one.
+constexpr float kSameDirection = 0.9f;
 
 /// Role of a body in a step.
 enum class Motion {

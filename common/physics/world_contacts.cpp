@@ -22,9 +22,6 @@ bool Touching(const b2Contact* contact) {
   return contact->IsTouching() && contact->GetManifold()->pointCount > 0;
 }
 
-/// Cosine above which two directions count as equal.
-constexpr float kSameDirection = 0.9f;
-
 /// A rope this much shorter than its maximal length still counts as taut, m.
 constexpr float kTaut = 0.01f;
 

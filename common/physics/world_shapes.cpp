@@ -12,7 +12,7 @@ namespace seam {
 namespace {
 
 /// Edges shorter than this are not moved in, m: the engine merges points at 2.5 mm.
-constexpr float kEdgeMin = 0.01f;
+constexpr float kMovedEdgeMin = 0.01f;
 /// Limit of a sharp corner's move, as a multiple of its edges' move.
 constexpr float kMiterMax = 5;
 
@@ -45,7 +45,7 @@ bool MoveIn(float depth, b2PolygonShape* polygon) {
     const b2Vec2 edge =
         points[static_cast<std::size_t>((i + 1) % count)] - points[static_cast<std::size_t>(i)];
     const b2Vec2 was = polygon->m_vertices[(i + 1) % count] - polygon->m_vertices[i];
-    if (b2Dot(edge, was) <= 0 || edge.Length() < kEdgeMin) return false;
+    if (b2Dot(edge, was) <= 0 || edge.Length() < kMovedEdgeMin) return false;
   }
   polygon->Set(points.data(), count);
   return true;
@@ -212,8 +212,8 @@ void ReadyFixtures::Take(b2Body* from) {
 void ReadyFixtures::Give(b2Body* to) const {
   for (const Fixture& fixture : fixtures_) {
     b2FixtureDef def = fixture.def;
-    def.shape = std::visit([](const auto& shape) -> const b2Shape* { return &shape; },
-                           fixture.shape);
+    def.shape =
+        std::visit([](const auto& shape) -> const b2Shape* { return &shape; }, fixture.shape);
     to->CreateFixture(&def);
   }
 }

@@ -154,8 +154,8 @@ BodyState StateOf(const WorldBeforeEdit& before, const Scene& scene, const Assem
 }
 
 /// Moves bodies along with bonds and returns by how much. Velocities stay, and so does momentum.
-std::vector<BodyState> Carry(const WorldBeforeEdit& before, const Scene& scene, const Composition& now,
-                             std::vector<WorldSnapshot::Body>* bodies) {
+std::vector<BodyState> Carry(const WorldBeforeEdit& before, const Scene& scene,
+                             const Composition& now, std::vector<WorldSnapshot::Body>* bodies) {
   std::vector<BodyState> states;
   for (const WorldSnapshot::Body& body : *bodies) states.push_back(body.state);
   std::vector<BodyState> jumps =
@@ -171,7 +171,8 @@ std::vector<BodyState> Carry(const WorldBeforeEdit& before, const Scene& scene, 
   return jumps;
 }
 
-std::vector<std::vector<int>> MechanismsFrom(const WorldBeforeEdit& before, const Composition& now) {
+std::vector<std::vector<int>> MechanismsFrom(const WorldBeforeEdit& before,
+                                             const Composition& now) {
   std::vector<std::vector<int>> all;
   for (const Mechanism& m : now.mechanisms) {
     std::vector<int> from;

@@ -124,8 +124,8 @@ std::string RouteInterface(const std::string& routes, const std::string& address
                     &mask) != 4) {
       continue;
     }
-    constexpr unsigned kUp = 1, kReject = 0x200;
-    const bool usable = (flags & kUp) != 0 && (flags & kReject) == 0;
+    constexpr unsigned kRouteUp = 1, kRouteReject = 0x200;
+    const bool usable = (flags & kRouteUp) != 0 && (flags & kRouteReject) == 0;
     // The mask's length decides; its leading bits are in the low bytes here.
     const unsigned long width = __builtin_bswap32(mask);
     if (!usable || (wanted & mask) != destination) continue;

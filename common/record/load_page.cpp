@@ -71,7 +71,7 @@ const Reason kReasons[] = {{"malformed", &Load::dropped_malformed},
                            {"budget", &Load::dropped_budget}};
 
 constexpr const char* kDropped = "seam_dropped_total";
-constexpr const char* kBytes = "seam_traffic_bytes_total";
+constexpr const char* kTrafficBytes = "seam_traffic_bytes_total";
 
 std::string Head(const char* name, const char* type, const char* help) {
   return std::string("# HELP ") + name + ' ' + help + "\n# TYPE " + name + ' ' + type + '\n';
@@ -145,7 +145,7 @@ void Take(const Line& line, Load* load) {
     if (line.name != kDropped || line.Label("reason") != reason.name) continue;
     load->*reason.count = static_cast<std::int64_t>(line.value);
   }
-  if (line.name == kBytes) TakeTraffic(line, load);
+  if (line.name == kTrafficBytes) TakeTraffic(line, load);
 }
 
 }  // namespace
@@ -169,14 +169,14 @@ std::string WriteLoadPage(const std::vector<RoomLoad>& loads) {
       text += Sample(kDropped, of.room, label, static_cast<double>(of.load.*reason.count));
     }
   }
-  text += Head(kBytes, "counter", "Bytes of UDP payload.");
+  text += Head(kTrafficBytes, "counter", "Bytes of UDP payload.");
   for (const RoomLoad& of : loads) {
     const Load& load = of.load;
     for (std::size_t i = 0; i < load.kind.size(); ++i) {
       const std::string kind = std::string(",kind=\"") + TrafficName(load.kind[i]) + '"';
-      text += Sample(kBytes, of.room, kind + ",direction=\"out\"",
+      text += Sample(kTrafficBytes, of.room, kind + ",direction=\"out\"",
                      static_cast<double>(load.bytes_out[i]));
-      text += Sample(kBytes, of.room, kind + ",direction=\"in\"",
+      text += Sample(kTrafficBytes, of.room, kind + ",direction=\"in\"",
                      static_cast<double>(load.bytes_in[i]));
     }
   }

@@ -13,7 +13,7 @@ namespace seam {
 namespace {
 
 /// Least bytes per read of the file.
-constexpr std::size_t kReadBytes = 256 * 1024;
+constexpr std::size_t kLogReadBytes = 256 * 1024;
 
 template <class T>
 T GetBigEndian(const std::uint8_t* from) {
@@ -55,7 +55,7 @@ const std::uint8_t* LogReader::Peek(std::int64_t at, std::size_t bytes) {
     return ReadAt(at, peeked_header_, bytes) == bytes ? peeked_header_ : nullptr;
   }
   const auto left = static_cast<std::size_t>(size_bytes_ - at);
-  window_.resize(std::min(left, std::max(bytes, kReadBytes)));
+  window_.resize(std::min(left, std::max(bytes, kLogReadBytes)));
   window_at_ = at;
   window_.resize(ReadAt(at, window_.data(), window_.size()));
   return window_.size() >= bytes ? window_.data() : nullptr;
@@ -90,14 +90,14 @@ bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) 
 
 /// Returns the first position in [from, to) at which an event may begin; `to` if there is none.
 std::int64_t LogReader::FindHeader(std::int64_t from, std::int64_t to) {
-  constexpr std::uint8_t kFirst = kLogMagic >> 24;
+  constexpr std::uint8_t kMagicFirst = kLogMagic >> 24;
   while (from < to) {
     // A stretch that is in the window or fits into it, and never goes beyond `to`.
     const auto left = static_cast<std::size_t>(to - from);
-    const std::size_t stretch = std::min(left, kReadBytes / 2);
+    const std::size_t stretch = std::min(left, kLogReadBytes / 2);
     const std::uint8_t* bytes = Peek(from, stretch);
     if (bytes == nullptr) return to;
-    const std::uint8_t* hit = std::find(bytes, bytes + stretch, kFirst);
+    const std::uint8_t* hit = std::find(bytes, bytes + stretch, kMagicFirst);
     from += hit - bytes;
     Header header;
     if (hit == bytes + stretch) continue;

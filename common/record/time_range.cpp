@@ -9,7 +9,7 @@ namespace seam {
 namespace {
 
 /// Tolerance against losing ticks at the ends to rounding, s.
-constexpr double kSlack = 1e-6;
+constexpr double kEndSlack = 1e-6;
 
 double Seconds(std::int64_t tick, int tick_hz) {
   return static_cast<double>(tick) / std::max(1, tick_hz);
@@ -44,7 +44,7 @@ void KeepList(List* list, const Keep& keep) {
 
 bool TimeRange::Holds(std::int64_t tick, int tick_hz) const {
   const double at_s = Seconds(tick, tick_hz);
-  return !(at_s < from_s - kSlack) && !(at_s > to_s + kSlack);
+  return !(at_s < from_s - kEndSlack) && !(at_s > to_s + kEndSlack);
 }
 
 void RequireRange(const TimeRange& range, const Recording& recording, const std::string& path) {
@@ -52,7 +52,7 @@ void RequireRange(const TimeRange& range, const Recording& recording, const std:
   if (range.from_s > range.to_s) throw OperatorError("--from must not be after --to");
   const double first_s = Seconds(recording.first_tick, recording.room.tick_hz);
   const double last_s = Seconds(recording.last_tick, recording.room.tick_hz);
-  if (range.from_s > last_s + kSlack || range.to_s < first_s - kSlack) {
+  if (range.from_s > last_s + kEndSlack || range.to_s < first_s - kEndSlack) {
     throw OperatorError(path + ": --from and --to leave nothing: it has views of " +
                         Digits4(first_s) + " to " + Digits4(last_s) + " s");
   }

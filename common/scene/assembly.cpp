@@ -2,38 +2,17 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "common/base/bytes.h"
+#include "common/base/disjoint_sets.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/mass.h"
 
 namespace seam {
 namespace {
 
-/// Disjoint sets of 0..count-1; the lowest member represents a set.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int Find(int i) {
-    while (At(i) != i) i = At(i) = At(At(i));
-    return i;
-  }
-  void Unite(int a, int b) {
-    a = Find(a);
-    b = Find(b);
-    At(std::max(a, b)) = std::min(a, b);
-  }
-
- private:
-  int& At(int i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<int> parent_;
-};
-
 std::vector<Assembly> WeldParts(const Scene& scene) {
-  Sets sets(scene.parts.size());
+  DisjointSets sets(scene.parts.size());
   for (const Joint& joint : scene.joints) {
     if (!joint.gone && IsRigid(joint, scene.solver)) sets.Unite(joint.a, joint.b);
   }
@@ -71,7 +50,7 @@ int OwnerOf(const Scene& scene, const Composition& composition, const Mechanism&
 
 void JoinAssemblies(const Scene& scene, Composition* composition) {
   std::vector<Assembly>& assemblies = composition->assemblies;
-  Sets sets(assemblies.size());
+  DisjointSets sets(assemblies.size());
   for (const Joint& joint : scene.joints) {
     if (joint.gone) continue;
     const int a = composition->assembly_of_part[static_cast<std::size_t>(joint.a)];
@@ -152,6 +131,13 @@ Composition Compose(const Scene& scene) {
   }
   composition.hash = HashOf(composition);
   return composition;
+}
+
+std::vector<int> BodyOfAssembly(const Composition& composition) {
+  std::vector<int> bodies;
+  int next = 0;
+  for (const Assembly& a : composition.assemblies) bodies.push_back(a.anchored ? -1 : next++);
+  return bodies;
 }
 
 }  // namespace seam

@@ -46,4 +46,7 @@ inline bool IsRigid(const Joint& joint, const Solver& solver) {
 
 Composition Compose(const Scene& scene);
 
+/// Returns, by assembly, the index among the moving ones; -1: anchored.
+std::vector<int> BodyOfAssembly(const Composition& composition);
+
 }  // namespace seam

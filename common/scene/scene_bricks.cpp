@@ -56,13 +56,13 @@ void ReadCount(const SceneReader& r, BrickField* field) {
 
 /// Returns the total with this field; complains if there are too many or if one is too far away.
 std::size_t Counted(const SceneReader& r, const BrickField& field, std::size_t before) {
-  constexpr int kFar = 600000;  // units: 30 km
-  static_assert(kFar / 20 == kCoordinate.max && kFar / 20 == -kCoordinate.min);
+  constexpr int kBricksFar = 600000;  // units: 30 km
+  static_assert(kBricksFar / 20 == kCoordinate.max && kBricksFar / 20 == -kCoordinate.min);
   std::size_t count = before;
   EachBrick(field, [&](int x, int y) {
     ++count;
     const int right = x + field.width, top = y + field.height;
-    if (x < -kFar || y < -kFar || right > kFar || top > kFar) {
+    if (x < -kBricksFar || y < -kBricksFar || right > kBricksFar || top > kBricksFar) {
       r.Fail("there would be bricks beyond 30 km");
     }
     return count <= kBricksMax;

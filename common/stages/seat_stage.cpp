@@ -27,7 +27,7 @@ using Eigen::Vector2d;
 constexpr int kHeldSecondsMax = 4;
 
 /// In saved memory, the ticks of a late approach count downwards from here.
-constexpr int kLateTicks = -2;
+constexpr int kLateFrom = -2;
 
 Transform2 PoseOf(const b2Body& body) {
   return {FromB2(body.GetPosition()).cast<double>(), static_cast<double>(body.GetAngle())};
@@ -119,7 +119,7 @@ class SeatStage : public Stage {
     for (const Approach& a : approaches_) {
       const Vec2 at = a.from.shift.cast<float>();
       memory->insert(memory->end(),
-                     {static_cast<float>(a.late ? kLateTicks - a.ticks : a.ticks), at.x(), at.y(),
+                     {static_cast<float>(a.late ? kLateFrom - a.ticks : a.ticks), at.x(), at.y(),
                       static_cast<float>(a.from.angle), a.came.x, a.came.y, a.owed.x, a.owed.y});
     }
   }
@@ -127,8 +127,8 @@ class SeatStage : public Stage {
     const float* m = memory;
     for (Approach& a : approaches_) {
       const int ticks = static_cast<int>(m[0]);
-      a.late = ticks <= kLateTicks;
-      a.ticks = a.late ? kLateTicks - ticks : ticks;
+      a.late = ticks <= kLateFrom;
+      a.ticks = a.late ? kLateFrom - ticks : ticks;
       a.from = {Vec2(m[1], m[2]).cast<double>(), static_cast<double>(m[3])};
       a.came = {m[4], m[5]};
       a.owed = {m[6], m[7]};

@@ -19,7 +19,7 @@ constexpr double kSetOutMin = 0.5;
 /// too little of the way is left to tell.
 constexpr double kEstimatedUpTo = 0.9, kFoundUpTo = 0.94;
 /// rad: a way turns by less than half a turn.
-constexpr double kTurnMost = 3.1;
+constexpr double kWayTurnMax = 3.1;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void EstimateWay(const Seat& seat, const Solver& solver, const SeatObservation& 
   if (share > kEstimatedUpTo && way->ticks > wait) return;
   const double rest = 1 - share, angle = static_cast<double>(seat.angle);
   const double turn = WrapAngle(angle - seen.place.angle) / rest;
-  *way = {found, Rounded({at - left / rest, angle - std::clamp(turn, -kTurnMost, kTurnMost)})};
+  *way = {found, Rounded({at - left / rest, angle - std::clamp(turn, -kWayTurnMax, kWayTurnMax)})};
 }
 
 }  // namespace seam

@@ -16,7 +16,7 @@ constexpr int kCoupledPart = 4;
 constexpr float kFallsOff = 0.05f, kFallsRounding = 1e-4f;
 /// Minimum change of velocity in a tick of a thrown body, and the minimum speed at which it leaves
 /// in that direction, m/s.
-constexpr float kThrown = 1, kLeaves = 0.5f;
+constexpr float kThrown = 1, kThrownSpeed = 0.5f;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ bool BodyMemory::FallsFreely(int body, std::int64_t tick, const BodyState& state
   const Vec2 kick = state.velocity - before->velocity - pull;
   const float size = kick.norm();
   if (size <= kFallsOff * pull.norm() + kFallsRounding) return true;
-  return size > kThrown && state.velocity.dot(kick) > kLeaves * size;
+  return size > kThrown && state.velocity.dot(kick) > kThrownSpeed * size;
 }
 
 BodyState BodyMemory::MovedOn(int body, std::int64_t tick) const {

@@ -16,9 +16,6 @@ constexpr float kSpinDrivenMax = 90.0f;
 /// A larger turn within a tick is taken for a fast wheel's, which the eye cannot follow.
 constexpr float kTurnSeen = 0.5f;
 
-/// Above this spin, rad/s, the angle of a body (a wheel, a paddle) cannot be seen. Limbs are
-/// usually slower (at 6 their jumps were visible).
-constexpr float kSpinSeen = 12;
 /// Time after a correction in which the engine may still be closing torn joints, ticks.
 constexpr int kCorrectedTicks = 10;
 

@@ -6,8 +6,6 @@
 namespace seam {
 namespace {
 
-constexpr float kOriginReach = 60;  // m; int16 at 1/512 m reaches 64
-
 float RoundTo(float value, float quantum) {
   return static_cast<float>(std::nearbyint(static_cast<double>(value) / quantum) * quantum);
 }
@@ -44,10 +42,11 @@ std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bo
   std::vector<States> out;
   for (const PackedBody& body : bodies) {
     const BodyState q = Quantised(body.state);
-    const bool fits =
-        !out.empty() && out.back().id.size() < kStatesBodiesMax &&
-        std::fabs(q.position.x() - static_cast<float>(out.back().origin_x)) < kOriginReach &&
-        std::fabs(q.position.y() - static_cast<float>(out.back().origin_y)) < kOriginReach;
+    const bool fits = !out.empty() && out.back().id.size() < kStatesBodiesMax &&
+                      std::fabs(q.position.x() - static_cast<float>(out.back().origin_x)) <
+                          static_cast<float>(kOriginReach) &&
+                      std::fabs(q.position.y() - static_cast<float>(out.back().origin_y)) <
+                          static_cast<float>(kOriginReach);
     if (!fits) {
       out.push_back(header);
       out.back().origin_x = static_cast<std::int32_t>(std::lround(q.position.x()));
@@ -57,20 +56,21 @@ std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bo
     s.id.push_back(body.id);
     s.epoch.push_back(body.epoch);
     s.flags.push_back(body.flags);
-    s.x.push_back(ToInt16((static_cast<double>(q.position.x()) - s.origin_x) * 512));
-    s.y.push_back(ToInt16((static_cast<double>(q.position.y()) - s.origin_y) * 512));
+    s.x.push_back(ToInt16((static_cast<double>(q.position.x()) - s.origin_x) * kQuantaPerMetre));
+    s.y.push_back(ToInt16((static_cast<double>(q.position.y()) - s.origin_y) * kQuantaPerMetre));
     s.angle.push_back(LowBits(AngleSteps(q.angle)));
-    s.vx.push_back(ToInt16(static_cast<double>(q.velocity.x()) * 256));
-    s.vy.push_back(ToInt16(static_cast<double>(q.velocity.y()) * 256));
-    s.spin.push_back(ToInt16(static_cast<double>(q.spin) * 256));
+    s.vx.push_back(ToInt16(static_cast<double>(q.velocity.x()) * kQuantaPerSpeed));
+    s.vy.push_back(ToInt16(static_cast<double>(q.velocity.y()) * kQuantaPerSpeed));
+    s.spin.push_back(ToInt16(static_cast<double>(q.spin) * kQuantaPerSpeed));
   }
   return out;
 }
 
 BodyState Unpack(const States& s, std::size_t i, float near_angle) {
   BodyState out;
-  out.position = Vec2(static_cast<float>(s.origin_x + s.x[i] / 512.0),
-                      static_cast<float>(s.origin_y + s.y[i] / 512.0));
+  out.position =
+      Vec2(static_cast<float>(s.origin_x + s.x[i] / static_cast<double>(kQuantaPerMetre)),
+           static_cast<float>(s.origin_y + s.y[i] / static_cast<double>(kQuantaPerMetre)));
   const std::int64_t near_steps = AngleSteps(near_angle);
   const std::int64_t difference = LowBits(s.angle[i] - near_steps);
   out.angle = static_cast<float>(static_cast<double>(near_steps + difference) * kAngleQuantum);

@@ -3,15 +3,11 @@
 
 #include <vector>
 
-#include "common/base/geometry.h"
 #include "common/codec/messages.h"
+#include "common/codec/quanta.h"
 #include "common/scene/types.h"
 
 namespace seam {
-
-constexpr float kPositionQuantum = 1.0f / 512;     ///< m
-constexpr float kVelocityQuantum = 1.0f / 256;     ///< m/s and rad/s
-constexpr double kAngleQuantum = 2 * kPi / 65536;  ///< rad
 
 /// Returns the state that a receiver will have: every field rounded to its quantum. Idempotent. The
 /// angle keeps its revolutions. Speeds beyond the int16 range (128 m/s, 128 rad/s) are clamped to

@@ -13,8 +13,8 @@ namespace {
 /// kAccelerationLasts, unless it exceeds that of gravity, brakes and drag, or the states are far
 /// apart. s, m/s^2, s
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
-constexpr std::size_t kKeep = 96;         // states per body: about three seconds
-constexpr std::int64_t kKeepTicks = 512;  // ...and none older than this
+constexpr std::size_t kKeptStates = 96;   // states per body: about three seconds
+constexpr std::int64_t kKeptTicks = 512;  // ...and none older than this
 constexpr std::size_t kAges = 90;         // ages used for the delay
 constexpr double kSlewPerTick = 0.02;     // ticks of delay per tick: 2 % slower or faster
 
@@ -40,8 +40,8 @@ Vec2 ShiftGained(const Vec2& acceleration, float forward) {
 Snapshots::Snapshots(int body_count) : rings_(static_cast<std::size_t>(body_count)) {}
 
 void Snapshots::Ring::Push(const Stamped& stamped) {
-  const bool needed = size_ == 0 || FromNewest(size_ - 1u).tick > stamped.tick - kKeepTicks;
-  if (size_ == slots_.size() && size_ < kKeep && needed) Grow();
+  const bool needed = size_ == 0 || FromNewest(size_ - 1u).tick > stamped.tick - kKeptTicks;
+  if (size_ == slots_.size() && size_ < kKeptStates && needed) Grow();
   slots_[next_] = stamped;
   next_ = next_ + 1u == slots_.size() ? std::uint16_t{0} : static_cast<std::uint16_t>(next_ + 1);
   size_ = static_cast<std::uint16_t>(std::min(size_ + std::size_t{1}, slots_.size()));
@@ -59,7 +59,7 @@ void Snapshots::Ring::DropNewest() {
 
 void Snapshots::Ring::Grow() {
   constexpr std::size_t kFirst = 6;
-  std::vector<Stamped> slots(slots_.empty() ? kFirst : std::min(2 * slots_.size(), kKeep));
+  std::vector<Stamped> slots(slots_.empty() ? kFirst : std::min(2 * slots_.size(), kKeptStates));
   for (std::size_t i = 0; i < size_; ++i) slots[i] = FromNewest(size_ - 1 - i);
   slots_ = std::move(slots);
   next_ = size_;

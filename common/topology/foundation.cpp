@@ -1,9 +1,9 @@
 #include "common/topology/foundation.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
+#include "common/base/disjoint_sets.h"
 #include "common/topology/floors.h"
 
 namespace seam {
@@ -44,7 +44,7 @@ void EachBrickOn(const Floor& floor, const FeatherStore& whole, const Visit& vis
 /// A block and its tower.
 struct Node {
   BuildingBlock block;
-  std::size_t tower = 0;
+  int tower = 0;
   int begins = 0, height = 0;  // units: start of its [[bricks]], and height of one brick
 };
 
@@ -71,25 +71,6 @@ bool Touch(const BuildingBlock& a, const BuildingBlock& b) {
   return near && (Beside(a, b) || Over(a, b));
 }
 
-/// Union-find.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t Find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void Join(std::size_t a, std::size_t b) {
-    const std::size_t one = Find(a), two = Find(b);
-    parent_[std::max(one, two)] = std::min(one, two);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 }  // namespace
 
 Foundations::Foundations(const FeatherStore& whole, const FeatureList<BrickField>& fields,
@@ -112,29 +93,34 @@ Foundations::Foundations(const FeatherStore& whole, const FeatureList<BrickField
     first_.push_back(towers);
     EachBuildingBlock(field, [&](const BuildingBlock& block) {
       nodes.push_back(
-          {block, towers + static_cast<std::size_t>(block.building), field.y, field.height});
+          {block, static_cast<int>(towers) + block.building, field.y, field.height});
     });
     towers += static_cast<std::size_t>(BuildingsOf(field));
   }
   std::stable_sort(nodes.begin(), nodes.end(),
                    [](const Node& a, const Node& b) { return a.block.x0 < b.block.x0; });
-  Sets buildings(towers);
+  DisjointSets buildings(towers);
   EachPair(nodes, [&](const Node& a, const Node& b) {
-    if (Touch(a.block, b.block)) buildings.Join(a.tower, b.tower);
+    if (Touch(a.block, b.block)) buildings.Unite(a.tower, b.tower);
   });
+  const auto first_tower = [&](int tower) {
+    return static_cast<std::size_t>(buildings.Find(tower));
+  };
   std::vector<bool> on_ground(towers, false);  // by building, at the index of its first tower
-  for (const Rest& rest : rests_) on_ground[buildings.Find(TowerOf(rest.brick))] = true;
+  for (const Rest& rest : rests_) {
+    on_ground[first_tower(static_cast<int>(TowerOf(rest.brick)))] = true;
+  }
   own_foundation_.assign(towers, true);
-  for (std::size_t t = 0; t < towers; ++t) own_foundation_[t] = !on_ground[buildings.Find(t)];
+  for (std::size_t t = 0; t < towers; ++t) {
+    own_foundation_[t] = !on_ground[first_tower(static_cast<int>(t))];
+  }
   const auto look = [&](const Node& node, const Node& other) {
-    if (node.block.y0 != node.begins || buildings.Find(node.tower) != buildings.Find(other.tower)) {
-      return;
-    }
+    if (node.block.y0 != node.begins || !buildings.Same(node.tower, other.tower)) return;
     BuildingBlock row = node.block;
     row.y1 = row.y0 + node.height;
     const bool rests = other.begins < node.begins && Touch(row, other.block);
     const bool hangs = Over(row, other.block) && other.block.y1 <= row.y0;
-    if (rests || hangs) own_foundation_[node.tower] = false;
+    if (rests || hangs) own_foundation_[static_cast<std::size_t>(node.tower)] = false;
   };
   EachPair(nodes, [&](const Node& a, const Node& b) {
     look(a, b);

@@ -19,7 +19,7 @@ namespace {
 /// Largest offset of a bond, m: no assembly is larger.
 constexpr float kBondDistanceMax = 1000;
 /// Largest angle of a bond: one turn. Sines of huge angles are noise, and Box2D asserts.
-constexpr float kBondAngleMax = 6.2831853f;
+constexpr float kBondAngleMax = 2 * kPiFloat;
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kColours = 3;                 ///< bytes of a pixel in the stream
 constexpr std::size_t kLengthMax = 258 / kColours;  ///< pixels of a match; RFC 1951: 3 to 258 bytes
-constexpr std::size_t kWindow = 32768;              ///< bytes of the stream, the furthest match
+constexpr std::size_t kDeflateWindow = 32768;       ///< bytes of the stream, the furthest match
 constexpr int kHashBits = 13;
 
 /// A code of the format, its bits in the order of the stream.
@@ -161,7 +161,7 @@ class Matcher {
 
   void Try(std::size_t at, std::size_t from, std::size_t most, std::size_t distance,
            Match* best) const {
-    if (distance > kWindow) return;
+    if (distance > kDeflateWindow) return;
     const std::size_t length = Equal(pixels_, at, from, most);
     if (length > best->length) *best = {length, distance};
   }
@@ -171,7 +171,7 @@ class Matcher {
     std::uint32_t& seen = last_[(two * 0x9e3779b97f4a7c15u) >> (64 - kHashBits)];
     const std::size_t from = seen;
     seen = static_cast<std::uint32_t>(at);
-    if (at - from > kWindow / kColours || from >= at || pixels_.Two(from) != two) return;
+    if (at - from > kDeflateWindow / kColours || from >= at || pixels_.Two(from) != two) return;
     const std::size_t from_row = from / pixels_.width;
     const std::size_t most = std::min(left, (from_row + 1) * pixels_.width - from);
     Try(at, from, most, kColours * (at - from) + row - from_row, best);

@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-constexpr float kGripRing = 5;  ///< px at scale 1; radius of the ring around a hand's pin
+constexpr float kGripRing = 5;            ///< px at scale 1; radius of the ring around a hand's pin
 constexpr float kPinsFrom_px_per_m = 12;  ///< least scale; pins would cover smaller bodies
 
 std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,

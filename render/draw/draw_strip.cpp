@@ -41,10 +41,10 @@ void DrawDecades(DrawList& list, const Axes& axes) {
     list.Stroke({{axes.plot.x, y}, {axes.plot.right(), y}}, false,
                 {1, decade == kLowDecade ? kFrame : kGrid, 0});
     if (axes.high_decade - kLowDecade > 4 && std::fmod(decade - kLowDecade, 2) != 0) continue;
-    static const char* const kNames[] = {"1 mm", "1 cm",  "10 cm", "1 m",
-                                         "10 m", "100 m", "1 km",  "10 km"};
+    static const char* const kLengthNames[] = {"1 mm", "1 cm",  "10 cm", "1 m",
+                                               "10 m", "100 m", "1 km",  "10 km"};
     list.Text(axes.plot.x - 6 * scale, y + 4 * scale, TextStyle::kSmall,
-              kNames[static_cast<int>(decade - kLowDecade)], kFaintInk, Align::kRight);
+              kLengthNames[static_cast<int>(decade - kLowDecade)], kFaintInk, Align::kRight);
   }
 }
 

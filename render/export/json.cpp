@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "common/base/json_text.h"
 #include "common/topology/edit.h"
 #include "render/export/formats.h"
-#include "common/base/json_text.h"
 
 namespace seam {
 namespace {
@@ -62,12 +62,12 @@ std::string PartOrNull(const ExportSession& session, int part) {
 }
 
 void WriteEdits(const ExportSession& session, OutputFile* out) {
-  static const char* const kKinds[] = {"none", "break", "bond", "insert", "remove",
-                                       "free", "push",  "seat", "blast"};
+  static const char* const kEditNames[] = {"none", "break", "bond", "insert", "remove",
+                                           "free", "push",  "seat", "blast"};
   List edits(out, "\"edits\": [");
   for (const auto& [number, edit] : session.recording.edits) {
     const auto kind = static_cast<std::size_t>(edit.kind);
-    const std::string name = kind < std::size(kKinds) ? kKinds[kind] : Number(edit.kind);
+    const std::string name = kind < std::size(kEditNames) ? kEditNames[kind] : Number(edit.kind);
     std::string values;
     for (const float value : edit.value) {
       values += (values.empty() ? "" : ", ") + JsonNumber(double{value});

@@ -10,7 +10,7 @@ namespace {
 
 constexpr char kMagic[] = {'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 /// Size beyond which a chunk ends, bytes: readers keep a chunk in memory.
-constexpr std::size_t kChunkBytes = 1 << 20;
+constexpr std::size_t kMcapChunkBytes = 1 << 20;
 
 enum Opcode : std::uint8_t {
   kHeader = 1,
@@ -108,7 +108,7 @@ void McapWriter::AddMessage(std::uint16_t channel, std::uint64_t time_ns, const 
   last_ns_ = std::max(last_ns_, time_ns);
   ++chunk_messages_;
   ++messages_;
-  if (chunk_.size() > kChunkBytes) EndChunk();
+  if (chunk_.size() > kMcapChunkBytes) EndChunk();
 }
 
 void McapWriter::EndChunk() {

@@ -1,6 +1,5 @@
 #include "render/export/options.h"
 
-
 #include "common/base/check.h"
 #include "common/base/command_line.h"
 

@@ -67,15 +67,15 @@ std::vector<PageEvent> FindHandOvers(const Playback& playback) {
 }
 
 std::vector<PageEvent> FindEdits(const Playback& playback) {
-  static const char* const kNames[] = {"nothing", "joint broken", "bond", "parts inserted",
-                                       "removed", "set free",     "push", "seat taken or left",
-                                       "blast"};
+  static const char* const kMarkNames[] = {"nothing", "joint broken", "bond", "parts inserted",
+                                           "removed", "set free",     "push", "seat taken or left",
+                                           "blast"};
   std::vector<PageEvent> events;
   for (const auto& [number, order] : playback.recording().edits) {
     const Edit edit = ToEdit(order);
     const std::size_t kind = edit.what.index();
     if (kind == 0) continue;
-    std::string text = kNames[kind];
+    std::string text = kMarkNames[kind];
     if (order.a >= 0) text += ": " + BodyName(playback, order.a);
     events.push_back(Make(order.tick, "edit", -1, 0, text));
     if (const BlastEdit* blast = edit.As<BlastEdit>()) {

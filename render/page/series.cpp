@@ -31,10 +31,11 @@ void AddPathErrors(const Recording& recording, const std::vector<const View*>& v
   for (const View* view : views) {
     const int found = view == nullptr ? -1 : IndexOf(*view, id);
     if (found < 0 || screen.own.Has(*view, static_cast<std::size_t>(found))) continue;
-    const std::optional<Pose> due = TruthShown(truth, ages, view->tick);
+    const std::optional<DoublePose> due = TruthShown(truth, ages, view->tick);
     if (!due) continue;
-    const double d = screen.extents.Of(view->revision, id)
-                         .Displacement(Pose(StateIn(*view, static_cast<std::size_t>(found))), *due);
+    const double d =
+        screen.extents.Of(view->revision, id)
+            .Displacement(DoublePose(StateIn(*view, static_cast<std::size_t>(found))), *due);
     (*series)[static_cast<std::size_t>(view->tick - recording.first_tick)].Add(d * d);
   }
 }

@@ -10,10 +10,10 @@ namespace {
 
 constexpr float kShownMin = 1.0f;        ///< m/s; weaker ones would clutter a stack
 constexpr float kGroundShownMin = 3.0f;  ///< m/s, against anchored bodies
-constexpr double kSameMeeting_s = 0.35;         ///< impulses of a pair within this are one contact
+constexpr double kSameMeeting_s = 0.35;  ///< impulses of a pair within this are one contact
 constexpr float kNear_m = 3.0f;          ///< of several marks this near each other one is kept
 constexpr std::size_t kMarksMax = 5;     ///< at a time
-constexpr float kStronger = 1.5f;        ///< a new mark within kSameMeeting_s if stronger by this factor
+constexpr float kStronger = 1.5f;  ///< a new mark within kSameMeeting_s if stronger by this factor
 
 struct Push {
   double tick = 0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kJumpMin = 1.0f;       ///< m/s in one tick; only a collision causes this
 constexpr float kStrongImpact = 3.0f;  ///< m/s
-constexpr double kSameContact_s = 0.05;       ///< impacts within this belong to one contact
+constexpr double kSameContact_s = 0.05;  ///< impacts within this belong to one contact
 
 /// Adds the bodies of the impacts at that moment to `bodies`; without any, takes strong impacts.
 std::set<PartId> BodiesOf(const Playback& playback, double s, std::set<PartId> bodies) {

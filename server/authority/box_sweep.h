@@ -12,6 +12,9 @@
 
 namespace seam {
 
+/// m; a margin so that rounding misses no pair.
+constexpr float kPairRounding = 0.01f;
+
 ///        strip 1 |      +--a--+         a and b are in both strips: the pair is visited in the
 ///       ---------+------|-+---|-+-----  first that both are in
 ///        strip 0 |      +-|---+ b
@@ -27,7 +30,7 @@ class BoxSweep {
       const MovingBox& box = boxes[i];
       low = i == 0 ? box.min : low.cwiseMin(box.min);
       high = i == 0 ? box.max : high.cwiseMax(box.max);
-      grown_.push_back(grow(i) + kRounding);
+      grown_.push_back(grow(i) + kPairRounding);
       sides += box.max - box.min + 2 * Vec2(grown_.back(), grown_.back());
     }
     const int along = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
@@ -91,8 +94,6 @@ class BoxSweep {
   }
 
  private:
-  /// m; a margin so that rounding misses no pair.
-  static constexpr float kRounding = 0.01f;
   /// Most strips, and the least height of a strip in mean heights of a grown box.
   static constexpr float kStripsMax = 256, kStripHeight = 1.5f;
 

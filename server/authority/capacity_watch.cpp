@@ -18,7 +18,7 @@ int CapacityWatch::Look(std::size_t player, std::int64_t now_us, int peer, float
   if (peer <= 0 || load < 0 || (!limited && load <= kFull)) return answer();
   if (limited && now_us - seen.changed_us < kSettleUs) return answer();
   const auto now = static_cast<float>(std::max(1, steps()));
-  const float factor = std::clamp(kTarget / std::max(load, 0.01f), kLeast, kMost);
+  const float factor = std::clamp(kTarget / std::max(load, 0.01f), kFactorMin, kFactorMax);
   seen.changed_us = now_us;
   if (factor <= 1) {
     seen.bodies = std::max(1.0f, now * factor);

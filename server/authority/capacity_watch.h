@@ -28,7 +28,7 @@ class CapacityWatch {
   /// hand-over.
   static constexpr std::int64_t kSettleUs = 900000;
   /// Limits of the factor by which one call changes the capacity.
-  static constexpr float kLeast = 0.3f, kMost = 1.2f;
+  static constexpr float kFactorMin = 0.3f, kFactorMax = 1.2f;
 
  private:
   struct Seen {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "common/base/disjoint_sets.h"
 #include "server/authority/box_sweep.h"
 #include "server/authority/crowds.h"
 #include "server/authority/player_of_peer.h"
 #include "server/authority/swept_boxes.h"
-#include "server/authority/unions.h"
 
 namespace seam {
 namespace {
@@ -133,7 +133,7 @@ class Look {
   const FallAxis fall_;         // no axis: only MayMeet counts
   std::vector<float> one_way_;  // by mechanism: delay of its planned authority, s
   std::vector<int> servers_;    // by mechanism: 1 if the server has to simulate it
-  Unions soon_, later_;
+  DisjointSets soon_, later_;
   std::vector<char> server_soon_, server_later_;
 };
 

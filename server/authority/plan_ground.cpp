@@ -1,14 +1,14 @@
 #include "server/authority/plan_ground.h"
 
+#include "common/base/disjoint_sets.h"
 #include "server/authority/box_sweep.h"
-#include "server/authority/unions.h"
 
 namespace seam {
 
 Touching FindTouching(const std::vector<MovingBox>& boxes, const BoxClusters& clusters,
                       std::size_t groups) {
   Touching found;
-  Unions touching(groups);
+  DisjointSets touching(groups);
   const BoxSweep sweep(clusters.around(), [](std::size_t) { return kPressGap / 2; });
   sweep.EachPair([&](std::size_t a, std::size_t b) {
     const int x = clusters.GroupOf(a), y = clusters.GroupOf(b);

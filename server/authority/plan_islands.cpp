@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/sync/reach/box_grid.h"
+#include "server/authority/box_sweep.h"
 #include "server/authority/dwell.h"
 #include "server/authority/islands.h"
 #include "server/authority/plan_capacity.h"
@@ -149,7 +150,7 @@ class IslandPlan {
       Island& island = islands_.Of(box.group);
       if (island.driver >= 0) return;  // an island with a driver belongs to the driver
       const float speed = std::max(std::fabs(box.velocity.x()), std::fabs(box.velocity.y()));
-      const float other_way = (speed + box.acceleration * longest / 2) * longest + kRounding;
+      const float other_way = (speed + box.acceleration * longest / 2) * longest + kPairRounding;
       const Vec2 apart = (around.min - box.max).cwiseMax(box.min - around.max);
       if (std::max(apart.x(), apart.y()) > own_way + other_way) return;
       clusters.Each(cluster, [&](std::size_t i) {
@@ -197,9 +198,6 @@ class IslandPlan {
       }
     }
   }
-
-  /// m; a margin so that rounding misses no claim.
-  static constexpr float kRounding = 0.01f;
 
   const PlanGround& ground_;
   const AuthorityView& view_;

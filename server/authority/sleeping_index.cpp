@@ -9,7 +9,7 @@ namespace seam {
 namespace {
 
 /// m, so that rounding leaves out nothing at exactly the limit.
-constexpr float kRounding = 0.1f;
+constexpr float kLimitRounding = 0.1f;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ std::vector<int> SleepingIndex::Near(const std::vector<MovingBox>& boxes, const 
     seen.push_back(box);
   };
   const auto within = [&](const MovingBox& box, float reach) {
-    const Vec2 by(reach + kRounding, reach + kRounding);
+    const Vec2 by(reach + kLimitRounding, reach + kLimitRounding);
     boxes_.EachWithin(box.min - by, box.max + by, take);
   };
   for (const MovingBox& box : boxes) within(box, kZoneSlack + WayOf(box, sight.seconds));

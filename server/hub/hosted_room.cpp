@@ -40,9 +40,7 @@ void HostedRoom::Run(std::int64_t now_us) {
   const std::int64_t cpu_us = plan_.alone ? 0 : ThreadCpuUs();
   server_.Tick(now_us, CpuForStats(now_us));
   sink_.Poll();
-  const std::int64_t wall_us = SteadyClockUs() - now_us;
-  tick_times_.Note(wall_us, server_.tick() - tick);
-  watch_.NoteCall(server_, now_us, wall_us, tick, due_us);
+  watch_.NoteCall(server_, now_us, SteadyClockUs() - now_us, tick, due_us);
   if (!plan_.alone) watch_.NoteCpu(ThreadCpuUs() - cpu_us);
   if (server_.tick() != tick) NoteTicks();
   CollectReports();

@@ -15,7 +15,6 @@
 #include "server/hub/lanes.h"
 #include "server/hub/room_net.h"
 #include "server/load/load_watch.h"
-#include "server/tick_times.h"
 
 namespace seam {
 
@@ -65,7 +64,8 @@ class HostedRoom : public Runnable {
   const ServerConfig& config() const { return plan_.config; }
   const Sink& sink() const { return sink_; }
   std::int64_t last_tick() const { return plan_.last_tick; }
-  const TickTimes& tick_times() const { return tick_times_; }
+  /// Returns the wall time of all ticks so far.
+  const DurationHistogram& tick_times() const { return watch_.session(); }
 
  private:
   std::int64_t CpuForStats(std::int64_t now_us) const;
@@ -82,7 +82,6 @@ class HostedRoom : public Runnable {
   Publisher publisher_;  // for its Loads
   Server server_;
   LoadWatch watch_;
-  TickTimes tick_times_;
   std::int64_t ran_us_ = 0;
   bool trouble_reported_ = false;
   mutable std::mutex mutex_;  // guards all below

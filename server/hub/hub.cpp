@@ -11,8 +11,6 @@
 namespace seam {
 namespace {
 
-/// Most datagrams taken in one call: a flood must not keep the rooms from running.
-constexpr int kDatagramsMax = 4096;
 constexpr std::int64_t kWaitUs = 20000;
 
 std::vector<std::string> NamesOfRooms(const std::vector<RoomPlan>& plans) {

@@ -12,17 +12,6 @@ namespace {
 /// Period of the search for old sessions, us.
 constexpr std::int64_t kSweepUs = 5000000;
 
-/// Reads the session, and `loose`: the datagram is outside of any. Skips the checksum, which the
-/// room checks.
-bool ReadSession(ByteView datagram, std::uint64_t* session, bool* loose) {
-  if (datagram.size < kDatagramHeaderBytes) return false;
-  *session = 0;
-  for (std::size_t i = 8; i < 16; ++i) *session = *session << 8 | datagram.data[i];
-  *loose = std::all_of(datagram.data + 16, datagram.data + kDatagramHeaderBytes,
-                       [](std::uint8_t byte) { return byte == 0; });
-  return true;
-}
-
 }  // namespace
 
 int RoomFinder::Asked(ByteView datagram) const {
@@ -38,12 +27,11 @@ int RoomFinder::Asked(ByteView datagram) const {
 }
 
 int RoomFinder::Find(std::int64_t now_us, const Address& from, ByteView datagram) {
-  std::uint64_t session = 0;
-  bool loose = false;
-  const bool ours = ReadSession(datagram, &session, &loose);
-  if (ours && !loose) {
+  DatagramHeader header;
+  const bool ours = PeekHeader(datagram, &header);  // the room checks the checksum
+  if (ours && !header.loose()) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = routes_.find({from, session});
+    const auto found = routes_.find({from, header.session});
     if (found != routes_.end()) {
       found->second.heard_us = now_us;
       return found->second.room;

@@ -49,11 +49,9 @@ bool RoomNet::Receive(Address* from, Bytes* datagram) {
 void RoomNet::Send(const Address& to, ByteView datagram) {
   traffic_.Add(datagram, true);
   DatagramHeader header;
-  bool loose = true;
-  for (std::size_t i = 16; i < kDatagramHeaderBytes; ++i) loose = loose && datagram.data[i] == 0;
-  for (std::size_t i = 8; i < 16; ++i) header.session = header.session << 8 | datagram.data[i];
+  const bool numbered = PeekHeader(datagram, &header) && !header.loose();
   const std::pair<Address, std::uint64_t> route(to, header.session);
-  if (!loose && learned_.count(route) == 0) {
+  if (numbered && learned_.count(route) == 0) {
     learned_.insert(route);
     if (learned_.size() > kLearnedMax) learned_ = {{to, header.session}};
     finder_.Learn(now_us_, room_, to, header.session);

@@ -93,8 +93,8 @@ std::vector<Grants> GrantAudience::Owed(int peer, Which which) {
     if (!any_pending_[m] || !owed_[m].Has(peer)) continue;
     const auto mechanism = static_cast<int>(m);
     const Relevance least = which == Which::kAll   ? Relevance::kNone
-                          : which == Which::kFar ? Relevance::kFar
-                                                 : Relevance::kNear;
+                            : which == Which::kFar ? Relevance::kFar
+                                                   : Relevance::kNear;
     if (merged_[m] || interest_.Of(peer, mechanism) >= least) mechanisms.push_back(mechanism);
   }
   return Owed(peer, mechanisms);

@@ -97,8 +97,8 @@ class Interest {
   const Replica& replica_;
   bool small_ = false;                                  // everything is kClose to everyone
   std::size_t stride_ = 0;                              // mechanisms in a row
-  std::vector<Relevance> relevance_;                      // by peer and mechanism
-  std::vector<Relevance> before_;                         // in the Look before
+  std::vector<Relevance> relevance_;                    // by peer and mechanism
+  std::vector<Relevance> before_;                       // in the Look before
   std::vector<std::vector<int>> noted_, noted_before_;  // by peer: mechanisms of at least kFar
   std::vector<char> looked_, looked_before_;            // by peer: was a receiver
   std::vector<std::vector<int>> hearing_;               // by mechanism: peers, at least kFar

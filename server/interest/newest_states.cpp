@@ -12,8 +12,7 @@ namespace seam {
 namespace {
 
 /// The angle of a wheel that spins faster than this is not visible, rad/s.
-constexpr float kSpinSeen = 6;
-constexpr int kQuantaPerMetre = 512;
+constexpr float kSpinSent = 6;
 
 ReceivedState Entry(const States& states, std::size_t i) {
   ReceivedState heard;
@@ -50,7 +49,7 @@ bool NewestStates::IsNews(const Body& body, const ReceivedState& told, const Rec
   constexpr float kQuantum = kPositionQuantum, kSpeed = kVelocityQuantum;
   const float speed = kSpeed * static_cast<float>(std::abs(told.vx) + std::abs(told.vy)) +
                       kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
-  if (seconds >= (speed < kSlow ? kStateRepeatSlowS : repeat_s)) return true;
+  if (seconds >= (speed < kRepeatSlow ? kStateRepeatSlowS : repeat_s)) return true;
   if (seconds < rule.least) return false;
   const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
@@ -62,7 +61,7 @@ bool NewestStates::IsNews(const Body& body, const ReceivedState& told, const Rec
     way -= (seconds * (seconds + step) / 2) * world_.scene().gravity;
   }
   float off = way.norm();
-  if (std::abs(static_cast<int>(now.spin)) * kSpeed < kSpinSeen) {
+  if (std::abs(static_cast<int>(now.spin)) * kSpeed < kSpinSent) {
     const auto steps =
         static_cast<std::int16_t>(static_cast<std::uint16_t>(now.angle - told.angle));
     const float turn = static_cast<float>(steps * kAngleQuantum) - seconds * kSpeed * told.spin;

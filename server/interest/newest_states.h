@@ -40,12 +40,12 @@ struct ReckoningRule {
 constexpr ReckoningRule kNearReckoning{0.005f, 0};
 constexpr ReckoningRule kFarReckoning{0.05f, 0.5};
 /// s after which a state is sent in any case, so that one may be lost before the receiver stops
-/// extrapolating (kReckonShownMax). The second one is for bodies slower than kSlow, m/s.
+/// extrapolating (kReckonShownMax). The second one is for bodies slower than kRepeatSlow, m/s.
 constexpr double kStateRepeatS = 0.5, kStateRepeatSlowS = 2;
 /// Like kStateRepeatS, for states that the server sends in a silent holder's name: the holder's
 /// last state is half a second old by then, and may be the one that was lost.
 constexpr double kStateRepeatSilentS = 0.25;
-constexpr float kSlow = 0.05f;
+constexpr float kRepeatSlow = 0.05f;
 
 class NewestStates {
  public:
@@ -74,7 +74,7 @@ class NewestStates {
  private:
   struct Body {
     ReceivedState heard, near, far;  // the latest; the last due to near, and to far receivers
-    float reach = -1;             // m, from its origin to its farthest point; -1: not known yet
+    float reach = -1;                // m, from its origin to its farthest point; -1: not known yet
   };
   bool IsNews(const Body& body, const ReceivedState& told, const ReckoningRule& rule,
               double repeat_s) const;

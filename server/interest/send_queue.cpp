@@ -5,12 +5,12 @@
 #include <tuple>
 #include <utility>
 
+#include "common/codec/quanta.h"
+
 namespace seam {
 namespace {
 
-constexpr std::int32_t kQuantaPerMetre = 512;
-/// Largest distance of a body from its message's origin, in quanta: int16 reaches 64 m.
-constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
+constexpr std::int32_t kReachQuanta = kOriginReach * kQuantaPerMetre;
 /// Bytes of a message besides its bodies, with the headers of link and datagram.
 constexpr double kMessageCost = static_cast<double>(kStatesBytes.empty) + 30;
 
@@ -22,7 +22,7 @@ struct Origin {
       : x(first.x / kQuantaPerMetre * kQuantaPerMetre),
         y(first.y / kQuantaPerMetre * kQuantaPerMetre) {}
   bool Reaches(const ReceivedState& state) const {
-    return std::abs(state.x - x) < kReach && std::abs(state.y - y) < kReach;
+    return std::abs(state.x - x) < kReachQuanta && std::abs(state.y - y) < kReachQuanta;
   }
 };
 

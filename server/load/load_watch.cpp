@@ -30,8 +30,9 @@ void LoadWatch::NoteCall(const Server& server, std::int64_t begin_us, std::int64
   const std::int64_t steps = server.tick() - tick_before;
   if (steps <= 0) return;
   const std::int64_t period_us = (server.next_tick_us() - due_us) / steps;
+  const std::int64_t each_us = wall_us / steps;
+  session_.Add(each_us, steps);
   for (std::int64_t i = 0; i < steps; ++i) {
-    const std::int64_t each_us = wall_us / steps;
     const std::int64_t late_us = begin_us + i * wall_us / steps - due_us - i * period_us;
     wall_.Add(each_us);
     late_.Add(late_us);

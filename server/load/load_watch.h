@@ -25,7 +25,9 @@ class LoadWatch {
   Load Tell(std::int64_t now_us, const Server& server, const TrafficCount& traffic);
 
   std::int64_t cpu_us() const { return cpu_us_; }
-  /// Wall time of all ticks so far, and the lateness of each.
+  /// Wall time of all ticks so far, for percentiles.
+  const DurationHistogram& session() const { return session_; }
+  /// Wall time of all ticks so far, and the lateness of each, as the page of metrics has them.
   const BucketHistogram& tick_total() const { return wall_total_; }
   const BucketHistogram& late_total() const { return late_total_; }
 
@@ -35,6 +37,7 @@ class LoadWatch {
   void CountHandOvers(const Server& server);
 
   DurationHistogram wall_, late_;  // ticks since the last Load
+  DurationHistogram session_;      // wall time of all ticks
   BucketHistogram wall_total_, late_total_;
   std::int64_t cpu_us_ = 0;
   std::int64_t told_us_ = 0;

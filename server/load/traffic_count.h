@@ -18,8 +18,8 @@ class TrafficCount {
   void Write(Load* load) const;
 
  private:
-  static constexpr std::size_t kKinds = kTrafficOther + 1;
-  std::array<std::int64_t, kKinds> out_{}, in_{};
+  static constexpr std::size_t kTrafficKinds = kTrafficOther + 1;
+  std::array<std::int64_t, kTrafficKinds> out_{}, in_{};
   std::vector<DatagramMessage> messages_;  // scratch of Add; keeps its memory
 };
 

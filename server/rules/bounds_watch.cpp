@@ -8,8 +8,8 @@
 namespace seam {
 namespace {
 
-/// In a room of more than kAtOnce bodies, one check of all absent bodies takes kParts ticks.
-constexpr int kAtOnce = 256, kParts = 30;
+/// In a room of more than kAtOnce bodies, one check of all absent bodies takes kTurnTicks ticks.
+constexpr int kAtOnce = 256, kTurnTicks = 30;
 
 }  // namespace
 
@@ -34,8 +34,8 @@ std::vector<Edit> BoundsWatch::Next(const std::vector<int>& told) {
   };
   for (const int b : world.present()) look(b);
   // Absent bodies do not get far by themselves.
-  const int count = world.body_count(), each = count <= kAtOnce ? count : 1 + count / kParts;
-  const int first = each == count ? 0 : static_cast<int>(world.tick() % kParts) * each;
+  const int count = world.body_count(), each = count <= kAtOnce ? count : 1 + count / kTurnTicks;
+  const int first = each == count ? 0 : static_cast<int>(world.tick() % kTurnTicks) * each;
   for (int b = first; b < std::min(count, first + each); ++b) {
     if (world.motion(b) == Motion::kAbsent) look(b);
   }
@@ -43,7 +43,7 @@ std::vector<Edit> BoundsWatch::Next(const std::vector<int>& told) {
   if (leaving.empty()) return edits;
   const std::int64_t again = static_cast<std::int64_t>(kAgainSeconds) * scene.solver.tick_hz;
   for (const Part& part : scene.parts) {
-    if (edits.size() == kPartsMax) break;
+    if (edits.size() == kRemovalsMax) break;
     if (part.gone || part.anchored) continue;
     if (leaving.count(MechanismOf(world, part.id)) == 0) continue;
     const auto asked = asked_.find(part.id);

@@ -19,10 +19,10 @@ class BoundsWatch {
   /// `replica`, the server's, must outlive it.
   explicit BoundsWatch(const Replica& replica) : replica_(replica) {}
 
-  /// Returns the removals of parts that are due now, at most kPartsMax. Call once after each tick.
-  /// `told`: bodies outside the bounds by their authorities' states. Removals returned within the
-  /// last kAgainSeconds may still be pending and are not repeated. In a large room, bodies outside
-  /// the Box2D world are checked twice a second.
+  /// Returns the removals of parts that are due now, at most kRemovalsMax. Call once after each
+  /// tick. `told`: bodies outside the bounds by their authorities' states. Removals returned within
+  /// the last kAgainSeconds may still be pending and are not repeated. In a large room, bodies
+  /// outside the Box2D world are checked twice a second.
   std::vector<Edit> Next(const std::vector<int>& told);
   /// Call with each applied edit.
   void NoteApplied(const Edit& edit);
@@ -30,7 +30,7 @@ class BoundsWatch {
   std::int64_t left() const { return left_; }
 
   /// Most removals in one tick; the rest waits for the next.
-  static constexpr std::size_t kPartsMax = 64;
+  static constexpr std::size_t kRemovalsMax = 64;
   /// The EditLog has dropped a removal that was not ordered in this time, s.
   static constexpr int kAgainSeconds = 4;
 

@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kNotYet = INT64_MAX, kOver = -1;  // values of charge_due_
+constexpr std::int64_t kNotYet = INT64_MAX, kSetOff = -1;  // values of charge_due_
 
 std::int64_t Ticks(double seconds, int tick_hz) {
   return static_cast<std::int64_t>(std::llround(seconds * tick_hz));
@@ -32,8 +32,8 @@ void Rules::RunCharges() {
       if (due != kNotYet || !event.entered || event.trigger != charge.trigger) continue;
       due = world_.tick() + Ticks(charge.delay_s, tick_hz);
     }
-    if (due == kOver || due > world_.tick()) continue;
-    due = kOver;
+    if (due == kSetOff || due > world_.tick()) continue;
+    due = kSetOff;
     SetOff(charge);
   }
 }

@@ -17,7 +17,7 @@ constexpr int kArrivalMargin = 2;
 /// Least speed at which peers that heard late show the part catching up, m/s.
 constexpr float kCatchUpSpeed = 2;
 /// Time until a body has settled in the view of a peer that has just joined, s.
-constexpr double kSettles = 0.6;
+constexpr double kViewSettles = 0.6;
 /// Way::heard_at while a peer is joining.
 constexpr int kComingIn = -2;
 /// Longest wait for such peers after the end of the way, s.
@@ -111,7 +111,7 @@ std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
     if (heard < 0) {
       way.heard_at = kComingIn;
     } else if (way.heard_at < 0 && heard >= way.revision) {
-      const double settles = way.heard_at == kComingIn ? kSettles : 0;
+      const double settles = way.heard_at == kComingIn ? kViewSettles : 0;
       way.heard_at = way.ticks + static_cast<int>(settles * scene.solver.tick_hz);
     }
     if (way.ticks < SeatTicks(scene.solver.tick_hz) || asked_[s] == own) continue;

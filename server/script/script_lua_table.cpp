@@ -11,7 +11,7 @@ namespace seam {
 namespace {
 
 /// Sort key of a table entry. Its text belongs to Lua and does not move.
-struct Key {
+struct SortedKey {
   int place = 0;  ///< in the list of keys
   int kind = 0;   ///< 0 number, 1 text, 2 boolean
   double number = 0;
@@ -20,15 +20,15 @@ struct Key {
   std::size_t bytes = 0;
 };
 
-bool Before(const Key& a, const Key& b) {
+bool Before(const SortedKey& a, const SortedKey& b) {
   if (a.kind != b.kind) return a.kind < b.kind;
   if (a.kind != 1) return a.number != b.number ? a.number < b.number : a.integer < b.integer;
   const int order = std::memcmp(a.text, b.text, std::min(a.bytes, b.bytes));
   return order != 0 ? order < 0 : a.bytes < b.bytes;
 }
 
-Key ReadKey(lua_State* L, int place) {
-  Key key;
+SortedKey ReadKey(lua_State* L, int place) {
+  SortedKey key;
   key.place = place;
   switch (lua_type(L, -1)) {
     case LUA_TNUMBER:
@@ -80,7 +80,7 @@ int Pairs(lua_State* L) {
     LuaCharge(L, 4);
   }
   const auto size = static_cast<std::size_t>(count);
-  auto* keys = static_cast<Key*>(lua_newuserdatauv(L, sizeof(Key) * (size + 1), 0));
+  auto* keys = static_cast<SortedKey*>(lua_newuserdatauv(L, sizeof(SortedKey) * (size + 1), 0));
   for (int i = 0; i < count; ++i) {
     lua_rawgeti(L, 2, i + 1);
     keys[i] = ReadKey(L, i + 1);

@@ -35,7 +35,11 @@ struct Session {
   /// `allowed`: limit for the client's traffic; `bytes_per_s`: limit for traffic to it, 0: none.
   Session(const SessionId& session, const TrafficRate& allowed, double bytes_per_s,
           const PackedMotion& motion)
-      : id(session), link(session.number), budget(allowed), send_queue(bytes_per_s), packer(motion) {}
+      : id(session),
+        link(session.number),
+        budget(allowed),
+        send_queue(bytes_per_s),
+        packer(motion) {}
 
   SessionId id;
   Link link;
@@ -43,7 +47,7 @@ struct Session {
   std::vector<InputFeed> feeds;      ///< other players' inputs, by player
   std::vector<int> relevant_players;  ///< players with inputs relevant to the client, ascending
   std::vector<int> unsent_players;   ///< the ones with inputs that wait for another message
-  SendQueue send_queue;                  ///< states of other peers' bodies to send to the client
+  SendQueue send_queue;              ///< states of other peers' bodies to send to the client
   RestBlocks rest;                   ///< comparison with the bodies that rest at the client
   bool rest_agrees = false;          ///< the same bodies rest at both, as of its newest ping
   ClientAccount* account = nullptr;  ///< the name's; outlives the session

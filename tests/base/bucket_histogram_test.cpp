@@ -1,4 +1,4 @@
-/// Quantiles as Prometheus has them, of counts that are known.
+/// Quantiles of known counts, computed as Prometheus computes them.
 
 #include "common/base/bucket_histogram.h"
 
@@ -12,7 +12,7 @@
 namespace seam {
 namespace bucket_histogram_test {
 
-TEST(BucketHistogram, OfNothingEverythingIsNought) {
+TEST(BucketHistogram, IsZeroWhenEmpty) {
   const BucketHistogram none;
   EXPECT_EQ(none.QuantileUs(0.5), 0);
   EXPECT_EQ(none.Since(none).QuantileUs(0.99), 0);
@@ -29,7 +29,7 @@ TEST(BucketHistogram, BucketsAreOneFourthToTwoThirdsApart) {
   }
 }
 
-TEST(BucketHistogram, OfOneBucketAQuantileLiesOnTheLineBetweenItsBounds) {
+TEST(BucketHistogram, InterpolatesLinearlyWithinABucket) {
   BucketHistogram h;
   for (int i = 0; i < 10; ++i) h.Add(1200);  // between 1000 and 1500
   EXPECT_EQ(h.count, 10);
@@ -46,7 +46,7 @@ TEST(BucketHistogram, OfOneBucketAQuantileLiesOnTheLineBetweenItsBounds) {
   EXPECT_DOUBLE_EQ(first.QuantileUs(0.5), 50);
 }
 
-TEST(BucketHistogram, OfSeveralBucketsTheRankChoosesAndWhatIsBeyondTheLastIsTheLast) {
+TEST(BucketHistogram, RankChoosesTheBucketAndTheLastBoundCapsTheRest) {
   BucketHistogram h;
   for (int i = 0; i < 90; ++i) h.Add(120);
   for (int i = 0; i < 8; ++i) h.Add(4000);
@@ -59,7 +59,7 @@ TEST(BucketHistogram, OfSeveralBucketsTheRankChoosesAndWhatIsBeyondTheLastIsTheL
   EXPECT_EQ(h.count, 100);
 }
 
-TEST(BucketHistogram, LiesWithinItsBucketOfTheSortedValue) {
+TEST(BucketHistogram, QuantileLiesInTheBucketOfTheSortedValue) {
   Random random(3);
   BucketHistogram h;
   std::vector<std::int64_t> values;
@@ -75,7 +75,7 @@ TEST(BucketHistogram, LiesWithinItsBucketOfTheSortedValue) {
   }
 }
 
-TEST(BucketHistogram, SinceIsWhatHasComeAndAllOfItWhenItWasBegunAnew) {
+TEST(BucketHistogram, SinceIsTheDifferenceAndEverythingAfterARestart) {
   BucketHistogram before, more, sum;
   for (int i = 0; i < 100; ++i) before.Add(200000);
   for (int i = 0; i < 10; ++i) more.Add(500);

@@ -1,4 +1,4 @@
-/// Percentiles from classes, against those of the sorted values.
+/// Compares percentiles from buckets with those of the sorted values.
 
 #include "common/base/duration_histogram.h"
 
@@ -12,7 +12,7 @@
 namespace seam {
 namespace duration_histogram_test {
 
-TEST(DurationHistogram, OfNothingEverythingIsNought) {
+TEST(DurationHistogram, IsZeroWhenEmpty) {
   const DurationHistogram none;
   EXPECT_EQ(none.count(), 0);
   EXPECT_EQ(none.PercentileUs(0.5), 0);
@@ -40,7 +40,18 @@ TEST(DurationHistogram, PercentilesAreAtMostSixPercentAboveTheSortedValue) {
   }
 }
 
-TEST(DurationHistogram, TimesThatRanBackwardsAreNoughtAndHugeOnesAreKept) {
+TEST(DurationHistogram, CountsSeveralEqualDurationsAtOnce) {
+  DurationHistogram histogram;
+  histogram.Add(1000, 98);
+  histogram.Add(5000, 2);
+  histogram.Add(9000, 0);
+  EXPECT_EQ(histogram.count(), 100);
+  EXPECT_EQ(histogram.max_us(), 5000);
+  EXPECT_NEAR(static_cast<double>(histogram.PercentileUs(0.98)), 1000, 63);
+  EXPECT_EQ(histogram.PercentileUs(0.99), 5000);
+}
+
+TEST(DurationHistogram, NegativeTimesCountAsZeroAndHugeOnesAreKept) {
   DurationHistogram histogram;
   histogram.Add(-5);
   EXPECT_EQ(histogram.PercentileUs(1), 0);

@@ -47,7 +47,7 @@ TEST(Geometry, LargeAnglesLoseWholeTurnsExactly) {
   EXPECT_TRUE(std::isnan(WrapAngle(std::numeric_limits<double>::infinity())));
 }
 
-TEST(Geometry, UnwrappingGoesNearestToWhereItIsWanted) {
+TEST(Geometry, UnwrappingChoosesTheTurnNearestToTheReference) {
   EXPECT_NEAR(UnwrapAngle(-3.0, 3.0), 2 * kPi - 3, 1e-15);
   EXPECT_NEAR(UnwrapAngle(3.0, -3.0), 3 - 2 * kPi, 1e-15);
   EXPECT_NEAR(UnwrapAngle(0.25, 20 * kPi), 20 * kPi + 0.25, 1e-13);

@@ -1,4 +1,4 @@
-/// What a player or a room may be called.
+/// Checks which names players and rooms may have.
 
 #include "common/base/names.h"
 
@@ -9,7 +9,7 @@
 namespace seam {
 namespace names_test {
 
-TEST(Names, LettersDigitsUnderscoreAndHyphenAreAName) {
+TEST(Names, LettersDigitsUnderscoreAndHyphenMakeAName) {
   EXPECT_TRUE(IsName("Ann_2-x"));
   EXPECT_TRUE(IsName("a"));
   EXPECT_TRUE(IsName("-"));
@@ -22,7 +22,7 @@ TEST(Names, ANameHas1To32Characters) {
   EXPECT_FALSE(IsName(std::string(kNameBytesMax + 1, 'a')));
 }
 
-TEST(Names, OnlyThe64CharactersOfANameAreTaken) {
+TEST(Names, OnlyThe64AllowedCharactersAreAccepted) {
   int taken = 0;
   for (int c = 0; c < 256; ++c) taken += IsName(std::string(1, static_cast<char>(c))) ? 1 : 0;
   EXPECT_EQ(taken, 26 + 26 + 10 + 2);

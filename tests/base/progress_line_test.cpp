@@ -39,7 +39,7 @@ class TerminalErrors {
     size.ws_row = 24;
     ioctl(window_, TIOCSWINSZ, &size);
   }
-  /// What was written since the last time; at least one character is waited for.
+  /// Returns the text written since the last call; waits for at least one character.
   std::string Read() const {
     char text[1000];
     const ssize_t bytes = read(window_, text, sizeof text);
@@ -87,7 +87,7 @@ TEST(ProgressLine, QuietIsSilentOnATerminalToo) {
   EXPECT_FALSE(line.Due(1000000000));
 }
 
-TEST(ProgressLine, IsCutWhereTheTerminalEnds) {
+TEST(ProgressLine, IsCutAtTheTerminalsWidth) {
   const TerminalErrors terminal;
   if (!terminal.good()) GTEST_SKIP() << "no pseudo terminal here";
   terminal.SetColumns(12);
@@ -98,7 +98,7 @@ TEST(ProgressLine, IsCutWhereTheTerminalEnds) {
   EXPECT_EQ(terminal.Read(), "\r0          ");
 }
 
-TEST(ProgressCount, SaysWhatHowMuchOfHowMuchTheRateAndTheTimeLeft) {
+TEST(ProgressCount, PrintsTaskCountTotalRateAndTimeLeft) {
   EXPECT_EQ(ProgressText("sweep", "runs", 0, 400, 3), "sweep: 0 of 400 runs (0 %)");
   EXPECT_EQ(ProgressText("sweep", "runs", 12, 400, 4),
             "sweep: 12 of 400 runs (3 %), 3.0 runs/s, 2 min 10 s left");

@@ -1,4 +1,4 @@
-/// How a client gets in, and what it says when it cannot: against a server written by hand.
+/// Tests how a client joins, and its messages when it cannot, against a hand-written server.
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ TEST_F(ClientJoin, SaysHelloUntilChallengedThenJoinsWithTokenAndKey) {
   EXPECT_EQ(std::get<Join>(again).token, 5678) << "the newest";
 }
 
-TEST_F(ClientJoin, KeepsItsSessionNumberForAsLongAsNobodyAnswers) {
+TEST_F(ClientJoin, KeepsItsSessionNumberWhileNobodyAnswers) {
   Next(0);
   const std::uint64_t first = session_;
   for (int n = 0; n < 100; ++n) Next(100000);
@@ -98,7 +98,7 @@ TEST_F(ClientJoin, TakesAnotherSessionNumberWhenItsWelcomeDoesNotCome) {
 
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
   Next(0);
-  // As protocol 2 refuses: in a numbered datagram, without our version.
+  // A refusal of protocol 2: in a numbered datagram, without our version.
   Link old(session_);
   old.SendUnreliable(Refusal("protocol 2 is spoken here"));
   old.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
@@ -115,7 +115,7 @@ TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksANewerOne) {
             "the server speaks protocol 13, this client speaks 12: they need the same version");
 }
 
-TEST_F(ClientJoin, InsistsForThreeSecondsOnAnyOtherRefusal) {
+TEST_F(ClientJoin, RetriesForThreeSecondsAfterAnyOtherRefusal) {
   Next(0);
   for (int n = 0; n < 31; ++n) {
     EXPECT_EQ(client_.fatal(), "") << n;

@@ -1,4 +1,4 @@
-/// With what a client begins that joins late: what it was told last, at the tick it was told of.
+/// Tests the states with which a late client begins: the last ones received, at their ticks.
 
 #include "client/join_buffer.h"
 
@@ -18,9 +18,9 @@ Scene TwoBoxes() {
       "two.toml");
 }
 
-class AHeldWorld : public ::testing::Test {
+class JoinBufferTest : public ::testing::Test {
  protected:
-  AHeldWorld() {
+  JoinBufferTest() {
     config_.tick_hz = 60;
     replica_ = std::make_unique<Replica>(TwoBoxes(), config_, 1, -1);
   }
@@ -57,7 +57,7 @@ class AHeldWorld : public ::testing::Test {
   JoinBuffer held_;
 };
 
-TEST_F(AHeldWorld, WhatLayOnceAndMovesSinceMoves) {
+TEST_F(JoinBufferTest, ABodyThatLeftRestMoves) {
   replica_->StartAt(70);
   Moves(0, 66, 1);
   Lies(0, 50, 0);
@@ -67,7 +67,7 @@ TEST_F(AHeldWorld, WhatLayOnceAndMovesSinceMoves) {
   EXPECT_FALSE(replica_->rest().Holds(replica_->world().BodyOfId(0)));
 }
 
-TEST_F(AHeldWorld, WhatMovedOnceAndLiesSinceLies) {
+TEST_F(JoinBufferTest, ABodyThatCameToRestStaysAtRest) {
   replica_->StartAt(70);
   Lies(0, 66, 1);
   Moves(0, 50, 0);
@@ -77,7 +77,7 @@ TEST_F(AHeldWorld, WhatMovedOnceAndLiesSinceLies) {
   EXPECT_TRUE(replica_->rest().Holds(replica_->world().BodyOfId(0)));
 }
 
-TEST_F(AHeldWorld, BeginsAtTheLatestTickOfWhichAllIsKnown) {
+TEST_F(JoinBufferTest, BeginsAtTheLatestTickThatIsKnownForEveryBody) {
   const World& world = replica_->world();
   EXPECT_EQ(held_.TickOf(world, 40, 70), 70) << "nothing was heard";
   Moves(0, 50, 0);
@@ -92,7 +92,7 @@ TEST_F(AHeldWorld, BeginsAtTheLatestTickOfWhichAllIsKnown) {
   EXPECT_EQ(held_.TickOf(world, 40, 70), 69) << "what lies is known of all ticks since";
 }
 
-TEST_F(AHeldWorld, WhatIsOfALaterTickWaitsForIt) {
+TEST_F(JoinBufferTest, AStateOfALaterTickWaitsForItsTick) {
   Moves(0, 62, 0);
   Moves(1, 62, 5);
   Moves(1, 64, 7);
@@ -104,7 +104,7 @@ TEST_F(AHeldWorld, WhatIsOfALaterTickWaitsForIt) {
   EXPECT_GT(Begun(1).position.x(), 6.9f) << "it was told of at tick 64";
 }
 
-TEST_F(AHeldWorld, WhatIsKnownOnlyOfALaterTickIsThereAtOnce) {
+TEST_F(JoinBufferTest, ABodyKnownOnlyFromALaterTickAppearsAtOnce) {
   Moves(0, 62, 0);
   Moves(1, 64, 7);
   replica_->StartAt(62);
@@ -112,7 +112,7 @@ TEST_F(AHeldWorld, WhatIsKnownOnlyOfALaterTickIsThereAtOnce) {
   EXPECT_NEAR(Begun(1).position.x(), 7, 0.01);
 }
 
-TEST_F(AHeldWorld, OfALongWaitTheNewestIsKept) {
+TEST_F(JoinBufferTest, KeepsTheNewestStatesOfALongWait) {
   const auto ticks = static_cast<std::int64_t>(JoinBuffer::kHeldMax);
   Lies(1, 3, 5);
   for (std::int64_t tick = 1; tick <= 2 * ticks; ++tick) Moves(0, tick, 0.1f);
@@ -125,7 +125,7 @@ TEST_F(AHeldWorld, OfALongWaitTheNewestIsKept) {
   EXPECT_EQ(Begun(1).position.x(), 5) << "what was said once of rest is not";
 }
 
-TEST_F(AHeldWorld, NoServerFillsTheMemoryOfAClient) {
+TEST_F(JoinBufferTest, NoServerCanFillTheMemoryOfAClient) {
   const auto most = static_cast<PartId>(JoinBuffer::kHeldMax);
   for (PartId id = 0; id < 2 * most; ++id) Moves(id, 5, 0);
   EXPECT_EQ(held_.size(), JoinBuffer::kHeldMax);
@@ -133,7 +133,7 @@ TEST_F(AHeldWorld, NoServerFillsTheMemoryOfAClient) {
 
 /// The wire's angles have lost their turns: nearest to where the scene had it, the second was six
 /// radians beyond its hinge's limits, and the engine flung it.
-TEST(AHeldMechanism, HasTheTurnsThatItsHingesAllow) {
+TEST(JoinBufferMechanism, HasTheTurnsThatItsHingesAllow) {
   SyncConfig config;
   config.tick_hz = 60;
   Replica replica(ParseScene("gravity = [0, 0]\n[[part]]\nname = \"one\"\nbox = [1, 0.2]\n"

@@ -1,4 +1,4 @@
-/// The file of a player's key is nobody else's, or it is not used.
+/// A player's key file must be readable by its owner alone, or it is refused.
 
 #include "client/key_file.h"
 
@@ -16,7 +16,7 @@ namespace key_file_test {
 
 class KeyFileTest : public ::testing::Test {
  protected:
-  /// What is wrong with the file; "": nothing.
+  /// Returns the reason that the file is refused; "": accepted.
   std::string Refusal(const std::string& name) {
     try {
       KeyFile file(folder_ / name);
@@ -34,7 +34,7 @@ class KeyFileTest : public ::testing::Test {
 
 constexpr std::int64_t kKey = static_cast<std::int64_t>(0xfedcba9876543210u);
 
-TEST_F(KeyFileTest, IsCreatedForItsOwnerAloneWhenThereIsAKeyAndReadAgain) {
+TEST_F(KeyFileTest, IsCreatedForItsOwnerAloneAndReadBack) {
   {
     KeyFile file(folder_ / "ann.key");
     EXPECT_EQ(file.key(), 0);
@@ -51,7 +51,7 @@ TEST_F(KeyFileTest, IsCreatedForItsOwnerAloneWhenThereIsAKeyAndReadAgain) {
   EXPECT_EQ(KeyFile(folder_ / "ann.key").key(), 7);
 }
 
-TEST_F(KeyFileTest, WhatOthersMayReadOrIsNoPlainFileIsRefused) {
+TEST_F(KeyFileTest, RefusesFilesThatOthersMayReadOrThatAreNotRegular) {
   const std::string good = "fedcba9876543210\n";
   Write("good", good);
   EXPECT_EQ(Refusal("good"), "");
@@ -70,13 +70,13 @@ TEST_F(KeyFileTest, WhatOthersMayReadOrIsNoPlainFileIsRefused) {
   EXPECT_NE(Refusal("missing/ann.key"), "");
 }
 
-TEST_F(KeyFileTest, AFileThatAppearsAfterTheStartIsNotTakenOver) {
+TEST_F(KeyFileTest, RefusesToReplaceAFileThatAppearsAfterTheStart) {
   KeyFile file(folder_ / "ann.key");
   ASSERT_EQ(symlink("/dev/null", (folder_ / "ann.key").c_str()), 0);
   EXPECT_THROW(file.Write(kKey), OperatorError);
 }
 
-TEST_F(KeyFileTest, AnythingElseThanAKeyIsRefused) {
+TEST_F(KeyFileTest, RefusesAnythingButAKey) {
   for (const char* text : {"x", "fedcba9876543210", "fedcba987654321\n", "FEDCBA9876543210\n",
                            "fedcba9876543210\nmore", "fedcba987654321g\n"}) {
     Write("bad", text);

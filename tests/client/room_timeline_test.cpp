@@ -1,4 +1,4 @@
-/// The room's clock as a client follows it: never backwards, and in the end where the server's is.
+/// The client's estimate of the room's clock never goes backwards and converges to the server's.
 
 #include "client/room_timeline.h"
 
@@ -17,7 +17,7 @@ Pong At(std::int64_t utime, std::int64_t tick0_us, std::int32_t speed_ppm = kFul
   return pong;
 }
 
-TEST(RoomTimeline, AtFullSpeedItIsTheServersClockSinceTick0) {
+TEST(RoomTimeline, AtFullSpeedItEqualsTheServersClockSinceTick0) {
   RoomTimeline timeline;
   EXPECT_FALSE(timeline.known());
   timeline.Add(At(1000, -1));
@@ -38,7 +38,7 @@ TEST(RoomTimeline, AnOlderPongChangesNothing) {
   EXPECT_EQ(timeline.At(6000000), 5000000);
 }
 
-TEST(RoomTimeline, AClockThatWasSlowedBeforeWeHeardOfItIsReachedWithoutGoingBackwards) {
+TEST(RoomTimeline, ReachesAClockThatSlowedEarlierWithoutGoingBackwards) {
   RoomTimeline timeline;
   timeline.Add(At(1000000, 1000000));
   std::int64_t last_us = timeline.At(2000000);
@@ -55,7 +55,7 @@ TEST(RoomTimeline, AClockThatWasSlowedBeforeWeHeardOfItIsReachedWithoutGoingBack
   EXPECT_EQ(timeline.At(5000000), 700000 + 1500000);
 }
 
-TEST(RoomTimeline, AskedEveryMicrosecondItComesAsFarAsAskedSeldom) {
+TEST(RoomTimeline, AdvancesAsFarWhenPolledOftenAsWhenPolledSeldom) {
   RoomTimeline often, seldom;
   for (RoomTimeline* timeline : {&often, &seldom}) {
     timeline->Add(At(1000000, 0));

@@ -1,4 +1,4 @@
-/// SceneCache: the same text is one scene, and what is no scene is refused as ParseScene does.
+/// SceneCache: equal texts share one scene, and an invalid text is refused as by ParseScene.
 
 #include "client/scene_cache.h"
 
@@ -11,7 +11,7 @@ namespace scene_cache_test {
 
 const char* const kBall = "[[part]]\nname = \"ball\"\ncircle = 0.5\n";
 
-TEST(SceneCache, TheSameTextIsOneSceneForAsLongAsSomebodyHasIt) {
+TEST(SceneCache, TheSameTextIsOneSceneWhileAnyoneUsesIt) {
   SceneCache shelf;
   auto one = shelf.Of(kBall, "ball.toml");
   auto other = shelf.Of(kBall, "ball.toml");
@@ -35,7 +35,7 @@ TEST(SceneCache, AnotherTextOrNameIsAnotherScene) {
   EXPECT_NE(ball, larger);
 }
 
-TEST(SceneCache, WhatIsNoSceneIsRefusedEachTime) {
+TEST(SceneCache, RefusesAnInvalidSceneEveryTime) {
   SceneCache shelf;
   for (int i = 0; i < 2; ++i) EXPECT_THROW(shelf.Of("[[part]]\n", "x.toml"), OperatorError);
 }

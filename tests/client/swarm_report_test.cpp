@@ -1,4 +1,4 @@
-/// What seam-swarm says of the server, from what it was told.
+/// Tests the server's part of seam-swarm's report, from given load messages.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ void Add(int n, std::int64_t tick_us, std::int64_t late_us, RoomLoad* told) {
   for (int i = 0; i < n; ++i) told->tick.Add(tick_us), told->late.Add(late_us);
 }
 
-TEST(SwarmReport, P99IsOfTheWholeMeasuredTimeAndOfAllRooms) {
+TEST(SwarmReport, P99CoversAllRoomsAndTheWholeMeasuredTime) {
   ServerLoads told;
   RoomLoad a = Told("a", 1), b = Told("b", 1);
   Add(1000, 200000, 200000, &a);  // while they joined
@@ -42,7 +42,7 @@ TEST(SwarmReport, P99IsOfTheWholeMeasuredTimeAndOfAllRooms) {
             "server room: 2 room(s), slowest clock 100 %, clients hold 0.0 % of what moves\n");
 }
 
-TEST(SwarmReport, WhatDidNotAnswerAtTheBeginningIsCountedFromWhereItDid) {
+TEST(SwarmReport, ARoomThatAnswersLateCountsFromItsFirstAnswer) {
   ServerLoads told;
   RoomLoad a = Told("a", 1);
   Add(1000, 200000, 200000, &a);

@@ -1,4 +1,4 @@
-/// The world in a terminal: dots where things are, in their holder's colour.
+/// The world in a terminal: bodies are dots in their holder's colour.
 
 #include "client/terminal_view.h"
 
@@ -21,7 +21,7 @@ std::string Stripped(const std::string& text) {
   return plain;
 }
 
-TEST(BrailleCanvas, DotsAreWhereUnicodeHasThem) {
+TEST(BrailleCanvas, DotsFollowUnicode) {
   BrailleCanvas canvas(2, 1);
   EXPECT_EQ(canvas.width(), 4);
   EXPECT_EQ(canvas.height(), 4);

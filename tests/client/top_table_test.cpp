@@ -1,4 +1,4 @@
-/// seam-top's table: rates between two tellings, and rooms that fall silent.
+/// seam-top's table: rates between two load messages, and rooms that fall silent.
 
 #include "client/top/top_table.h"
 
@@ -46,7 +46,7 @@ std::vector<std::string> Row(const std::string& text, const std::string& room) {
   return words;
 }
 
-TEST(TopTable, RatesAreThoseBetweenTheLastTwoThatWereHeard) {
+TEST(TopTable, RatesAreTakenBetweenTheLastTwoMessages) {
   TopTable table;
   EXPECT_EQ(table.Text(0), "no room was heard yet\n");
   table.Take(1000000, LoadOf("hall", 10));

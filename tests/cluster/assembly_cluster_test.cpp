@@ -1,5 +1,5 @@
-/// scenes/titanic.toml and scenes/gluehouse.toml over a bad network: what breaks and joins, breaks
-/// and joins for everybody.
+/// scenes/titanic.toml and scenes/gluehouse.toml over a bad network: breaks and bonds are the same
+/// on every peer.
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ TEST_P(AssemblyCluster, GroupsAreMadeAndUndoneForAllPeersAlike) {
   ExpectAgreement(cluster.get());
   const Scene& scene = cluster->server().replica().world().scene();
   EXPECT_GE(Count(scene, IsBonded), 4) << "both stacks were grouped";
-  // Later bonds may have taken their places: the recording knows what broke.
+  // Later bonds may have reused their slots: the recording knows the broken joints.
   const auto& edits = cluster->recording().edits;
   const auto broken = std::count_if(edits.begin(), edits.end(), [](const auto& numbered) {
     return numbered.second.kind == ToOrder(Edit(BreakEdit{})).kind;

@@ -1,4 +1,4 @@
-/// Who has authority over what, when, in clusters whose network loses a lot: never two at once.
+/// Authority over lossy networks: a mechanism never has two authorities at once.
 
 #include <gtest/gtest.h>
 
@@ -90,8 +90,8 @@ TEST(Authority, TheServersLedgerNamesExactlyOneAuthorityAtEveryTick) {
   config.impair = "delay=50ms,jitter=10ms,loss=20%";
   Cluster cluster(config);
   cluster.Run();
-  // By the grants published: a change of authority always comes with a greater epoch, and the
-  // server's view shows one authority per body at each tick.
+  // Checks the published grants: a change of authority always has a greater epoch, and the server's
+  // view shows one authority per body at each tick.
   std::map<int, std::pair<int, int>> last;  // mechanism -> epoch, authority
   int changes = 0;
   for (const Grants& g : cluster.recording().grants) {

@@ -1,4 +1,5 @@
-/// Explosions in the real server with real clients: ordered once, felt by everybody at one tick.
+/// Explosions with the real server and real clients: each is ordered once and acts on every peer at
+/// one tick.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ ClusterConfig With(const char* mode, const char* reconcile, const char* impair, 
   return config;
 }
 
-TEST(BlastCluster, EverybodyComesToTheSameRestBitForBit) {
+TEST(BlastCluster, AllPeersComeToTheSameRestBitForBit) {
   for (const char* reconcile : {"rollback", "retrospect"}) {
     for (const std::int64_t seed : {1, 2}) {
       Cluster cluster(With("buffer", reconcile, "4g", seed));
@@ -123,7 +124,7 @@ std::string Posts() {
   return text;
 }
 
-TEST(BlastCluster, WhatIsThrownDownBeforeAnybodyHeardOfItStaysOnTheGround) {
+TEST(BlastCluster, PiecesThatFallBeforeTheirFirstStateStayOnTheGround) {
   for (std::int64_t seed = 1; seed <= 6; ++seed) {
     ClusterConfig config = With("buffer", "rollback", "4g", seed);
     config.scene_text = Posts();
@@ -141,7 +142,7 @@ TEST(BlastCluster, WhatIsThrownDownBeforeAnybodyHeardOfItStaysOnTheGround) {
   }
 }
 
-TEST(BlastCluster, InModeOracleEveryScreenIsTheOracle) {
+TEST(BlastCluster, InModeOracleEveryScreenEqualsTheOracle) {
   ClusterConfig config = With("oracle", "", "perfect", 1);
   config.duration_s = 6;
   const Recording recording = RunCluster(config);
@@ -171,13 +172,13 @@ double WorstAt(const Recording& recording, const Oracle& oracle, std::int64_t ti
   return worst;
 }
 
-TEST(BlastCluster, UnderRollbackTheBlastIsTheOraclesAtItsTick) {
+TEST(BlastCluster, UnderRollbackTheBlastEqualsTheOraclesAtItsTick) {
   ClusterConfig config = With("buffer", "rollback", "4g", 3);
   config.duration_s = 2.3;  // before the second
   const Recording recording = RunCluster(config);
   const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));
   ASSERT_EQ(recording.edits.size(), 1u);
-  // A second later the order has long come, and whoever has felt it at another tick is 10 cm off.
+  // A second later the order has long arrived; a peer that applied it at another tick is 10 cm off.
   EXPECT_LT(WorstAt(recording, oracle, 125), 0.02);
   EXPECT_GT(recording.edits.begin()->second.tick, 55);
 }

@@ -1,5 +1,4 @@
-/// What leaves the bounds of its scene is removed by the server's edits, for everybody, and
-/// counted.
+/// The server removes mechanisms that leave the scene's bounds, for all peers, and counts them.
 
 #include <gtest/gtest.h>
 
@@ -68,7 +67,7 @@ std::map<PartId, std::int64_t> Removals(const Recording& recording) {
   return removals;
 }
 
-TEST(Bounds, WhatLeavesThemIsRemovedForAllPeersAtOneTickAndCounted) {
+TEST(Bounds, MechanismsThatLeaveAreCountedAndRemovedForAllPeersAtOneTick) {
   for (const std::string mode : {"buffer", "central", "strict", "oracle"}) {
     SCOPED_TRACE(mode);
     Cluster cluster(Thrown(mode));
@@ -106,7 +105,7 @@ TEST(Bounds, WhatLeavesThemIsRemovedForAllPeersAtOneTickAndCounted) {
   }
 }
 
-TEST(Bounds, TheMeasureCountsWhatLeftAndTheOracleLosesItToo) {
+TEST(Bounds, TheMeasureCountsRemovedBodiesAndTheOracleRemovesThemToo) {
   Cluster cluster(Thrown("buffer"));
   cluster.Run();
   const Oracle oracle = ComputeOracle(cluster.recording(), WithBarriers(cluster.recording().room));
@@ -117,7 +116,7 @@ TEST(Bounds, TheMeasureCountsWhatLeftAndTheOracleLosesItToo) {
   EXPECT_TRUE(oracle.At(470, 4).has_value());
 }
 
-TEST(Bounds, WhoJoinsLaterDoesNotGetWhatHasLeft) {
+TEST(Bounds, ALatecomerDoesNotReceiveRemovedBodies) {
   Cluster cluster(Thrown("buffer"));
   cluster.RunToTick(200);
   cluster.Kill(1);

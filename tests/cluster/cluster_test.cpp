@@ -1,5 +1,5 @@
-/// The real server and clients in one process and in virtual time: what modes do to a collision,
-/// who has authority when, and that a run repeats bit for bit.
+/// The real server and clients in one process and in virtual time: collisions in each mode, changes
+/// of authority, and runs that repeat bit for bit.
 
 #include "tests/lab/cluster.h"
 
@@ -28,7 +28,7 @@ ClusterConfig With(const std::string& scene, const std::string& mode,
   return config;
 }
 
-TEST(Cluster, EveryPeerOfTheOracleShowsTheSameBits) {
+TEST(Cluster, EveryPeerInModeOracleShowsTheSameBits) {
   const Recording recording = RunCluster(With("crossing", "oracle"));
   const Measures m = Measure(recording, ComputeOracle(recording));
   EXPECT_EQ(m.error_max_m, 0);
@@ -103,7 +103,7 @@ TEST(Cluster, CentralPredictsItsOwnVehicleToTheServersState) {
   const Recording recording = RunCluster(With("crossing", "central"));
   const Oracle oracle = ComputeOracle(recording);
   const Scene scene = ParseScene(recording.room.scene_text, "crossing.toml");
-  // Before the collision, what ann predicts of her car is where the oracle has it.
+  // Before the collision, ann's prediction of her car equals the oracle.
   const PartId car = scene.players[0].vehicle;
   int looked = 0;
   for (const auto& [tick, view] : recording.views.at(1)) {
@@ -142,7 +142,7 @@ std::uint64_t DigestOf(const ClusterConfig& config) {
   return hash;
 }
 
-TEST(Cluster, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
+TEST(Cluster, TheSameSeedGivesTheSameBytesAndAnotherSeedDiffers) {
   for (const char* mode : {"central", "strict", "buffer"}) {
     ClusterConfig config = With("crossing", mode);
     config.impair = "4g";
@@ -190,7 +190,7 @@ TEST(Cluster, GarbageAndForeignDatagramsAreCountedAndTheRoomRunsOn) {
   EXPECT_GT(sent, 1000);
   EXPECT_GT(cluster.server().stats().dropped_malformed, sent * 9 / 10);
   EXPECT_EQ(cluster.server().tick(), quiet.server().tick());
-  // What the players see is not touched by it.
+  // It does not change the players' views.
   const Recording& a = quiet.recording();
   const Recording& b = cluster.recording();
   const double calm = Measure(a, ComputeOracle(a)).error_rms_m;

@@ -1,4 +1,4 @@
-/// The boxes of scenes/conveyor.toml go round for ten minutes.
+/// The boxes of scenes/conveyor.toml circulate for ten minutes.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace seam {
 namespace conveyor_test {
 
-/// How often each box has passed x = 0 on the upper belt, to the left.
+/// Counts how often each box has passed x = 0 on the upper belt, to the left.
 class Laps {
  public:
   void Look(const World& world) {
@@ -33,7 +33,7 @@ class Laps {
   std::map<std::string, int> count_;
 };
 
-TEST(ConveyorScene, AllBoxesGoRoundForTenMinutesAndNoneIsLost) {
+TEST(ConveyorScene, AllBoxesCirculateForTenMinutesAndNoneIsLost) {
   for (const std::int64_t seed : {3}) {
     ClusterConfig config;
     config.scene = "conveyor";

@@ -1,4 +1,4 @@
-/// scenes/crane.toml does what its title says: a glued crate is lifted over the seam into a boat.
+/// scenes/crane.toml matches its title: a glued crate is lifted over the seam into a boat.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// scenes/dockside.toml does what its title says: crane, crate, driver, boat, pier and score.
+/// scenes/dockside.toml matches its title: crane, crate, driver, boat, pier and score.
 
 #include <gtest/gtest.h>
 

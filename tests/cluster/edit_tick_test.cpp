@@ -1,5 +1,4 @@
-/// Edits that physics found happen at the tick at which they would without a network, on every peer
-/// that goes back.
+/// Edits found by physics act at the same tick as without a network, on every peer that replays.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +25,7 @@ Recording Break(const std::string& impair, std::int64_t seed) {
   return RunCluster(config);
 }
 
-/// How far any body is from the oracle in anybody's last view, m.
+/// Largest error of any body in any peer's last view, m.
 double Last(const Recording& recording, const Oracle& oracle) {
   double worst = 0;
   for (const auto& [peer, views] : recording.views) {
@@ -41,9 +40,9 @@ double Last(const Recording& recording, const Oracle& oracle) {
   return worst;
 }
 
-/// A break waits until everybody's inputs of its tick are known: also those of who drives nothing
-/// that moves, and would have nothing to send.
-TEST(EditTick, ABreakIsNotHeldUpByWhoIsIdle) {
+/// A break waits for all inputs of its tick, also for those of players that drive nothing moving
+/// and would have nothing to send.
+TEST(EditTick, AnIdlePlayerDoesNotDelayABreak) {
   const Recording recording = Break("perfect", 1);
   const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));
   ASSERT_GE(oracle.spans.size(), 2u);
@@ -57,7 +56,7 @@ TEST(EditTick, ABreakIsNotHeldUpByWhoIsIdle) {
   FAIL() << "nothing broke";
 }
 
-TEST(EditTick, GlueBreaksAtTheTickOfTheOracleHoweverSlowTheNetworkIs) {
+TEST(EditTick, GlueBreaksAtTheOraclesTickOnAnyNetwork) {
   for (const std::string impair : {"4g", "delay=200ms"}) {
     const Recording recording = Break(impair, 1);
     const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));
@@ -113,7 +112,7 @@ struct Room {
   EditLog log;
 };
 
-TEST(EditTick, AnEditIsOrderedForTheTickAtWhichItWasFoundIfThatCanBe) {
+TEST(EditTick, AnEditIsOrderedForTheTickThatFoundItIfPossible) {
   Room room("rollback");
   for (int i = 0; i < 100; ++i) room.replica.Step();
   EXPECT_EQ(room.TickOf(0, 90), 90);
@@ -131,7 +130,7 @@ EditOrder BreakAt(std::int32_t joint, std::int32_t number, std::int64_t tick) {
   return order;
 }
 
-TEST(EditTick, OneThatComesLateIsAsIfItHadComeInTime) {
+TEST(EditTick, ALateEditActsAsIfItHadComeInTime) {
   Room early("rollback"), late("rollback");
   for (int i = 0; i < 61; ++i) {
     // Off the ticks of barriers, too.
@@ -153,7 +152,7 @@ TEST(EditTick, OneThatComesLateIsAsIfItHadComeInTime) {
   EXPECT_EQ(late.replica.world().Hash(), early.replica.world().Hash()) << "bit for bit";
 }
 
-TEST(EditTick, OneOfATickStillToComeWaitsForItInEveryRule) {
+TEST(EditTick, AnEditOfAFutureTickWaitsForItUnderEveryRule) {
   for (const char* rule : {"rollback", "retrospect"}) {
     Room room(rule);
     for (int i = 0; i < 20; ++i) room.replica.Step();
@@ -205,7 +204,7 @@ EditOrder OrderedAt(const AnyEdit& edit, std::int32_t number, std::int64_t tick)
   return order;
 }
 
-TEST(EditTick, AReplayDoesAgainWhatEditsDidThatChangeNoBodies) {
+TEST(EditTick, AReplayRepeatsEditsThatKeepTheSetOfBodies) {
   const Scene scene = ParseScene(kDriven, "driven.toml");
   const SyncConfig config = MakeSyncConfig("buffer", "rollback");
   Replica early(scene, config, 0, -1), late(scene, config, 0, -1);
@@ -245,7 +244,7 @@ TEST(EditTick, AReplayDoesAgainWhatEditsDidThatChangeNoBodies) {
   EXPECT_EQ(late.world().scene().seats[0].player, 0);
 }
 
-TEST(EditTick, WhatIsSaidOfATickByWhoLackedAnEditBeforeItIsNoNews) {
+TEST(EditTick, IgnoresStatesOfASenderThatLackedAnEarlierEdit) {
   const Scene scene = ParseScene(kDriven, "driven.toml");
   const SyncConfig config = MakeSyncConfig("buffer", "rollback");
   Replica server(scene, config, 0, -1), client(scene, config, 1, 0);
@@ -281,7 +280,7 @@ TEST(EditTick, WhatIsSaidOfATickByWhoLackedAnEditBeforeItIsNoNews) {
   EXPECT_GT(stale, 0);
 }
 
-TEST(EditTick, WhatHangsOnInputsIsOrderedWhenTheseAreKnownAndIsTheOracles) {
+TEST(EditTick, EditsThatDependOnInputsWaitForThemAndEqualTheOracles) {
   for (const std::int64_t seed : {8, 12}) {
     ClusterConfig config;
     config.scene = "gluehouse";

@@ -1,4 +1,4 @@
-/// What changes hands begins at its successor where its holder left it.
+/// A mechanism that changes hands begins at its successor with its holder's last state.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::vector<HandOverSeen> HandOvers(const ClusterConfig& config) {
   return ListHandOvers(recording, &revisions);
 }
 
-TEST(ExactHandOver, TheSuccessorBeginsWhereTheHolderLeftIt) {
+TEST(ExactHandOver, TheSuccessorBeginsAtTheHoldersLastState) {
   for (const char* rule : {"retrospect", "rollback"}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       ClusterConfig config;
@@ -39,8 +39,8 @@ TEST(ExactHandOver, TheSuccessorBeginsWhereTheHolderLeftIt) {
   }
 }
 
-/// Nine of ten States are lost: what was heard of a body is a third of a second old.
-TEST(ExactHandOver, TheLastWordAloneIsEnough) {
+/// Nine of ten States are lost: the last received one is a third of a second old.
+TEST(ExactHandOver, TheLastExactStateAloneIsEnough) {
   ClusterConfig config;
   config.scene = "pendulums.toml";
   config.scene_text = Pendulums(4);
@@ -61,7 +61,7 @@ TEST(ExactHandOver, TheLastWordAloneIsEnough) {
   EXPECT_LE(HandOverQuantile(changes, &HandOverSeen::dv_mps, 0.95), 0.1);
 }
 
-TEST(ExactHandOver, WhoSaysWhereOthersBodiesAreIsNotBelieved) {
+TEST(ExactHandOver, ExactStatesFromANonHolderAreIgnored) {
   ClusterConfig config;
   config.scene = "pendulums.toml";
   config.scene_text = Pendulums(2);

@@ -15,8 +15,8 @@ namespace freight_cluster_test {
 struct Session {
   const char *mode, *reconcile;
 };
-/// With `retrospect` copies of a pile are up to a decimetre off, and so far they jump when they
-/// become one body.
+/// Under `retrospect` copies of a pile err by up to a decimetre, and jump by that when they become
+/// one body.
 constexpr Session kSessions[] = {{"central", ""}, {"buffer", "rollback"}};
 
 /// The tick at which bob throws the keg: from there on blows are steps, too.

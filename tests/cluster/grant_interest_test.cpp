@@ -1,6 +1,5 @@
-/// In a large room a change of authority is told to those whom it concerns, at once, to the others
-/// soon, and to those to whom it is nothing at last: nobody is left with another owner, whatever
-/// happens in between.
+/// In a large room, clients that need a change of authority hear of it at once, the others soon,
+/// and distant ones last: no client keeps a wrong owner.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +19,8 @@ namespace grant_interest_test {
 
 constexpr int kAnn = 0, kCarl = 2;  // clients
 
-/// Pendulums that swing between ann's region and bob's, and carl a kilometre away; all hear `hear`
-/// m.
+/// Pendulums that swing between ann's region and bob's, and carl a kilometre away; the interest
+/// radius is `hear` m.
 std::string FarAndNear(int count, int hear) {
   std::string text = "follow = 1\nserver_follow = 1\nbounds = [[-200, -200], [2000, 200]]\n";
   text += Pendulums(count);
@@ -65,7 +64,7 @@ int Strays(Cluster& cluster, int client) {
   return strays;
 }
 
-TEST(GrantInterest, WhoIsFarHearsLessAndNeverLongerThanThreeSecondsNothing) {
+TEST(GrantInterest, ADistantClientHearsLessButWithinThreeSeconds) {
   for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
     Cluster cluster(Room("demo", seed));
     AuthorityWatch watch;
@@ -102,7 +101,7 @@ TEST(GrantInterest, WhoIsFarHearsLessAndNeverLongerThanThreeSecondsNothing) {
   }
 }
 
-TEST(GrantInterest, WhomItIsNothingHearsOfItInTheEnd) {
+TEST(GrantInterest, AClientOutsideTheInterestAreaHearsEventually) {
   ClusterConfig few = Room("demo", 1, 60), all = Room("demo");
   int changes[2] = {0, 0}, longest[2] = {0, 0};
   for (const bool nothing : {false, true}) {
@@ -139,8 +138,8 @@ bool AnyClientFollows(const AuthorityRecord& record) {
   return !others.empty();
 }
 
-/// By that it knows whether its world has to come to the same bits as another's.
-TEST(GrantInterest, AHolderKnowsWhetherAnyClientFollowsWhatItHas) {
+/// The holder must agree bit for bit only with followers.
+TEST(GrantInterest, AHolderKnowsIfAnyClientFollowsItsMechanism) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(30);
   int seen[2] = {0, 0}, longest = 0, apart = 0;  // apart: from what the server knows
@@ -166,7 +165,7 @@ TEST(GrantInterest, AHolderKnowsWhetherAnyClientFollowsWhatItHas) {
   EXPECT_LT(longest, 30) << "ticks";
 }
 
-TEST(GrantInterest, OnlyTheHolderHearsTheQuestionToLetGo) {
+TEST(GrantInterest, OnlyTheHolderReceivesTheRevocation) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(30);
   int questions = 0;
@@ -185,7 +184,7 @@ TEST(GrantInterest, OnlyTheHolderHearsTheQuestionToLetGo) {
   EXPECT_GT(questions, 0);
 }
 
-TEST(GrantInterest, AnEditThatMakesOneOfManyLeavesNobodyInAnotherEpoch) {
+TEST(GrantInterest, AnEditThatMergesMechanismsLeavesNobodyInAnotherEpoch) {
   for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
     Cluster cluster(Room("4g", seed));
     cluster.RunToTick(5 * 60 + 7 * seed);
@@ -205,7 +204,7 @@ TEST(GrantInterest, AnEditThatMakesOneOfManyLeavesNobodyInAnotherEpoch) {
   }
 }
 
-TEST(GrantInterest, WhoComesBackKnowsAllOwners) {
+TEST(GrantInterest, ARejoiningClientLearnsAllOwners) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(4 * 60);
   cluster.Kill(kCarl);

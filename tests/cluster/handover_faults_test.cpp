@@ -1,5 +1,5 @@
-/// A holder that is asked to let go and does not answer: what it has goes on, is asked for again,
-/// and there is never more than one authority.
+/// A holder does not answer a revocation: its bodies keep moving, the server asks again, and there
+/// is never more than one authority.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace handover_faults_test {
 
 constexpr int kAnn = 0;  // client
 
-/// What is lost on a client's path.
+/// Losses on a client's path.
 struct Deaf {
   bool in = false, out = false;
 };
@@ -46,7 +46,8 @@ class OneWayNet : public Net {
   const Deaf* deaf_;
 };
 
-/// Pendulums between ann and bob, in a small room or (nobody follows what is far) in a large one.
+/// Pendulums between ann and bob, in a small room or in a large one (without followers of distant
+/// bodies).
 ClusterConfig Shuttle(bool large, std::int64_t seed, const Deaf* deaf) {
   ClusterConfig config;
   config.scene = "pendulums.toml";
@@ -135,13 +136,13 @@ void Fail(bool large, std::int64_t seed, double from_s, double for_s, const std:
   cluster.RunToTick(static_cast<std::int64_t>((from_s + for_s + 8) * 60));
   onlooker.ExpectOneAuthority();
   EXPECT_GT(onlooker.withdrawn, 0) << "nobody was asked in vain: this shows nothing";
-  // In a large room the server follows of a silent holder's only what moves (kStandInSpeed): what
-  // was at the end of its swing then waits there.
+  // In a large room the server follows only a silent holder's moving bodies (kStandInSpeed): one at
+  // the end of its swing then waits there.
   EXPECT_LT(onlooker.longest_still, large ? 180 : 60) << "it stands";
   ExpectAgreed(cluster);
 }
 
-TEST(HandOverFaults, APausedHolderKeepsNothingFromMoving) {
+TEST(HandOverFaults, APausedHolderStopsNoBody) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2.3, "paused");
@@ -150,7 +151,7 @@ TEST(HandOverFaults, APausedHolderKeepsNothingFromMoving) {
   }
 }
 
-TEST(HandOverFaults, AHolderThatHearsNothingGivesUpByItself) {
+TEST(HandOverFaults, AHolderThatHearsNothingReleasesByItself) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "hears nothing");
@@ -159,7 +160,7 @@ TEST(HandOverFaults, AHolderThatHearsNothingGivesUpByItself) {
   }
 }
 
-TEST(HandOverFaults, AHolderThatIsNotHeardIsSpokenFor) {
+TEST(HandOverFaults, TheServerSendsStatesForASilentHolder) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "is not heard");

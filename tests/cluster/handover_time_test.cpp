@@ -1,4 +1,4 @@
-/// How long a hand-over takes, from the order to let go to the next grant.
+/// Measures a hand-over, from the revocation to the next grant.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace seam {
 namespace handover_time_test {
 
-TEST(HandOver, TakesOneRoundTripHoweverManyThereAre) {
+TEST(HandOver, TakesOneRoundTripForAnyNumberOfMechanisms) {
   for (const int count : {1, 8, 60}) {
     ClusterConfig config;
     config.scene = "pendulums.toml";

@@ -1,4 +1,4 @@
-/// Who has no session, or somebody else's name: what a room of real players suffers from them.
+/// Attacks on a room of real players by senders without a session or under another player's name.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::int64_t BytesWaiting(Net* net) {
   return bytes;
 }
 
-TEST(Hostile, AThousandForgedHellosDrawNoMoreBytesThanTheyBringAndBuildNothing) {
+TEST(Hostile, AThousandForgedHellosAllocateNothingAndAreNotAmplified) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   std::vector<std::unique_ptr<Net>> forged;
@@ -61,7 +61,7 @@ TEST(Hostile, AThousandForgedHellosDrawNoMoreBytesThanTheyBringAndBuildNothing) 
               static_cast<long long>(in), static_cast<long long>(out), most);
 }
 
-TEST(Hostile, AHeaderWithAnotherSessionNumberDropsNobody) {
+TEST(Hostile, AHeaderWithAnotherSessionNumberDisconnectsNobody) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   cluster.Kill(1);
@@ -80,7 +80,7 @@ Guest GuestOf(Cluster* cluster, const std::string& name) {
   return guest;
 }
 
-/// Runs for so many ticks; the guest says Hello or Join until it is in, then what it has to say.
+/// Runs for `ticks`; the guest sends Hello or Join until it is admitted, then its other messages.
 void RunWith(Cluster* cluster, Guest* guest, std::int64_t ticks) {
   cluster->each_instant = [=] {
     guest->Read(cluster->now_us());
@@ -103,7 +103,7 @@ int HeldBy(Cluster& cluster, int peer) {
   return held;
 }
 
-TEST(Hostile, WhoStalls1600MillisecondsKeepsTheCarAgainstWhoSaysTheName) {
+TEST(Hostile, AStallOf1600MillisecondsDoesNotLoseTheCarToAnImpostor) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   const int held = HeldBy(cluster, 2);
@@ -122,7 +122,7 @@ TEST(Hostile, WhoStalls1600MillisecondsKeepsTheCarAgainstWhoSaysTheName) {
   EXPECT_EQ(HeldBy(cluster, 2), held);
 }
 
-TEST(Hostile, WhoWasAwayForTenSecondsHasTheCarBackAtOnceAndNobodyElseHadIt) {
+TEST(Hostile, APlayerAwayForTenSecondsRegainsItsReservedCarAtOnce) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   const int held = HeldBy(cluster, 2);
@@ -140,7 +140,7 @@ TEST(Hostile, WhoWasAwayForTenSecondsHasTheCarBackAtOnceAndNobodyElseHadIt) {
   EXPECT_EQ(HeldBy(cluster, 2), held);
 }
 
-TEST(Hostile, WhatHangsOnAJointDoesNotFallFreelyWhateverItsHolderSays) {
+TEST(Hostile, AJointedBodyDoesNotFallFreelyEvenIfItsHolderSaysSo) {
   for (const bool lies : {false, true}) {
     ClusterConfig config;
     config.scene = "pendulums.toml";
@@ -237,7 +237,7 @@ TEST(Hostile, AFlooderIsDecodedWithinItsBudgetAndHasToLeave) {
   }
   const double seconds = static_cast<double>(cluster.server().tick() - began) / 60;
   const double decoded = static_cast<double>(cluster.server().decoded() - before);
-  // Its own, and what the two players say besides.
+  // Its own messages, and those of the two players.
   const double allowed = AllowedTraffic(60, 30).messages, honest = HonestTraffic(60, 30).messages;
   EXPECT_LE(decoded, allowed * (seconds + kBudgetBurst) + 2 * honest * seconds);
   EXPECT_GT(static_cast<double>(sent), 10 * decoded);
@@ -259,7 +259,7 @@ TEST(Hostile, NoHonestClientLosesAnythingToItsBudgetOverAnyNetwork) {
     SCOPED_TRACE(config.scene + " " + config.mode + " over " + config.impair);
     const Stats& stats = cluster.server().stats();
     EXPECT_EQ(stats.dropped_budget, 0);
-    // And what we think that a client needs is not less than what these send.
+    // And the rate assumed for an honest client is not less than the rate sent here.
     const double sent = 12.0 * cluster.client_count();
     const TrafficRate need = HonestTraffic(cluster.scene().solver.tick_hz, config.send_hz);
     EXPECT_LT(static_cast<double>(stats.bytes_in) / sent, need.bytes);

@@ -1,18 +1,18 @@
-/// Proposals that nobody may make, and nonsense in those that may be made: each is dropped and
-/// counted by its reason, costs next to nothing, and the room runs on.
+/// Forbidden proposals, and nonsense in permitted ones: each is dropped, counted by its reason and
+/// cheap, and the room runs on.
 
 #include <gtest/gtest.h>
 
 #include "common/sync/edits/edit_order.h"
 #include "server/edits/edit_log.h"
-#include "tests/support/client_test_access.h"
 #include "tests/support/allocations/count_allocations.h"
+#include "tests/support/client_test_access.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {
 namespace hostile_proposals_test {
 
-/// What rests in a group is ann's: she may propose bonds of it.
+/// A group at rest is ann's: she may propose bonds of it.
 const std::string kGroups = std::string("duration = 30\nbuffer = 8\n") + kTwoSides + R"(
 [grouping]
 after = 0.5
@@ -52,7 +52,7 @@ class HostileProposals : public ::testing::Test {
 };
 
 /// The log alone, as the server asks it.
-TEST_F(HostileProposals, WhatMayNotBeProposedIsNeitherParsedNorCopied) {
+TEST_F(HostileProposals, ForbiddenProposalsAreNeitherParsedNorCopied) {
   const SyncConfig config = MakeSyncConfig("buffer", "retrospect");
   Replica replica(cluster_->scene(), config, 0, -1);
   AuthorityManager authority(cluster_->scene(), config, replica);
@@ -77,7 +77,7 @@ TEST_F(HostileProposals, NonsenseInABondOrABreakIsDropped) {
   Replica replica(cluster_->scene(), config, 0, -1);
   AuthorityManager authority(cluster_->scene(), config, replica);
   EditLog log(replica.world(), authority, 60);
-  // Peer 0 has everything: only what it says can be wrong.
+  // Peer 0 has every right: only the content can be wrong.
   const auto bond = [](float x, float angle, float strength) {
     return Proposal(BondEdit{1, 2, {x, 0}, angle, strength, BondCause::kGroup});
   };
@@ -142,7 +142,7 @@ TEST_F(HostileProposals, AProposalOfABrokenJointDoesNotBreakTheOneInItsPlace) {
   EXPECT_EQ(log.Propose(0, stale), EditLog::Verdict::kTaken) << "and now it is meant";
 }
 
-TEST_F(HostileProposals, WhatIsForgedOnTheWireIsCountedAndTheRoomRunsOn) {
+TEST_F(HostileProposals, ForgedProposalsAreCountedAndTheRoomRunsOn) {
   Server& server = cluster_->server();
   cluster_->RunToTick(60);
   const Stats before = server.stats();

@@ -1,4 +1,4 @@
-/// An input acts so many ticks after it was read, at every peer and in the oracle.
+/// An input acts a fixed number of ticks after it was read, on every peer and in the oracle.
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ std::int64_t FirstTrueMotion(const Recording& recording) {
   return -1;
 }
 
-TEST(InputDelay, MovesTheFirstMotionByExactlySoManyTicksInTheSessionAndInTheOracle) {
+TEST(InputDelay, DelaysTheFirstMotionByItsTicksInSessionAndOracle) {
   constexpr int kDelay = 6;
   for (const char* mode : {"oracle", "strict", "buffer", "central"}) {
     SCOPED_TRACE(mode);
@@ -85,13 +85,13 @@ TEST(InputDelay, MovesTheFirstMotionByExactlySoManyTicksInTheSessionAndInTheOrac
   }
 }
 
-TEST(InputDelay, LetsTheServerKnowAnInputBeforeItsTick) {
+TEST(InputDelay, TheServerKnowsAnInputBeforeItsTick) {
   // 40 ms are 3 ticks: with a delay of 12, all are known in time, and all see the motion at once.
   const Recording recording = RunCluster(With("buffer", 12));
   EXPECT_EQ(FirstMotion(recording, 0), FirstTrueMotion(recording));
 }
 
-TEST(InputDelay, StandsInTheRecordingWithWhatIsPredicted) {
+TEST(InputDelay, IsRecordedWithThePrediction) {
   ClusterConfig config = With("central", 6);
   config.duration_s = 0.5;
   config.predict = "own";

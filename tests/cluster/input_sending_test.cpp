@@ -1,4 +1,4 @@
-/// Inputs over a bad network: every change arrives, and what is held costs little.
+/// Inputs over a bad network: every change arrives, and held inputs cost little.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(InputSending, EveryChangeReachesTheServerAndTheOthersWithAThirdOfTheDatagra
     const std::int64_t end = cluster.server().tick() - 30;  // what is under way does not count
     ASSERT_GT(end, 200);
     int changes = 0;
-    // What each peer has: the server, and bob's client.
+    // The inputs known to the server and to bob's client.
     InputTrack servers = cluster.server().replica().inputs(kAnn);
     InputTrack bobs = cluster.client(1)->replica()->inputs(kAnn);
     for (std::int64_t tick = 60; tick < end; ++tick) {
@@ -47,7 +47,7 @@ TEST(InputSending, EveryChangeReachesTheServerAndTheOthersWithAThirdOfTheDatagra
   }
 }
 
-TEST(InputSending, AChangeIsOnItsWayInItsOwnTick) {
+TEST(InputSending, AChangeIsSentInItsOwnTick) {
   // 40 ms one way are 2.4 ticks: the server knows ann's change of tick t when it has made tick
   // t + 3, whether her states went out in t or not.
   ClusterConfig config = With("buffer", "delay=40ms");
@@ -106,7 +106,7 @@ double BytesInFullRoom(int players) {
   cluster.RunToTick(90);
   const std::int64_t before = cluster.client(0)->stats().bytes_in;
   cluster.RunToTick(270);
-  // Every other player's inputs have come: what is counted is not that they were left out.
+  // Every other player's inputs have arrived: the count does not profit from omitted ones.
   const std::int64_t end = cluster.server().tick() - 12;
   for (int player = 1; player < players; ++player) {
     EXPECT_TRUE(cluster.client(0)->replica()->inputs(player).At(end) ==
@@ -116,7 +116,7 @@ double BytesInFullRoom(int players) {
   return static_cast<double>(cluster.client(0)->stats().bytes_in - before) / 3.0;
 }
 
-TEST(InputSending, OfManyPlayersTheyTakeASmallPartOfABudget) {
+TEST(InputSending, InputsOfManyPlayersTakeASmallShareOfTheBudget) {
   const double few = BytesInFullRoom(4), many = BytesInFullRoom(40);
   std::printf("[          ] %.0f bytes/s to a client of 4, %.0f of 40\n", few, many);
   EXPECT_LT(many, 0.2 * kClientBytesPerS) << "36 more, 60 times a second: 177 kB/s as inputs_t";

@@ -1,6 +1,6 @@
-/// What a client hears of: everything of what it follows, of the rest what it would not guess, of
-/// what is far not every detail, of what is nothing to it hardly anything; and of inputs those that
-/// move something that it simulates.
+/// States that a client receives: all of followed bodies, of others only those it would reckon
+/// wrongly, few of distant ones, hardly any outside its interest area; and inputs that move a body
+/// that it simulates.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace seam {
 namespace interest_test {
 
-/// Counts what comes to a client: states by body, inputs by player.
+/// Counts a client's received states by body, and inputs by player.
 class CountingNet : public Net {
  public:
   struct Counts {
@@ -61,9 +61,9 @@ class CountingNet : public Net {
   StatesUnpacker unpacker_{PackedMotion(0, 0, 60)};
 };
 
-/// Ann at the left; bob has discs that spin beside her, 25 m away and 300 m away, and drives one
-/// that is 25 m away and the last. `follow`: of how many bodies a room is one in which all is
-/// followed; `hear`: how far one hears, m.
+/// Ann is at the left; bob has discs that spin beside her, 25 m away and 300 m away, and drives one
+/// at 25 m and the last. `follow`: largest number of bodies of a room that is followed whole;
+/// `hear`: interest radius, m.
 std::string Plain(int follow, int hear = 400) {
   return "gravity = [0, 0]\nduration = 8\nbuffer = 3\nserver_follow = 0\nfollow = " +
          std::to_string(follow) + "\n[planner]\nhear = " + std::to_string(hear) + R"(
@@ -145,7 +145,7 @@ CountingNet::Counts CountAtAnn(int follow, double bytes_per_s = kClientBytesPerS
 
 constexpr int kBeside = 1, kNear = 2, kFar = 3, kDriven = 5, kBob = 1;
 
-TEST(Interest, WhatIsFollowedIsHeardOfAtOnceTheRestWhenItIsNotAsItWouldBeGuessed) {
+TEST(Interest, SendsFollowedBodiesAlwaysAndOthersWhenTheReckoningErrs) {
   const CountingNet::Counts counts = CountAtAnn(1);
   // In five seconds at 30 sends a second, and a few that were under way.
   EXPECT_NEAR(counts.states.at(kBeside), 150, 8);
@@ -154,7 +154,7 @@ TEST(Interest, WhatIsFollowedIsHeardOfAtOnceTheRestWhenItIsNotAsItWouldBeGuessed
   EXPECT_NEAR(counts.states.at(kFar), 5 / kFarReckoning.least, 4) << "and this one";
 }
 
-TEST(Interest, ABudgetIsKeptAndWhatIsFollowedComesFirst) {
+TEST(Interest, FollowedBodiesComeFirstWithinTheBudget) {
   constexpr int kBudget = 1500;
   const CountingNet::Counts all = CountAtAnn(1), few = CountAtAnn(1, kBudget);
   EXPECT_LT(few.bytes, kBudget * 5 + 2 * kDatagramBytesMax) << "in five seconds, with a burst";
@@ -164,12 +164,12 @@ TEST(Interest, ABudgetIsKeptAndWhatIsFollowedComesFirst) {
   EXPECT_GT(few.states.at(kFar), 0);
 }
 
-TEST(Interest, InputsGoToWhoSimulatesWhatTheyMove) {
+TEST(Interest, InputsGoToPeersThatSimulateTheBodiesTheyMove) {
   EXPECT_EQ(CountAtAnn(1).inputs.count(kBob), 0u) << "his disc is 300 m away";
   EXPECT_GT(CountAtAnn(9).inputs[kBob], 50) << "a small room is followed whole";
 }
 
-TEST(Interest, WhatIsNothingToAClientIsToldSeldom) {
+TEST(Interest, ADistantBodyIsSentSeldom) {
   const CountingNet::Counts all = CountAtAnn(1), few = CountAtAnn(1, kClientBytesPerS, 60);
   const int told = few.states.count(kFar) > 0 ? few.states.at(kFar) : 0;
   EXPECT_LE(told, 5) << "once a second";
@@ -178,7 +178,7 @@ TEST(Interest, WhatIsNothingToAClientIsToldSeldom) {
   EXPECT_NEAR(few.states.at(kDriven), all.states.at(kDriven), 2) << "25 m away";
 }
 
-/// Where a client's view has a body at a tick, x in m.
+/// A body's x in a client's view at a tick, m.
 float Shown(const Recording& recording, int peer, std::int64_t tick, int id) {
   const auto& views = recording.views.at(peer);
   const auto view = views.find(tick);
@@ -189,7 +189,7 @@ float Shown(const Recording& recording, int peer, std::int64_t tick, int id) {
   return -1e6f;
 }
 
-TEST(Interest, WhatWasNothingAndComesIsShownWhereItIs) {
+TEST(Interest, ADistantBodyThatApproachesIsShownAtItsPlace) {
   constexpr int kComet = 7;
   ClusterConfig config;
   config.scene = "comet";
@@ -231,7 +231,7 @@ std::string Apart() {
   return text;
 }
 
-TEST(Interest, WhatRestsIsKnownExactlyToThoseWhomItIsNothing) {
+TEST(Interest, DistantClientsKnowRestingBodiesExactly) {
   for (std::int64_t seed = 1; seed <= Soak(4); ++seed) {
     ClusterConfig config;
     config.scene = "apart";
@@ -257,7 +257,7 @@ TEST(Interest, WhatRestsIsKnownExactlyToThoseWhomItIsNothing) {
       return all;
     };
     const std::vector<std::int32_t> before = epochs();
-    // All lies still since four seconds: nobody has to say anything any more, nor anything to wake.
+    // Everything has been still for four seconds: nobody has anything to send or to wake.
     int apart = 0;
     for (; cluster.server().tick() < 30 * 60; cluster.RunToTick(cluster.server().tick() + 6)) {
       apart += agree() ? 0 : 1;

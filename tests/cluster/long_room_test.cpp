@@ -1,5 +1,4 @@
-/// A room that runs for long: what was edited long ago costs nobody anything, and who comes late
-/// has the world of those who were there.
+/// A long-running room: old edits cost nothing, and a latecomer has the same world as the others.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +23,7 @@ anchored = true
 )" + kPairedBoxes;
 constexpr PartId kFirst = 1;
 
-/// What one who joins now is sent of the past, bytes: of all edits, and of what they have left.
+/// Bytes of history sent to a client that joins now: as all edits, and compacted.
 struct JoinBytes {
   std::size_t edits = 0, snapshot = 0;
 };
@@ -111,8 +110,8 @@ TEST(LongRoom, GlueThatFormsAndBreaksForEverDoesNotGrowIt) {
   RecordProperty("snapshot_bytes", static_cast<int>(bytes.snapshot));
 }
 
-/// Whatever the worlds do to themselves while they are played can be told in short.
-TEST(LongRoom, ASnapshotOfAPlayedWorldIsTheWorldAndShorterThanItsEdits) {
+/// The history of any played world compacts well.
+TEST(LongRoom, ASnapshotEqualsThePlayedWorldAndIsShorterThanItsEdits) {
   for (const char* scene : {"gluehouse", "playground", "conveyor", "harbour", "obstacle"}) {
     SCOPED_TRACE(scene);
     ClusterConfig config;
@@ -129,7 +128,7 @@ TEST(LongRoom, ASnapshotOfAPlayedWorldIsTheWorldAndShorterThanItsEdits) {
   }
 }
 
-TEST(LongRoom, WhoJoinsDuringManyEditsUnderLossEndsTheSame) {
+TEST(LongRoom, AClientThatJoinsDuringManyEditsUnderLossEndsTheSame) {
   ClusterConfig config = Pairs();
   config.impair = "loss=20%,delay=40ms";
   Cluster cluster(config);

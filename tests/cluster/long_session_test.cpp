@@ -1,4 +1,4 @@
-/// A room in which people come and go for long: what it keeps does not grow.
+/// A room that clients join and leave for a long time: its memory does not grow.
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -16,7 +16,7 @@
 #include "tests/support/soak/paired_boxes.h"
 
 #ifdef __SANITIZE_ADDRESS__
-// Of <sanitizer/allocator_interface.h>, which g++ 12 comes without.
+// Declared in <sanitizer/allocator_interface.h>, which g++ 12 lacks.
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
 #endif
 
@@ -33,12 +33,12 @@ std::size_t HeapBytes() {
 #endif
 }
 
-/// Who is away comes back, and somebody else goes, `every_ticks` apart.
+/// The absent client returns and another leaves, `every_ticks` apart.
 class ComingAndGoing {
  public:
   ComingAndGoing(Cluster& cluster, std::uint64_t seed) : cluster_(cluster), random_(seed) {}
 
-  /// Of half a minute: for 22 s people come and go, then all are there and calm down.
+  /// Runs half a minute: for 22 s clients join and leave, then all are present and calm down.
   void RunHalfMinute() {
     const std::int64_t begin = cluster_.server().tick();
     for (std::int64_t tick = begin + kEveryTicks; tick < begin + 22 * 60; tick += kEveryTicks) {
@@ -79,7 +79,7 @@ std::vector<std::size_t> RunFor(const std::string& scene, int minutes, int* depa
   config.drive = Drive::kBot;
   config.spectators = 2;
   config.keep = false;
-  // Who comes back has one of four addresses: the simulated network remembers each for good.
+  // A returning client has one of four addresses: the simulated network remembers each for good.
   Cluster* running = nullptr;
   std::uint16_t turn = 0;
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
@@ -105,7 +105,7 @@ std::vector<std::size_t> RunFor(const std::string& scene, int minutes, int* depa
   return bytes;
 }
 
-/// Three minutes, or an hour: from a sixth of it on, what is allocated stays within 2 %.
+/// Runs three minutes, or an hour: after the first sixth the allocated bytes stay within 2 %.
 TEST(LongSessionCluster, MemoryIsFlatWhilePeopleComeAndGo) {
   const int minutes = Soak(3) > 3 ? 60 : 3;
   for (const char* scene : {"crossing"}) {
@@ -114,7 +114,7 @@ TEST(LongSessionCluster, MemoryIsFlatWhilePeopleComeAndGo) {
     const std::vector<std::size_t> bytes = RunFor(scene, minutes, &departures);
     const auto sixth = static_cast<std::ptrdiff_t>(bytes.size() / 6);
     const auto middle = bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 2);
-    // What is under way just then comes and goes.
+    // Data in flight varies from moment to moment.
     const auto mean = [](auto from, auto to) {
       return std::accumulate(from, to, std::size_t{0}) / static_cast<std::size_t>(to - from);
     };
@@ -143,7 +143,7 @@ constexpr PartId kFirst = 0;
 
 /// 480 edits a second; bob is away for a while in every half minute. From 8192 edits on, of which
 /// the server knows the compositions, nothing grows.
-TEST(LongSessionCluster, MemoryIsFlatWhileThingsAreBondedAndBreak) {
+TEST(LongSessionCluster, MemoryIsFlatWhilePartsAreBondedAndBreak) {
   const int minutes = Soak(1) > 1 ? 60 : 1;
   ClusterConfig config;
   config.scene_text = kPairs;
@@ -169,7 +169,7 @@ TEST(LongSessionCluster, MemoryIsFlatWhileThingsAreBondedAndBreak) {
   }
   const int edits = cluster.server().replica().revision();
   EXPECT_EQ(edits, 4 * minutes * 300 * 2 * kPairCount);
-  // The first quarter fills what is remembered.
+  // The first quarter fills the histories.
   const std::size_t early = *std::min_element(bytes.begin() + minutes, bytes.begin() + 2 * minutes);
   const std::size_t late = *std::min_element(bytes.begin() + 2 * minutes, bytes.end());
   std::printf("  %d edits: %zu kB, then %zu kB\n", edits, early / 1000, late / 1000);

@@ -1,5 +1,5 @@
-/// A mechanism is one thing in every view: its joints are as closed as in the oracle, over bad and
-/// over slow networks, whoever simulates it.
+/// A mechanism moves as one in every view: its joints are as closed as in the oracle, over bad and
+/// slow networks, under every authority.
 
 #include <gtest/gtest.h>
 
@@ -115,8 +115,8 @@ TEST(MechanismViews, JointsAreNoFurtherOpenThanInTheOracle) {
   };
   for (const Method& method : {Method{"buffer", "retrospect"}, Method{"buffer", "rollback"},
                                Method{"central", ""}, Method{"strict", ""}}) {
-    // Where it crashes otherwise than in truth, a copy's own engine opens the doll's joints: strict
-    // knows nothing of the others, and central steps again what a late input has changed.
+    // If its crash differs from the oracle's, a copy's own engine opens the doll's joints: strict
+    // knows nothing of the others, and central replays late inputs.
     const std::string name = std::string(method.mode) + method.reconcile;
     const double on_4g = name == "strict"             ? 0.045
                          : name == "bufferretrospect" ? 0.012

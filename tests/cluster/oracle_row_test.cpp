@@ -1,5 +1,5 @@
-/// The measure's own error: a session in mode oracle over a perfect network is the oracle, exactly,
-/// in every scene.
+/// The error of the measure itself: in every scene, a session in mode oracle over a perfect network
+/// equals the oracle exactly.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(OracleRow, IsExactlyZeroInEveryScene) {
   }
 }
 
-/// What the server's view is off by, RMS of points of bodies, m.
+/// Error of the server's view, RMS over points of bodies, m.
 double ServerIsOff(const std::string& scene, double duration_s) {
   ClusterConfig config;
   config.scene = scene;
@@ -67,7 +67,7 @@ double ServerIsOff(const std::string& scene, double duration_s) {
 /// clients run ahead of it, so that none is. A crawler that slept until its player drove it slept
 /// on, and crates that became one body did so two at a time. A view is of before the edits that are
 /// ordered for its tick, an oracle's pose of after them: that is the millimetre.
-TEST(OracleRow, TheServerOfModeCentralIsTheOracleWhereNoInputIsLate) {
+TEST(OracleRow, TheServerOfModeCentralEqualsTheOracleIfNoInputIsLate) {
   EXPECT_LT(ServerIsOff("playground", 7), 0.001) << "a crawler is driven that slept";
   EXPECT_LT(ServerIsOff("freight", 10.5), 0.001) << "sixty crates become one body and sixty again";
   EXPECT_EQ(ServerIsOff("heap", 4), 0);

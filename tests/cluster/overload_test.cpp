@@ -1,4 +1,4 @@
-/// A server that cannot keep up slows its room down for everyone alike: in virtual time, with ticks
+/// A server that cannot keep up slows its room down for all clients: in virtual time, with ticks
 /// that take twice their period.
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ constexpr std::int64_t kPeriodUs = 1000000 / 60;
 /// The server is overloaded from the first of these ticks to the second.
 constexpr std::int64_t kFrom = 120, kUntil = 480, kEnd = 900;
 
-/// What was seen of a run.
+/// Observations of a run.
 struct Seen {
   std::int64_t worst_late_us = 0;  ///< of the server's next tick, once it had time to notice
   std::int64_t worst_wait_us = 0;  ///< between two ticks of a client
@@ -28,7 +28,8 @@ struct Seen {
   int slowed = 0, restored = 0;  ///< events
 };
 
-/// How far a body is from where its shown velocity takes it in a tick, m, at most.
+/// Largest distance of a displayed body from the position predicted by its velocity a tick before,
+/// m.
 float WorstJump(const Recording& recording) {
   float worst = 0;
   for (const auto& [peer, views] : recording.views) {
@@ -106,7 +107,7 @@ TEST_P(Overload, TicksOfTwiceTheirPeriodSlowTheRoomForAllAndNobodyTeleports) {
   EXPECT_EQ(calm.least_ppm, kFullSpeedPpm);
   EXPECT_EQ(calm.slowed, 0);
   const Seen seen = Play(GetParam(), true);
-  // It says so, to the clients and to people, and takes it back when it is over.
+  // The server announces it, to the clients and to the operator, and withdraws it afterwards.
   EXPECT_LT(seen.least_ppm, 550000);
   EXPECT_LT(seen.least_told_ppm, 550000);
   EXPECT_GE(seen.slowed, 1);

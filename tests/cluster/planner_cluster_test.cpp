@@ -1,5 +1,5 @@
-/// Authority by contact islands in whole sessions: who touches something has it, clients do the
-/// work, and there is never a second authority.
+/// Authority by contact islands in whole sessions: a player that touches a body gets it, clients do
+/// the work, and there is never a second authority.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ ClusterConfig Plain(const PlainScene& plain) {
   return config;
 }
 
-TEST(PlannerCluster, OfPlayersApartClientsHaveNearlyAllThatMovesAndTouchingPairsHaveOneOwner) {
+TEST(PlannerCluster, SeparatedClientsHoldMovingBodiesAndPairsHaveOneOwner) {
   PlainScene plain;
   plain.players = 16;
   const SessionLoad load = MeasureLoad(Plain(plain));
@@ -33,7 +33,7 @@ TEST(PlannerCluster, OfPlayersApartClientsHaveNearlyAllThatMovesAndTouchingPairs
   EXPECT_GT(load.awake, 5);
 }
 
-TEST(PlannerCluster, ThereIsNeverASecondAuthorityWhereIslandsMeetAndPart) {
+TEST(PlannerCluster, IslandsThatMeetAndPartNeverHaveASecondAuthority) {
   PlainScene plain;
   plain.players = 6;
   plain.spacing = 7;
@@ -51,7 +51,7 @@ TEST(PlannerCluster, ThereIsNeverASecondAuthorityWhereIslandsMeetAndPart) {
   EXPECT_GT(epochs, 2 * table.count()) << "nothing changed hands: the test sees nothing";
 }
 
-TEST(PlannerCluster, WhatLiesStillIsTheServersAgain) {
+TEST(PlannerCluster, SleepingBodiesReturnToTheServer) {
   PlainScene plain;
   plain.duration = 6;
   ClusterConfig config = Plain(plain);

@@ -1,4 +1,5 @@
-/// Damage goes by what the authorities felt: a crate between two of them, and blows between two.
+/// Damage follows the impacts found by the authorities: a crate between two of them, and impacts
+/// between two.
 
 #include <gtest/gtest.h>
 
@@ -116,7 +117,7 @@ float Health(Cluster& cluster, std::int32_t part) {
   return cluster.server().rules()->metadata().Get({kMetaPart, part, kMetaHealth});
 }
 
-TEST(PressedCrate, BetweenTwoAuthoritiesItIsNotDestroyedWhenTheOracleDoesNot) {
+TEST(PressedCrate, IsDestroyedBetweenTwoAuthoritiesOnlyIfTheOracleDestroysIt) {
   constexpr std::int32_t kCrate = 3;
   ClusterConfig truth = With(kPress, "perfect", 1);
   truth.mode = "oracle";
@@ -136,7 +137,7 @@ TEST(PressedCrate, BetweenTwoAuthoritiesItIsNotDestroyedWhenTheOracleDoesNot) {
   }
 }
 
-TEST(PressedCrate, ABlowBetweenTwoAuthoritiesHurtsEachOfThemOnce) {
+TEST(PressedCrate, AnImpactBetweenTwoAuthoritiesDamagesEachBodyOnce) {
   for (const char* impair : {"demo", "4g"}) {
     for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
       Cluster cluster(With(kDiscs, impair, seed));
@@ -151,7 +152,7 @@ TEST(PressedCrate, ABlowBetweenTwoAuthoritiesHurtsEachOfThemOnce) {
   }
 }
 
-TEST(PressedCrate, ForgedReportsHurtNobodyAndAreCounted) {
+TEST(PressedCrate, ForgedReportsAreCountedAndDamageNothing) {
   ClusterConfig config = With(kDiscs, "perfect", 1);
   int forged = 0;
   std::int64_t tick = 0;
@@ -164,7 +165,7 @@ TEST(PressedCrate, ForgedReportsHurtNobodyAndAreCounted) {
       ImpactReport report;
       report.tick = states.tick;
       report.revision = states.revision;
-      // Of what is bob's; far off; and of more than anything near it could give.
+      // About bob's body; far off; and stronger than any nearby body could cause.
       const std::int32_t struck = static_cast<std::int32_t>(forged % 3 == 0 ? 1 : 0);
       report.id = {struck};
       report.epoch = {states.epoch.at(0)};

@@ -1,4 +1,4 @@
-/// The rule that acts in every tick, and the one that goes back, in whole sessions.
+/// Rules that correct every tick, and the one that replays, in whole sessions.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 namespace seam {
 namespace reconcile_cluster_test {
 
-/// What is beyond the buffer zone is displayed only: a rule that pulls a copy of all there is on in
-/// every tick is another matter.
+/// Bodies beyond the buffer zone are only displayed: rules that pull every copy in every tick are
+/// tested elsewhere.
 ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   std::ifstream file("scenes/" + scene + ".toml");
   std::stringstream text;
@@ -29,13 +29,13 @@ ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   return config;
 }
 
-/// A cradle's fourth blow meets copies that are a centimetre off, between balls that hang two
+/// A cradle's fourth impact meets copies that are a centimetre off, between balls that hang two
 /// apart: under a rule that pulls, two balls fly instead of one with two seeds of five (error .05
-/// or .19 m over all 10 s). What a rule does is seen before that, s.
+/// or .19 m over all 10 s). The effect of a rule shows before that, s.
 constexpr double kCradleSeconds = 8;
 
-/// Of five seeds the worst in the cradle, else the median: after a collision one network's dice say
-/// little of a rule.
+/// The worst of five seeds in the cradle, else the median: after a collision a single network seed
+/// says little about a rule.
 double ErrorOf(const std::string& scene, const std::string& reconcile) {
   std::vector<double> errors;
   const bool cradle = scene == "cradle";
@@ -50,15 +50,15 @@ double ErrorOf(const std::string& scene, const std::string& reconcile) {
   return cradle ? errors.back() : errors[2];
 }
 
-/// Bounds are twice what was measured, m, with iterative joints: exact ones keep a cradle's blows
-/// going, and a rule that is late for one is late for all of them.
+/// Bounds are twice the measured error, m, with iterative joints: exact ones keep a cradle's
+/// impacts going, and a rule that is late for one is late for all of them.
 struct Bound {
   const char* rule;
   double crossing, cradle;
 };
 constexpr Bound kBounds[] = {{"rollback", 0.25, 1e-3}, {"spring", 0.4, 0.1}};
 
-TEST(RuleSessions, EachIsBelowItsBoundAndBetterThanSnap) {
+TEST(RuleSessions, EachRuleIsBelowItsBoundAndBetterThanSnap) {
   const double snap_crossing = ErrorOf("crossing", "snap"), snap_cradle = ErrorOf("cradle", "snap");
   for (const Bound& b : kBounds) {
     const double crossing = ErrorOf("crossing", b.rule), cradle = ErrorOf("cradle", b.rule);
@@ -69,9 +69,10 @@ TEST(RuleSessions, EachIsBelowItsBoundAndBetterThanSnap) {
   }
 }
 
-/// The word that bob's balls rest comes to ann while they are struck. Put to rest again by a replay
-/// that began later, they took the blow of the cradle: it stood, 1.3 m from where it should be.
-TEST(RuleSessions, AReplayDoesNotPutToRestWhatWasStruck) {
+/// The message that bob's balls rest reaches ann while they are struck. Put to rest again by a
+/// replay that began later, they absorbed the cradle's impact: it stood still, 1.3 m from its
+/// correct place.
+TEST(RuleSessions, AReplayDoesNotPutAStruckBodyToRest) {
   ClusterConfig config;
   config.scene = "cradle";
   config.reconcile = "rollback";

@@ -1,5 +1,5 @@
-/// scenes/relay.toml does what it is for: many hand-overs, in a world that is orderly enough for
-/// each jump to be the method's.
+/// scenes/relay.toml serves its purpose: many hand-overs in a world so orderly that each jump is
+/// caused by the method.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace seam {
 namespace relay_test {
 
-TEST(Relay, HandsOverAgainAndAgainInAnOrderlyWorld) {
+TEST(Relay, HandsOverRepeatedlyInAnOrderlyWorld) {
   SessionSettings settings;
   settings.scene = "scenes/relay.toml";
   const Recording run = RunCluster(Configure(settings));

@@ -1,5 +1,5 @@
-/// What a client can do by its answers, or by answering late or not at all: it can give away what
-/// it has, and nothing else.
+/// A client's releases, early, late or missing: it can give away its own mechanisms and affect no
+/// others.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ ClusterConfig Shuttle(const std::string& impair) {
   return config;
 }
 
-/// What ann sends passes `rewrite`.
+/// Ann's messages pass through `rewrite`.
 void Tamper(ClusterConfig* config, RewritingNet::Rewrite rewrite,
             RewritingNet::RewriteHeader rewrite_header = {}) {
   config->client_net = [=](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
@@ -47,7 +47,7 @@ void Tamper(ClusterConfig* config, RewritingNet::Rewrite rewrite,
 
 bool IsRelease(const Bytes& message) { return std::holds_alternative<Release>(Decode(message)); }
 
-/// How often the server says that a peer has left for that reason.
+/// Counts the events in which a peer left for that reason.
 int Said(const Recording& recording, const std::string& why) {
   int count = 0;
   for (const Event& event : recording.events) {
@@ -56,13 +56,13 @@ int Said(const Recording& recording, const std::string& why) {
   return count;
 }
 
-/// The longest that the server's grants left a mechanism between revocation and what followed, us.
+/// The longest time in the server's grants between a revocation and the next grant, us.
 std::int64_t LongestHandOverUs(const Recording& recording) {
   const std::vector<double> ms = HandOverMs(recording);
   return ms.empty() ? 0 : static_cast<std::int64_t>(ms.back() * 1000);
 }
 
-TEST(Release, WhoWithholdsItLosesTheMechanismAndItsPlace) {
+TEST(Release, AHolderThatWithholdsItLosesTheMechanismAndItsPlace) {
   ClusterConfig config = Shuttle("demo");
   bool withheld = false;
   Tamper(&config, [&](std::int64_t, Bytes* message) {
@@ -83,7 +83,7 @@ TEST(Release, WhoWithholdsItLosesTheMechanismAndItsPlace) {
   EXPECT_EQ(Said(cluster.recording(), "bob (peer 2) is gone"), 0);
 }
 
-TEST(Release, WhoAcknowledgesNothingAnyMoreKeepsNothing) {
+TEST(Release, AHolderThatStopsAcknowledgingKeepsNothing) {
   ClusterConfig config = Shuttle("perfect");
   std::optional<std::pair<std::uint16_t, std::uint32_t>> frozen;
   std::int64_t from_us = 0;
@@ -129,7 +129,7 @@ TEST(Release, WhoAcknowledgesNothingAnyMoreKeepsNothing) {
 /// A client's network, of which datagrams that arrive may be lost.
 class LosingNet : public Net {
  public:
-  /// Whether a datagram that arrives at that time is lost.
+  /// True if a datagram that arrives at that time is lost.
   using Loses = std::function<bool(std::int64_t now_us, ByteView datagram)>;
   LosingNet(std::unique_ptr<Net> net, Loses loses)
       : net_(std::move(net)), loses_(std::move(loses)) {}
@@ -163,9 +163,9 @@ bool HasGrants(ByteView datagram) {
   });
 }
 
-/// Her pings are answered until long after the server's last question, which she never hears; then
-/// she is cut off. Her lease ends when nobody has answered for 3 s, not before.
-TEST(Release, WhoNeverHearsTheQuestionKeepsItForAsLongAsItsLease) {
+/// Her pings are answered until long after the server's last revocation, which she never receives;
+/// then she is cut off. Her lease ends when nobody has answered for 3 s, not before.
+TEST(Release, AHolderThatNeverHearsTheRequestKeepsItUntilItsLeaseEnds) {
   ClusterConfig config = Shuttle("perfect");
   config.duration_s = 16;
   std::int64_t asked_us = -1;
@@ -194,7 +194,7 @@ TEST(Release, WhoNeverHearsTheQuestionKeepsItForAsLongAsItsLease) {
   EXPECT_GT(Said(cluster.recording(), "ann (peer 1) is gone"), 0);
 }
 
-TEST(Release, NobodyHonestIsAccusedOnATerribleNetwork) {
+TEST(Release, NoHonestHolderIsAccusedOnATerribleNetwork) {
   for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
     ClusterConfig config = Shuttle("terrible");
     config.scene_text = Pendulums(60);
@@ -258,7 +258,7 @@ TEST(Release, AnEditThatOvertakesAHandOverLeavesNobodyWaiting) {
     const auto& grants = cluster.recording().grants;
     const AuthorityTable& table = cluster.server().replica().authority();
     if (grants.empty() || grants.back().authority.at(0) != 0) return false;
-    // The first: what becomes of all three goes on from it.
+    // The first: the fate of all three follows from it.
     return grants.back().mechanism.at(0) == table.id(0) && table.at(0).authority != 0;
   };
   while (cluster.server().tick() < 60 * 10 && !revoking()) {
@@ -279,7 +279,7 @@ TEST(Release, AnEditThatOvertakesAHandOverLeavesNobodyWaiting) {
   }
 }
 
-TEST(Release, ForgedOnesAreDroppedCountedAndTakeNothingFromOthers) {
+TEST(Release, ForgedReleasesAreCountedAndTakeNothingFromOthers) {
   ClusterConfig config = Shuttle("perfect");
   Cluster* room = nullptr;
   int forged = 0;

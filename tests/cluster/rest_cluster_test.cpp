@@ -1,5 +1,5 @@
-/// What has come to rest lies at every peer bit for bit as at its authority, soon, under loss, with
-/// every rule, whoever has it; then the room is silent.
+/// Bodies at rest have the same bits at every peer as at their authority, soon, under loss, under
+/// every rule and authority; then the room is silent.
 
 #include <gtest/gtest.h>
 
@@ -79,9 +79,8 @@ RestRun RunToRest(const ClusterConfig& config, double end_s, double quiet_s) {
   return RestWatcher(cluster).Run(end_s, quiet_s);
 }
 
-/// All seeds of a method: each within 5 s, 19 of 20 within 2. So many of them in which something
-/// has changed hands: with some dice what flies hits another and stays on its side (strict, 2 of
-/// 20).
+/// All seeds of a method: each within 5 s, 19 of 20 within 2 s. So many seeds include a hand-over:
+/// with some networks a flying box hits another and stays on its side (strict, 2 of 20).
 void ExpectRest(const Method& method, int boxes, int seeds, double end_s) {
   std::vector<double> late;
   int failed = 0, changed = 0;
@@ -117,7 +116,7 @@ TEST_P(RestCluster, FortyEightBoxesOfTwoOwnersLieTheSameEverywhere) {
   ExpectRest(GetParam(), 48, Seeds(2, 50), 60);
 }
 
-TEST_P(RestCluster, ThenTheRoomIsSilent) {
+TEST_P(RestCluster, ARoomAtRestIsSilent) {
   for (const char* impair : {"perfect", "demo"}) {
     ClusterConfig config = Config(GetParam(), Falling(12, 1), 1);
     config.impair = impair;

@@ -1,5 +1,5 @@
-/// Rules in the real server with real clients: what is decided once is known to all, whatever the
-/// network does.
+/// Rules with the real server and real clients: each decision is made once and reaches all peers
+/// over any network.
 
 #include <gtest/gtest.h>
 
@@ -68,14 +68,14 @@ ClusterConfig With(const std::string& text, const std::string& mode, const std::
   return config;
 }
 
-/// How often an event's text was said.
+/// Counts the events by text.
 std::map<std::string, int> Said(const Recording& recording) {
   std::map<std::string, int> said;
   for (const Event& event : recording.events) ++said[event.text];
   return said;
 }
 
-TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
+TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersAgreeAtTheEnd) {
   for (const char* mode : {"buffer", "strict", "central", "oracle"}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Cluster cluster(With(Race(Coins()), mode, "4g", seed));
@@ -98,7 +98,7 @@ TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
       const float bob = server.Get({kMetaPlayer, 1, kMetaScore});
       EXPECT_EQ(ann + bob, 12) << mode;
       EXPECT_GE(std::min(ann, bob), 5) << mode << ": they meet in the middle";
-      // 2 m of acid at 3 m/s, and the margin of leaving: 41 ticks, whatever the network does.
+      // 2 m of acid at 3 m/s, and the margin of leaving: 41 ticks over any network.
       EXPECT_NEAR(server.Get({kMetaPart, 0, kMetaHealth}), 93.2, 0.3) << mode << " " << seed;
       for (int c = 0; c < cluster.client_count(); ++c) {
         EXPECT_EQ(cluster.client(c)->metadata().values(), server.values()) << mode << " " << c;
@@ -116,7 +116,7 @@ TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
   }
 }
 
-TEST(RulesCluster, WhoComesLateKnowsWhatTheOthersKnow) {
+TEST(RulesCluster, ALatecomerReceivesAllMetadata) {
   Cluster cluster(With(Race(Coins()), "buffer", "4g"));
   cluster.RunToTick(200);
   cluster.Kill(1);
@@ -128,7 +128,7 @@ TEST(RulesCluster, WhoComesLateKnowsWhatTheOthersKnow) {
   EXPECT_EQ(cluster.client(0)->metadata().values(), cluster.server().rules()->metadata().values());
 }
 
-TEST(RulesCluster, WhoMayNotPushAPartDoesNotGetItsAuthority) {
+TEST(RulesCluster, APlayerWithoutPushPermissionDoesNotGetAuthority) {
   const std::string puck =
       "[[part]]\nname = \"puck\"\ncircle = 0.3\nposition = [-3, 5]\n"
       "velocity = [0.1, 0]\n";
@@ -162,7 +162,7 @@ TEST(RulesCluster, AScriptsErrorStopsTheScriptNotTheRoom) {
   EXPECT_EQ(cluster.server().rules()->metadata().Get({kMetaPlayer, 0, kMetaScore}), 480);
 }
 
-TEST(RulesCluster, WhatAScriptMakesAndBreaksIsTheSameAtEveryPeer) {
+TEST(RulesCluster, AScriptsEditsAreTheSameAtEveryPeer) {
   const std::string code = R"(
 [[script]]
 name = "maker"
@@ -291,9 +291,9 @@ void ExpectDead(const std::string& kind, std::size_t mechanisms) {
   }
 }
 
-TEST(RulesCluster, ACharacterThatDiesGoesLimpForEverybody) { ExpectDead("active", 1); }
+TEST(RulesCluster, ADeadCharacterGoesLimpOnEveryPeer) { ExpectDead("active", 1); }
 
-TEST(RulesCluster, ARagdollThatDiesComesApartAtItsJointsForEverybody) { ExpectDead("passive", 12); }
+TEST(RulesCluster, ADeadRagdollComesApartAtItsJointsOnEveryPeer) { ExpectDead("passive", 12); }
 
 }  // namespace rules_cluster_test
 }  // namespace seam

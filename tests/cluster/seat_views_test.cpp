@@ -1,4 +1,4 @@
-/// Who gets into a seat and out of it is seen to go there, by everybody: no view jumps.
+/// Players get into and out of a seat: no view of it jumps on any peer.
 
 #include <gtest/gtest.h>
 
@@ -101,7 +101,7 @@ Jump LargestJump(const Recording& recording, double from_s, double to_s) {
   return jump;
 }
 
-TEST(SeatViews, NobodySeesAJumpOfMoreThanFiveCentimetresWhenSomebodyGetsInOrOut) {
+TEST(SeatViews, NobodySeesAJumpOverFiveCentimetresWhenAPlayerGetsInOrOut) {
   for (std::int64_t seed = 21; seed <= 24; ++seed) {
     ClusterConfig config;
     config.scene_text = Cart();
@@ -117,8 +117,8 @@ TEST(SeatViews, NobodySeesAJumpOfMoreThanFiveCentimetresWhenSomebodyGetsInOrOut)
   }
 }
 
-/// A cart with two seats rolls past ann and bob, who both press when it is there; later they get
-/// out of it while it drives.
+/// A cart with two seats rolls past ann and bob; both press as it passes, and later get out while
+/// it drives.
 std::string Passing(double speed, double where) {
   constexpr double kAt = 2;  // s
   const double from = where - speed * kAt;
@@ -186,7 +186,7 @@ group = -5
          "[[character]]\nname = \"mate\"\nplayer = \"bob\"\ngroup = -5\n" + place(where + 2.2, 0);
 }
 
-TEST(SeatViews, NobodySeesAJumpWhenSomebodyGetsIntoWhatDrivesPastOrOutOfIt) {
+TEST(SeatViews, NobodySeesAJumpWhenSomebodyEntersOrLeavesAMovingVehicle) {
   struct Case {
     double speed, where;  // m/s, m
     std::int64_t seed;    // 9: bob hears half a second late that ann gets in
@@ -197,7 +197,7 @@ TEST(SeatViews, NobodySeesAJumpWhenSomebodyGetsIntoWhatDrivesPastOrOutOfIt) {
     config.impair = "4g";
     config.seed = c.seed;
     const Recording recording = RunCluster(config);
-    // It is fast, and who gets out of it falls: then there are blows that each has elsewhere.
+    // It is fast, and a player that gets out falls: its impacts differ between peers.
     const Jump in = LargestJump(recording, 1.9, 4.9), out = LargestJump(recording, 6.9, 8.0);
     std::printf("[          ] %g m/s, seed %lld: in %.4f m (%s), out %.4f m (%s)\n", c.speed,
                 static_cast<long long>(c.seed), in.metres, in.where.c_str(), out.metres,
@@ -207,7 +207,7 @@ TEST(SeatViews, NobodySeesAJumpWhenSomebodyGetsIntoWhatDrivesPastOrOutOfIt) {
   }
 }
 
-TEST(SeatViews, OfTwoWhoPressInOneTickOneGetsTheSeat) {
+TEST(SeatViews, OnePlayerGetsTheSeatWhenTwoPressInOneTick) {
   std::string scene = Passing(0, -5);
   const std::string pillion = scene.substr(scene.find("[[seat]]\nname = \"pillion\""));
   scene.erase(scene.find(pillion), pillion.find("[[character]]"));  // one seat, one button
@@ -223,7 +223,7 @@ TEST(SeatViews, OfTwoWhoPressInOneTickOneGetsTheSeat) {
   EXPECT_EQ(server.revision(), 2) << "one gets in, and one bond";
 }
 
-TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
+TEST(SeatViews, ADriverThatLeavesTheRoomStopsDriving) {
   ClusterConfig config;
   config.scene_text = Cart();
   config.impair = "4g";
@@ -239,11 +239,11 @@ TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
   EXPECT_LT((bob->world().Read(cart).position - world.Read(cart).position).norm(), 0.1f);
 }
 
-TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
-  // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h). The first
-  // of these jumped: what was heard of ann as she stopped was no news, since she had been reckoned
-  // past it (43, 114, 125, 154); her legs were a turn beyond their limits (93); limits of the
-  // glide, and closing joints, added up (36, 346).
+TEST(SeatViews, AClientThatJoinsMidwayAgreesAfterASecond) {
+  // Bob derives ann's progress from her place and speed (common/stages/seat_way.h). The first of
+  // these seeds jumped: a state of ann as she stopped was ignored, since the reckoning had passed
+  // it (43, 114, 125, 154); her legs were a turn beyond their limits (93); limits of the glide, and
+  // closing joints, added up (36, 346).
   std::vector<std::pair<int, int>> starts = {{43, 110}, {114, 90}, {125, 140}, {154, 110},
                                              {93, 150}, {36, 120}, {346, 120}};
   for (int i = 0; i < 7 * Soak(2); ++i) starts.emplace_back(31 + i / 7, 90 + 10 * (i % 7));

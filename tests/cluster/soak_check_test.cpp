@@ -1,4 +1,4 @@
-/// What the soak excuses of an open joint, and what it does not.
+/// Tests which open joints the soak check accepts.
 
 #include "tests/support/soak/soak_check.h"
 
@@ -22,13 +22,13 @@ class SoakCheck : public ::testing::Test {
     cluster.Run();
     recording_ = cluster.recording();
     oracle_ = ComputeOracle(recording_, JudgeOf(recording_.room));
-    // How far a solver opens joints in a crash is its own: here the oracle's is opened by hand.
+    // Solvers open joints in a crash by different amounts: here the oracle's is opened by hand.
     crash_ = recording_.last_tick / 2;
     const auto row = static_cast<std::size_t>(crash_ - oracle_.first_tick);
     oracle_.ticks[row][1].position.x() += 0.01f;
   }
 
-  /// With a wheel shown 1 m off in one client's view of `ticks` ticks from there.
+  /// Findings with a wheel displayed 1 m off in one client's view for `ticks` ticks from there.
   SoakFindings Torn(std::int64_t tick, int ticks, double engine) const {
     Recording torn = recording_;
     for (int i = 0; i < ticks; ++i) {
@@ -43,9 +43,9 @@ class SoakCheck : public ::testing::Test {
   std::int64_t crash_ = 0;
 };
 
-TEST_F(SoakCheck, ViewsThatAreNotTornAreFoundSo) { EXPECT_LT(Torn(crash_, 0, 0).torn_m, 0.02); }
+TEST_F(SoakCheck, ViewsWithoutOpenJointsPass) { EXPECT_LT(Torn(crash_, 0, 0).torn_m, 0.02); }
 
-TEST_F(SoakCheck, AnOpenJointIsTornUnlessTheEngineOpenedIt) {
+TEST_F(SoakCheck, AnOpenJointFailsUnlessTheEngineOpenedIt) {
   EXPECT_GT(Torn(crash_, 1, 0).torn_m, 0.5);
   EXPECT_LT(Torn(crash_, 1, 2).torn_m, 0.02);
   EXPECT_GT(Torn(crash_, 1, 2).crashed_m, 0.5);

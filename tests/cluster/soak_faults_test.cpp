@@ -1,5 +1,5 @@
-/// Sessions in which everything goes wrong that can: each seed draws a scene, a method, a network,
-/// and what happens to each client when. The invariants hold at every virtual instant.
+/// Sessions with every kind of fault: each seed draws a scene, a method, a network and the faults
+/// of each client. The invariants hold at every virtual instant.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr int kRuns = 20, kRunsMax = 2000;
 constexpr int kNarrowRuns = 8;
 constexpr double kSeconds = 20, kSecondsSoak = 60;
 
-/// Sessions have at most so many players; rooms of more than so many bodies are among the narrow.
+/// Most players of a session; and bodies above which a room is narrow.
 constexpr std::size_t kPlayersMost = 8, kPartsMost = 450;
 
 std::vector<std::string> Scenes(bool large) {
@@ -45,7 +45,7 @@ int FromEnvironment(const char* name, int otherwise) {
   return value == nullptr ? otherwise : std::atoi(value);
 }
 
-/// What was broken, a line each; the last line is for people.
+/// Returns the broken invariants, a line each; the last line is for the reader.
 std::string Perform(const FaultPlan& plan) {
   FaultRunner faults(plan);
   Cluster cluster(faults.Config());
@@ -108,7 +108,7 @@ TEST(SoakFaultsCluster, EverySeedKeepsItsInvariantsAtEveryInstant) {
   RunSeeds(false, std::min(Soak(kRuns), kRunsMax), "SoakFaults*");
 }
 
-/// What a peer leaves out, is told late or does not do in a large room keeps them as well.
+/// The invariants also hold with the omissions and delays of large rooms.
 TEST(SoakNarrowCluster, EverySeedKeepsItsInvariantsInLargeRoomsAndNarrowOnes) {
   RunSeeds(true, std::min(Soak(kNarrowRuns), kRunsMax), "SoakNarrow*");
 }

@@ -1,4 +1,4 @@
-/// That the invariants of the soak can be broken, and are then found so.
+/// Breaks each invariant of the soak and checks that it is reported.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ class SoakInvariants : public ::testing::Test {
   std::function<void()> harm_;  // before each look
 };
 
-TEST_F(SoakInvariants, TwoWhoHaveOneEpochAreFound) {
+TEST_F(SoakInvariants, FindsTwoHoldersOfOneEpoch) {
   const int peer = cluster_->client(0)->peer();
   AuthorityRecord record = replica(0).authority().at(0);
   record.authority = record.authority == peer ? 0 : peer;
@@ -57,7 +57,7 @@ TEST_F(SoakInvariants, TwoWhoHaveOneEpochAreFound) {
   EXPECT_TRUE(Broke("an epoch has one authority"));
 }
 
-TEST_F(SoakInvariants, WhatDoesNotLieWhereItRestsIsFound) {
+TEST_F(SoakInvariants, FindsARestingBodyThatWasDisplaced) {
   RunFor(8);
   ASSERT_TRUE(replica(0).rest().Holds(0));
   harm_ = [this] {
@@ -70,7 +70,7 @@ TEST_F(SoakInvariants, WhatDoesNotLieWhereItRestsIsFound) {
   EXPECT_TRUE(Broke("what rests lies where it rests"));
 }
 
-TEST_F(SoakInvariants, WhatFliesFasterThanTheSceneAllowsIsFound) {
+TEST_F(SoakInvariants, FindsABodyAboveTheSpeedLimit) {
   harm_ = [this] {
     World& world = ReplicaTestAccess::world(replica(0));
     BodyState state = world.Read(0);
@@ -83,13 +83,13 @@ TEST_F(SoakInvariants, WhatFliesFasterThanTheSceneAllowsIsFound) {
   EXPECT_TRUE(Broke("nothing explodes"));
 }
 
-TEST_F(SoakInvariants, WhoIsWellAndDoesNotPlayIsFound) {
+TEST_F(SoakInvariants, FindsAHealthyClientThatDoesNotPlay) {
   cluster_->Kill(0);
   RunFor(5);
   EXPECT_TRUE(Broke("who is well plays"));
 }
 
-TEST_F(SoakInvariants, WhoGoesOnInAnotherWorldIsFound) {
+TEST_F(SoakInvariants, FindsAClientThatGoesOnInAnotherWorld) {
   // Bob no longer hears of edits, and so cannot be repaired.
   Server& server = cluster_->server();
   const PartId part = server.replica().world().id(0);
@@ -99,7 +99,7 @@ TEST_F(SoakInvariants, WhoGoesOnInAnotherWorldIsFound) {
   EXPECT_TRUE(Broke("edits arrive"));
 }
 
-TEST_F(SoakInvariants, QueuesThatGrowAreFound) {
+TEST_F(SoakInvariants, FindsQueuesThatGrow) {
   Server& server = cluster_->server();
   harm_ = [&] {
     cluster_->Pause(1, true);
@@ -109,7 +109,7 @@ TEST_F(SoakInvariants, QueuesThatGrowAreFound) {
   EXPECT_TRUE(Broke("queues are bounded"));
 }
 
-TEST(SoakFaultPlan, ASeedDrawsTheSameAgainAndAnotherSomethingElse) {
+TEST(SoakFaultPlan, ASeedRepeatsItsPlanAndAnotherSeedDiffers) {
   const FaultChoice choice{{"crossing", "stack", "wall"}, 60};
   const FaultPlan plan = DrawFaults(7, choice), again = DrawFaults(7, choice);
   EXPECT_EQ(plan.name, again.name);

@@ -1,5 +1,5 @@
-/// Short sessions over every scene, bad networks, drives and seeds: nothing explodes, is torn or
-/// gets lost, and never do two peers have one epoch's authority.
+/// Short sessions over every scene, with bad networks, drives and seeds: nothing explodes, tears or
+/// gets lost, and no epoch has two authorities.
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,10 @@ namespace soak_scenes_test {
 
 /// Sessions in a test; SEAM_SOAK multiplies them, up to so many.
 constexpr int kRuns = 20, kRunsMax = 2000;
-/// Of each, s after tick 0.
+/// Duration of each session after tick 0, s.
 constexpr double kSeconds = 4;
-/// What stops in a crash while the rest of its mechanism goes on is a tick's way off, m: at 15 m/s.
+/// A body that stops in a crash while the rest of its mechanism moves on is off by a tick's path,
+/// m: at 15 m/s.
 constexpr double kCrashedMax = 0.25;
 /// The worst of each kind that are printed.
 constexpr std::size_t kWorst = 5;
@@ -126,7 +127,7 @@ void Judge(const char* what, const char* unit, std::vector<Session> runs, const 
   }
 }
 
-TEST(SoakCluster, NothingExplodesIsTornOrGetsLostInAnyScene) {
+TEST(SoakCluster, NothingExplodesTearsOrGetsLostInAnyScene) {
   const std::vector<std::string> scenes = Scenes();
   ASSERT_TRUE(scenes.size() > 10 || std::getenv("SEAM_SOAK_SCENE") != nullptr);
   std::vector<Session> runs;

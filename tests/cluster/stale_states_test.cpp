@@ -1,4 +1,4 @@
-/// States that were told before: they reach nobody.
+/// Replayed States messages reach nobody.
 
 #include <gtest/gtest.h>
 

@@ -12,11 +12,11 @@
 namespace seam {
 namespace throttle_test {
 
-/// Sessions with bots of other seeds: the bar is for their median, since what tumbles otherwise
-/// once stays so, in either.
+/// Sessions with bots of other seeds: the bar is for their median, since a body that once tumbles
+/// differently stays so, in either.
 constexpr int kSeeds = 6;
 
-TEST(Throttle, AClientThatIsSlowedToAQuarterSimulatesWhatItCanAndTheOthersSeeLittleOfIt) {
+TEST(Throttle, ASlowClientSimulatesItsShareAndOthersSeeLittleOfIt) {
   std::vector<double> ratios;
   for (int seed = 1; seed <= Soak(kSeeds); ++seed) {
     const Throttled free = MeasureThrottled(1, seed), slow = MeasureThrottled(4, seed);

@@ -1,7 +1,7 @@
-/// Two players of whom one was cut off or killed have simulated the same discs each in its own way.
-/// What each has told of its own is a fact from then on, and what they still do not agree on the
-/// server decides: so they agree again, and the room keeps its energy. Either may be what does it
-/// here; facts alone are in tests/sync/told_facts_test.cpp.
+/// Two players, one of them disconnected or killed, have simulated the same discs differently.
+/// States sent by their authority stay valid, and the server decides those still in dispute: the
+/// players agree again, and the room keeps its energy. tests/sync/told_facts_test.cpp tests the
+/// first half alone.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace told_facts_cluster_test {
 
 constexpr int kDiscs = 60;
 
-/// By how much the first client's copies of what the second has are off, m, at the same tick.
+/// Errors of the first client's copies of the second's bodies at the same tick, m.
 std::vector<double> Off(const Replica& first, const Replica& second, int second_peer) {
   std::vector<double> off;
   if (first.tick() != second.tick()) return off;
@@ -60,7 +60,7 @@ FaultPlan PlanOf(FaultKind kind, std::int64_t seed) {
   return plan;
 }
 
-/// Where the server simulates nothing that clients hold, but for what a silent one has.
+/// In rooms where the server simulates no client's body except a silent one's.
 Outcome After(FaultKind kind, std::int64_t seed) {
   FaultPlan plan = PlanOf(kind, seed);
   plan.config.scene_text = "server_follow = 0\n" + plan.config.scene_text;
@@ -90,10 +90,10 @@ Outcome After(FaultKind kind, std::int64_t seed) {
           MedianOf(off)};
 }
 
-/// Upper medians over eight seeds. Over sixty, medians of the energy are 1.09 to 1.33. Where each
-/// went back for what the other had told, and told otherwise after it, copies were off by 35 to 83
-/// cm (the same) for as long as the room ran.
-TEST(ToldFacts, WhoWasGoneAgreesAgainAndNoEnergyComesFromIt) {
+/// Upper medians over eight seeds. Over sixty, medians of the energy are 1.09 to 1.33. When each
+/// client replayed by the other's states and then sent different ones, copies were off by 35 to 83
+/// cm as long as the room ran.
+TEST(ReturningClient, AReturningClientAgreesAgainWithoutAddingEnergy) {
   for (const FaultKind kind : {FaultKind::kCut, FaultKind::kKill}) {
     SCOPED_TRACE(ToString(kind));
     std::vector<double> energy, parted, off;
@@ -112,7 +112,7 @@ TEST(ToldFacts, WhoWasGoneAgreesAgainAndNoEnergyComesFromIt) {
   }
 }
 
-/// What the room's energy is at the server: at 10 s and at the end, of that at the start.
+/// The room's energy at the server at 10 s and at the end, relative to the start.
 struct Energies {
   double then = 0, end = 0;
   int decided = 0;  ///< discs that are the server's at the end
@@ -138,8 +138,9 @@ Energies EnergiesAfter(FaultKind kind, const char* impair, std::int64_t seed) {
   return seen;
 }
 
-/// The server, which has gone on with all of it, speaks for who is cut off: nothing is lost.
-TEST(ContestedCrowd, WhoWasCutOffHasMissedNothing) {
+/// The server has simulated everything on and sends states for the disconnected client: nothing is
+/// lost.
+TEST(ContestedCrowd, ADisconnectedClientMissesNothing) {
   for (const char* impair : {"demo", "4g"}) {
     SCOPED_TRACE(impair);
     const Energies seen = EnergiesAfter(FaultKind::kCut, impair, 1);
@@ -148,9 +149,9 @@ TEST(ContestedCrowd, WhoWasCutOffHasMissedNothing) {
   }
 }
 
-/// Who did not run, or begins anew, has other discs than the server goes on with. Before one owner
-/// decided them the room had up to 15 times its energy after 24 s of this network, rising.
-TEST(ContestedCrowd, TheServerDecidesOnWhatItsOwnersDoNotAgreeOn) {
+/// A client that was paused or restarted has other discs than the server. Before the server decided
+/// them, the room reached 15 times its energy after 24 s of this network, rising.
+TEST(ContestedCrowd, TheServerDecidesBodiesThatTheirOwnersDisputeAfterAPause) {
   for (const FaultKind kind : {FaultKind::kPause, FaultKind::kKill}) {
     SCOPED_TRACE(ToString(kind));
     const Energies seen = EnergiesAfter(kind, "delay=105ms,jitter=12ms,loss=6%", 2);

@@ -1,5 +1,6 @@
 /// Splitting and merging across peers, under loss and reorder: the real server and clients in
-/// virtual time. Same order, same roots, one authority, and repair of a peer that went astray.
+/// virtual time. All peers have the same order, the same roots and one authority, and a diverged
+/// peer is repaired.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,8 @@ Edit BondNow(const World& world, PartId a, PartId b) {
   return Edit(BondAsTheyAre(world, a, b, 0), EditCause::kOutside);
 }
 
-/// Every instant: whoever thinks it has a mechanism at the server's epoch is who the server thinks.
+/// At every instant: a peer that believes it has a mechanism in the server's epoch is the server's
+/// holder.
 void ExpectOneAuthority(Cluster* cluster) {
   ASSERT_EQ(SecondAuthorities(cluster), 0) << "two authorities";
   const Replica& server = cluster->server().replica();
@@ -95,7 +97,7 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
     server.Order(Edit(late, EditCause::kOutside));
     server.Order(Edit(PushEdit{crate, {0, 1}}, EditCause::kOutside));
     cluster.RunToTick(160);
-    // The crate and the front half, whoever has them: they come into one hand first.
+    // The crate and the front half, under any holders: one holder gets both first.
     server.Order(BondNow(server.replica().world(), 4, crate));
     cluster.RunToTick(260);
     server.Order(Edit(RemoveEdit{1}));
@@ -127,7 +129,7 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Networks, TopologyUnder, ::testing::Values("perfect", "4g", "terrible"));
 
-TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
+TEST(TopologyCluster, ADivergedPeerIsFoundAndRepaired) {
   ClusterConfig config;
   config.scene_text = kBar;
   config.reconcile = "retrospect";
@@ -160,7 +162,7 @@ TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
   }
 }
 
-TEST(TopologyCluster, WhoIsRepairedNeverShowsWhereTheSceneBegan) {
+TEST(TopologyCluster, ARepairedClientNeverShowsTheInitialPoses) {
   // So much that its world does not come in one datagram.
   const std::string many = kBar + R"(
 [[part]]
@@ -199,7 +201,7 @@ velocity = [4, 0]
   }
 }
 
-TEST(TopologyCluster, WhoJoinsLateGetsAllEdits) {
+TEST(TopologyCluster, ALatecomerGetsAllEdits) {
   ClusterConfig config;
   config.scene_text = kBar;
   config.reconcile = "retrospect";
@@ -219,7 +221,7 @@ TEST(TopologyCluster, WhoJoinsLateGetsAllEdits) {
             cluster.server().replica().world().composition().hash);
 }
 
-TEST(TopologyCluster, AClientMayNotEditWhatIsNotItsOwnNorWhatPhysicsCouldNotFind) {
+TEST(TopologyCluster, AClientMayOnlyProposeEditsThatPhysicsFindsOnItsOwnBodies) {
   ClusterConfig config;
   config.scene_text = kBar;
   config.reconcile = "retrospect";

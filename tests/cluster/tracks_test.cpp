@@ -1,4 +1,4 @@
-/// scenes/tracks.toml: tracks go over a step and up a slope where wheels do not.
+/// scenes/tracks.toml: tracks pass a step and a slope that stop wheels.
 
 #include <gtest/gtest.h>
 

@@ -19,8 +19,8 @@ std::optional<float> Shown(const View& view, PartId body) {
   return view.x[static_cast<std::size_t>(found - view.id.begin())];
 }
 
-/// How deep the locomotive's nose was shown inside a crate, by any peer at any tick, m: along x, as
-/// all of them stay on the ground. Below 0: it never was.
+/// Largest displayed depth of the locomotive's nose inside a crate, by any peer at any tick, along
+/// x, as all stay on the ground, m. Below 0: never inside.
 float DeepestNose(const Recording& recording) {
   const Scene scene = ParseScene(recording.room.scene_text, "train.toml");
   PartId loco = -1;
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, NeverThrough, ::testing::Values("oracle", "cen
                            return name;
                          });
 
-TEST(TrainCluster, WhereNobodyFeelsTheOtherTheNoseIsShownInsideACrate) {
+TEST(TrainCluster, TheNoseIsShownInsideACrateWithoutMutualCollision) {
   const float deepest = DeepestNose(RunTrain("strict", "", "delay=200ms"));
   EXPECT_GT(deepest, 1) << "the measure sees nothing";
 }

@@ -1,5 +1,5 @@
-/// A holder is killed or cut off, in rooms of several kinds and over networks drawn from seeds:
-/// what it had stands nowhere for longer than 0.3 s, and jumps nowhere by more than half a metre.
+/// A holder is killed or cut off, in several rooms and over networks drawn from seeds: none of its
+/// bodies stops for longer than 0.3 s or jumps by more than half a metre.
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@ namespace seam {
 namespace vanish_seeds_test {
 
 constexpr int kSeeds = 4, kSeedsSoak = 20;
-/// Of the holder's last state, s, and m.
+/// Limits after the holder's last state: stand still, s; jump, m.
 constexpr double kStandsMax = 0.3, kJumpMax = 0.5;
 
-TEST(VanishCluster, NothingStandsOrJumpsWhoeverVanishesWherever) {
+TEST(VanishCluster, NoBodyStopsOrJumpsWhenAClientVanishes) {
   const int seeds = Soak(kSeeds) > kSeeds ? kSeedsSoak : kSeeds;
   for (const VanishKind& kind : VanishKinds()) {
     Vanished worst;

@@ -1,4 +1,4 @@
-/// A holder's process dies. What it had goes on in every view, long before its lease ends.
+/// A holder's process dies. Its bodies keep moving in every view, long before its lease ends.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ owner = "ann"
 
 /// Bob only looks: two messages of ann's disc that were lost in a row, before or after she was
 /// gone, let it stand for him (seeds 7, 18 and 1 over 4g, most over terrible).
-TEST(Vanish, WhatTheHolderHadGoesOnInEveryView) {
+TEST(Vanish, TheHoldersBodiesKeepMovingInEveryView) {
   for (const char* reconcile : {"rollback", "retrospect", "fade"}) {
     for (const auto& [impair, seed] :
          {std::pair("demo", 1), std::pair("4g", 1), std::pair("4g", 7), std::pair("4g", 18),
@@ -107,7 +107,7 @@ float SpeedSeen(Cluster& cluster, int peer, std::int64_t tick) {
   return (views.at(tick + 6).x[0] - views.at(tick).x[0]) / 0.1f;
 }
 
-TEST(Vanish, WhatAKilledPlayerDroveIsNotDrivenForMuchLongerThanASecond) {
+TEST(Vanish, AKilledPlayersVehicleIsDrivenForLittleMoreThanASecond) {
   for (const char* mode : {"buffer", "central"}) {
     for (const bool by_button : {false, true}) {
       SCOPED_TRACE(std::string(mode) + (by_button ? ", button" : ", drive"));
@@ -125,7 +125,7 @@ TEST(Vanish, WhatAKilledPlayerDroveIsNotDrivenForMuchLongerThanASecond) {
   }
 }
 
-TEST(Vanish, WhoIsHeardAgainDrivesAgainFromThere) {
+TEST(Vanish, APlayerThatReturnsDrivesOnFromThere) {
   for (const char* mode : {"buffer", "central"}) {
     SCOPED_TRACE(mode);
     Cluster cluster(Pushed(mode, "4g", false));
@@ -146,7 +146,7 @@ TEST(Vanish, WhoIsHeardAgainDrivesAgainFromThere) {
 }
 
 /// Bad paths are no reason: 300 ms with 30 % loss each way, and the worst profile there is.
-TEST(Vanish, WhoOnlyLagsDrivesOn) {
+TEST(Vanish, APlayerThatOnlyLagsDrivesOn) {
   for (const char* mode : {"buffer", "central"}) {
     for (const char* impair : {"delay=300ms,loss=30%", "terrible"}) {
       for (std::int64_t seed = 1; seed <= 3; ++seed) {

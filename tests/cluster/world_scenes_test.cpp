@@ -1,5 +1,5 @@
-/// Every scene of the large world crosses a seam under the 4g profile: nothing is lost, doubled or
-/// torn apart, nothing has two authorities, and all peers end with the same composition.
+/// Every scene of the large world crosses a seam under the 4g profile: no body is lost, doubled or
+/// torn, no mechanism has two authorities, and all peers end with the same composition.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST_P(WorldScene, CrossesTheSeamsUnder4gWholeAndWithOneAuthority) {
     ASSERT_EQ(replica.world().body_count(), truth.body_count());
     for (int b = 0; b < truth.body_count(); ++b) {
       EXPECT_TRUE(replica.world().Read(b).position.allFinite());
-      // Far apart would be lost: what two peers show of one body differs by a message's age.
+      // A large distance means a lost body; views of one body differ by a message's age.
       EXPECT_LT((replica.world().Read(b).position - truth.Read(b).position).norm(), 15)
           << "client " << i << " body " << truth.id(b);
     }

@@ -27,7 +27,7 @@ template <class Message>
 class Codec : public ::testing::Test {};
 TYPED_TEST_SUITE(Codec, Messages);
 
-/// Decodes and checks what holds for all bytes: the result is empty or valid, encodes to the same
+/// Decodes and checks invariants for any bytes: the result is empty or valid, encodes to the same
 /// bytes again, and cost little memory.
 AnyMessage DecodeChecked(const Bytes& bytes) {
   const std::size_t before = AllocatedBytes();
@@ -126,7 +126,7 @@ Bytes With(Bytes bytes, std::size_t at, std::size_t size, std::uint64_t value) {
   return bytes;
 }
 
-TEST(CodecHostile, StringLengthsDoNotKill) {
+TEST(CodecHostile, SurvivesHostileStringLengths) {
   Bye bye;
   bye.reason = "because";
   const Bytes bytes = Encode(bye);
@@ -144,7 +144,7 @@ TEST(CodecHostile, StringLengthsDoNotKill) {
   }
 }
 
-TEST(CodecHostile, ArrayCountsDoNotKill) {
+TEST(CodecHostile, SurvivesHostileArrayCounts) {
   View view;
   const Bytes bytes = Encode(view);  // the count is its last field
   for (const std::uint64_t count : {1u, 255u, 1901u, 0x7fffu, 0x8000u, 0xff00u, 0xffffu}) {
@@ -215,7 +215,7 @@ TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
   EXPECT_LE(Encode(room).size(), kBusMessageBytesMax);
 }
 
-TEST(CodecBounds, WhatBreaksABoundIsNotValid) {
+TEST(CodecBounds, AMessageThatBreaksABoundIsNotValid) {
   const auto broken = [](auto change) {
     RandomMessages random(9);
     View view;
@@ -249,7 +249,7 @@ TEST(CodecBounds, EpochsHaveThirtyTwoBitsAndAreNeverNegative) {
   release.mechanism = {3};
   release.epoch = {7};
   const Bytes said = Encode(release);
-  // Where the epoch of a message with one body or mechanism is, by the .lcm files.
+  // Offset of the epoch in a message with one body or mechanism, by the .lcm files.
   const std::pair<Bytes, std::size_t> cases[] = {
       {Encode(states), 62}, {Encode(grants), 40}, {said, said.size() - 4}};
   for (const auto& [bytes, at] : cases) {
@@ -310,7 +310,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
   }
   EXPECT_EQ(hashes, pinned);
   EXPECT_EQ(different.size(), MessageTypes().size());
-  // What peers of any two versions understand of each other.
+  // Types that peers of any two versions understand.
   EXPECT_EQ(hashes["hello_t"], 0x77af54d8cac6751eu);
   EXPECT_EQ(hashes["bye_t"], 0x51c7828d52d2d8f2u);
 }

@@ -1,4 +1,4 @@
-/// Ids of parts go far beyond what 16 bits hold, and what is beyond the limit is refused.
+/// Ids of parts exceed 16 bits, and ids beyond the limit are refused.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace ids_test {
 
 constexpr std::int32_t kHigh = 65534;
 
-/// What arrives when `message` is sent; default constructed when it is refused.
+/// Returns the message received when `message` is sent; default constructed if refused.
 template <class Message>
 Message Arrived(const Message& message) {
   const Bytes bytes = Encode(message);
@@ -20,8 +20,8 @@ Message Arrived(const Message& message) {
   return arrived == nullptr ? Message() : *arrived;
 }
 
-/// The same after the bytes of `from` have been replaced by those of `to` wherever they stand: what
-/// Encode would never write.
+/// The same after replacing the bytes of `from` by those of `to` everywhere: values that Encode
+/// would never write.
 template <class Message>
 bool IsTaken(const Message& message, std::int32_t from, std::int32_t to) {
   Bytes bytes = Encode(message);
@@ -54,7 +54,7 @@ View OneView(std::int32_t id) {
   return view;
 }
 
-TEST(Ids, AboveSixteenBitsArriveAsTheyWereSent) {
+TEST(Ids, IdsAboveSixteenBitsArriveAsTheyWereSent) {
   for (const std::int32_t id : {32768, kHigh, kIdsMax - 1}) {
     EXPECT_EQ(Arrived(OneState(id)).id, (std::vector<std::int32_t>{3, id}));
     EXPECT_EQ(Arrived(OneView(id)).id, (std::vector<std::int32_t>{3, id}));
@@ -112,7 +112,7 @@ TEST(Ids, AboveSixteenBitsArriveAsTheyWereSent) {
   }
 }
 
-TEST(Ids, BeyondTheLimitAndBelowZeroAreRefused) {
+TEST(Ids, RefusesIdsBeyondTheLimitAndBelowZero) {
   ASSERT_TRUE(IsTaken(OneState(kHigh), kHigh, kIdsMax - 1));
   EXPECT_FALSE(IsTaken(OneState(kHigh), kHigh, kIdsMax));
   EXPECT_FALSE(IsTaken(OneState(kHigh), kHigh, -1));

@@ -1,4 +1,4 @@
-/// Inputs of several players in one message: nothing is lost, nothing false is taken.
+/// Inputs of several players in one message: nothing is lost, and invalid messages are refused.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@
 namespace seam {
 namespace packed_inputs_test {
 
-/// As a player drives: mostly held, or other in every tick; `ticks` of them up to `last`.
+/// Inputs of a driving player: mostly held, or different in every tick; `ticks` of them up to
+/// `last`.
 Inputs Driven(int player, std::int64_t last, int ticks, bool held, Random* random) {
   Inputs inputs;
   inputs.player = player;
@@ -56,7 +57,7 @@ void ExpectSame(const Inputs& got, const Inputs& sent) {
   EXPECT_EQ(got.buttons, sent.buttons);
 }
 
-TEST(PackedInputs, TellWhatWasPutInWhateverItIs) {
+TEST(PackedInputs, UnpackToAnyInputsThatWerePacked) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(200)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -84,7 +85,7 @@ TEST(PackedInputs, TellWhatWasPutInWhateverItIs) {
   }
 }
 
-TEST(PackedInputs, TheFirstAndTheLastTickThereCanBe) {
+TEST(PackedInputs, HoldTheFirstAndTheLastPossibleTick) {
   Random random(1);
   for (const std::int64_t first : {std::int64_t{0}, kTickMax - 64}) {
     Inputs inputs = Driven(255, first + 63, 64, false, &random);
@@ -102,9 +103,9 @@ TEST(PackedInputs, PlayersAscendInAMessage) {
   EXPECT_EQ(Pack(all).size(), 3u);
 }
 
-/// A player of 64 who all drive like bots hears of the others; their newest acknowledged input is
+/// A player in a room of 64 bots receives the others' inputs; their newest acknowledged input is
 /// `behind` ticks old.
-TEST(PackedInputs, SixtyThreePlayersTakeATenthOfWhatTheyTookAsInputs) {
+TEST(PackedInputs, SixtyThreePlayersTakeATenthOfPlainInputs) {
   for (const int behind : {3, 8, 16}) {
     std::size_t plain = 0, packed = 0;
     for (std::int64_t tick = 100; tick < 700; ++tick) {
@@ -142,7 +143,7 @@ void TakeAny(const Bytes& data) {
   }
 }
 
-TEST(PackedInputs, NoBitsDoHarm) {
+TEST(PackedInputs, NoBitPatternDoesHarm) {
   Random random(3);
   for (int round = 0; round < Soak(60); ++round) {
     std::vector<Inputs> all;

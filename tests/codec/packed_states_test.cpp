@@ -1,5 +1,4 @@
-/// Packed states: what arrives is what was told, bit for bit, whatever is lost, late or out of
-/// order; and no bits can do harm.
+/// Packed states arrive bit for bit under loss, delay and reorder; and no bit pattern does harm.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +37,7 @@ std::vector<Told> TellsOf(const std::vector<States>& all) {
   return told;
 }
 
-/// Balls that fly, bounce and are touched now and then, and what a server tells of them.
+/// Balls that fly, bounce and are touched now and then, and a server's States of them.
 class Balls {
  public:
   Balls(std::uint64_t seed, double width) : random_(seed) {
@@ -58,7 +57,7 @@ class Balls {
     }
     if (random_.Chance(0.01)) ++revision_, composition_ = static_cast<std::int64_t>(random_.Next());
   }
-  /// Of `share` of them; each peer has twenty.
+  /// States of a `share` of the balls; each peer has twenty.
   std::vector<States> Tell(double share) {
     std::vector<States> all;
     for (std::size_t first = 0; first < balls_.size(); first += 20) {
@@ -121,7 +120,7 @@ struct Traffic {
   std::size_t bytes = 0, bodies = 0, messages = 0;
 };
 
-/// Sends for so many ticks; expects what arrives to be what was told.
+/// Sends for `ticks`; expects the received states to equal the sent ones.
 Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
   Balls balls(seed, path.width);
   StatesPacker packer(kMotion);
@@ -180,7 +179,7 @@ Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
   return traffic;
 }
 
-TEST(PackedStates, ArriveAsTheyWereToldWhateverThePathDoes) {
+TEST(PackedStates, ArriveAsTheyWereSentOverAnyNetwork) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(4)); ++seed) {
     SCOPED_TRACE(seed);
     Send(seed, Path{}, 200);
@@ -195,7 +194,7 @@ TEST(PackedStates, ArriveAsTheyWereToldWhateverThePathDoes) {
   }
 }
 
-TEST(PackedStates, TheReceiverForgetsWhatNoDifferenceWillBeFrom) {
+TEST(PackedStates, TheReceiverForgetsBaselinesThatAreNoLongerUsed) {
   Balls balls(7, 20);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion);
@@ -219,7 +218,7 @@ TEST(PackedStates, TheReceiverForgetsWhatNoDifferenceWillBeFrom) {
   EXPECT_LT(unpacker.kept(), 6 * bodies) << "of about 60 that were told of each";
 }
 
-TEST(PackedStates, ABodyThatFliesTakesAThirdOfAPlainEntry) {
+TEST(PackedStates, AFlyingBodyTakesAThirdOfAPlainEntry) {
   const Traffic near = Send(1, Path{0, 6, 0, 20, true}, 600);
   EXPECT_LT(static_cast<double>(near.bytes), 21.0 / 3 * static_cast<double>(near.bodies));
   const Traffic never = Send(1, Path{1, 6, 0, 20, true}, 600);
@@ -227,7 +226,7 @@ TEST(PackedStates, ABodyThatFliesTakesAThirdOfAPlainEntry) {
       << "nothing is acknowledged";
 }
 
-/// Takes any bits; what comes of them is valid.
+/// Feeds any bits; the result is valid.
 void TakeAny(const Bytes& data, StatesUnpacker* unpacker) {
   PackedStates packed;
   packed.data = data;
@@ -236,7 +235,7 @@ void TakeAny(const Bytes& data, StatesUnpacker* unpacker) {
   for (const States& states : *all) EXPECT_TRUE(Valid(states));
 }
 
-TEST(PackedStates, NoBitsDoHarm) {
+TEST(PackedStates, NoBitPatternDoesHarm) {
   Balls balls(3, 90);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion), fooled(kMotion);
@@ -273,7 +272,7 @@ TEST(PackedStates, NoBitsDoHarm) {
   }
 }
 
-TEST(PackedStates, WhatWasLostIsAskedForUntilSomethingOfItHasArrived) {
+TEST(PackedStates, ALostStateIsRequestedUntilALaterOneArrives) {
   constexpr std::int64_t kLateUs = 100000;
   Balls balls(5, 20);
   StatesPacker packer(kMotion);
@@ -307,7 +306,7 @@ TEST(PackedStates, WhatWasLostIsAskedForUntilSomethingOfItHasArrived) {
   EXPECT_EQ(lost(6000000), 0u) << "what nobody wants is forgotten";
 }
 
-TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
+TEST(PackedStates, RefusesDifferencesFromABaselineThatNeverCame) {
   Balls balls(5, 20);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion);

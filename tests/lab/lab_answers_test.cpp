@@ -1,4 +1,4 @@
-/// "Your latency and loss: use this": of which scenes it speaks.
+/// "Your latency and loss: use this": the scenes that each answer covers.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace seam {
 namespace lab_answers_test {
 
-TEST(Answers, ASceneInWhichFewMethodsRanSaysNothingOfTheOthers) {
+TEST(Answers, ASceneWithFewMethodsDoesNotJudgeTheOthers) {
   // In wall three methods, fade with the least error; in stack strict alone.
   std::string csv =
       "version,scene,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed,error_rms_m,"

@@ -1,4 +1,4 @@
-/// seam-lab check: each mistake is found where it is, and nothing is found in what is right.
+/// seam-lab check: each mistake is found at its place, and a correct scene has no findings.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ std::string Player(const std::string& name, const std::string& more) {
   return "[[player]]\nname = \"" + name + "\"\n" + more + "\n";
 }
 
-TEST(LabCheck, FindsNothingInWhatIsRight) {
+TEST(LabCheck, FindsNothingInACorrectScene) {
   EXPECT_EQ(Found(std::string(kGround) + kBox), std::vector<std::string>{});
   // Touching, or as far in as two decimals round it.
   EXPECT_EQ(Found(std::string(kGround) + kBox +
@@ -65,7 +65,7 @@ TEST(LabCheck, FindsBodiesThatBeginInOneAnother) {
   const std::string second = "[[part]]\nname = \"other\"\nbox = [1, 1]\nposition = [0.6, 0.5]\n";
   ExpectOne(std::string(kGround) + kBox + second, 8,
             "part 'other' begins 0.40 m inside part 'box'");
-  // What never collides may.
+  // Parts that never collide may overlap.
   EXPECT_EQ(Found(std::string(kGround) + kBox + "group = -1\n" + second + "group = -1\n"),
             std::vector<std::string>{});
 }
@@ -145,7 +145,7 @@ TEST(LabCheck, FindsJointLimitsThatTheJointBeginsOutsideOf) {
             12, "joint 'r': its ends begin 2.00 m apart, the rope is 1 m");
 }
 
-TEST(LabCheck, ACommentThatSaysItIsMeantIsBelieved) {
+TEST(LabCheck, ACommentSuppressesAFinding) {
   const std::string inside = "name = \"box\"\nbox = [1, 1]\nposition = [0, 0.3]\n";
   EXPECT_EQ(Found(std::string(kGround) + "[[part]]  # check: meant\n" + inside),
             std::vector<std::string>{});

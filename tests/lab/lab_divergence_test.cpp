@@ -1,4 +1,4 @@
-/// seam-lab first-divergence: finds the difference that was put there, and none where none is.
+/// seam-lab first-divergence: finds a planted difference, and none between equal logs.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ Recording Session() {
   return cluster.recording();
 }
 
-TEST(FirstDivergence, OfARecordingAndItselfThereIsNone) {
+TEST(FirstDivergence, ARecordingDoesNotDivergeFromItself) {
   const Recording a = Session();
   const Comparison all = CompareViews(a, a, -1, false);
   EXPECT_FALSE(all.first.has_value());
@@ -125,7 +125,7 @@ void CopyLog(const std::string& from, const std::string& to,
   ASSERT_EQ(writer.failures(), 0);
 }
 
-TEST(FirstDivergence, TheProgramSaysWhereAndByHowMuch) {
+TEST(FirstDivergence, TheProgramPrintsThePlaceAndTheAmount) {
   const LabWorkspace files;
   RunCommand command;
   command.settings.scene = "scenes/crossing.toml";

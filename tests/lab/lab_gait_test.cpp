@@ -1,4 +1,4 @@
-/// `seam-lab tune gait`: the search, what an objective may say, and that a run is reproducible.
+/// `seam-lab tune gait`: the search, the values of an objective, and reproducible runs.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(CmaEs, FindsTheEndOfRosenbrocksValley) {
   }
 }
 
-TEST(CmaEs, AValueThatIsNoNumberIsTheWorst) {
+TEST(CmaEs, ANanValueIsTheWorst) {
   const auto half = [](const CmaEs::Point& x) { return x[0] > 1.6 ? NAN : x.squaredNorm(); };
   EXPECT_LT(Least(half, 3, 150, 1), 1e-9);
 }
@@ -127,7 +127,7 @@ TEST_F(LabGait, EachAbilityOfTheFolderIsReadAndItsTrialsRun) {
   }
 }
 
-TEST_F(LabGait, ACharacterWithOtherGainsDoesOtherThings) {
+TEST_F(LabGait, ACharacterWithOtherGainsMovesDifferently) {
   CharacterGains weak;
   weak.torso_stiffness = weak.swing_stiffness = 0.01f;
   const Ability& walk = *FindAbility("walk");

@@ -51,7 +51,7 @@ floor = false
                 ",,strict,,\"delay=50ms,loss=1%,jitter=5ms\",20,script,on,2.5,7");
 }
 
-TEST(Grid, WhatCentralPredictsIsPartOfItsMethodAndOfTheKey) {
+TEST(Grid, ThePredictionOfCentralIsPartOfTheMethodAndTheKey) {
   const LabWorkspace files;
   const Grid grid = GridOf(files,
                            "scenes = \"scenes/crossing.toml\"\n"
@@ -123,7 +123,7 @@ TEST(Grid, DefaultsAreThoseOfRunWithTheScenesOwnDuration) {
   EXPECT_TRUE(grid.floor);
 }
 
-TEST(Grid, MistakesAreSaidBeforeAnythingRuns) {
+TEST(Grid, MistakesAreReportedBeforeAnythingRuns) {
   const LabWorkspace files;
   const std::string scene = "scenes = \"scenes/crossing.toml\"\n";
   for (const char* mistake : {"method = [\"strict\"]",

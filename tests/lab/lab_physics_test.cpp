@@ -1,4 +1,4 @@
-/// seam-lab physics: what is observed of runs whose course is known, and its table.
+/// seam-lab physics: observations of runs with a known course, and its table.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -139,7 +139,7 @@ TEST(Observe, TheScaleOfEnergyIsTheStartsMotionAndAMetresFall) {
   EXPECT_NEAR(EnergyScale(still), mass / 2, 1e-6);
 }
 
-TEST(Trajectory, FreeFallAtTwoRatesDiffersAsTheIntegratorSays) {
+TEST(Trajectory, FreeFallAtTwoRatesDiffersByTheIntegratorsError) {
   // y_n = y0 - g t (t + h)/2: at the same t they differ by g t (h1 - h2)/2.
   const std::string ball = "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 500]\n";
   const auto fall = [&](int hz) {
@@ -236,7 +236,7 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   EXPECT_EQ(unknown[16], "");
 }
 
-TEST(PhysicsPlan, SpendsACasesBudgetOnWhatIsAwake) {
+TEST(PhysicsPlan, SpendsACasesBudgetOnAwakeBodies) {
   const LabWorkspace files;
   const std::string pile =
       "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0.51]\n"
@@ -283,7 +283,7 @@ std::vector<std::vector<std::string>> RowsWithoutCpu(const std::string& table) {
   return rows;
 }
 
-TEST(LabPhysics, KilledItGoesOnToTheSameTableButForTheCpu) {
+TEST(LabPhysics, AKilledRunResumesToTheSameTableExceptForCpu) {
   const LabWorkspace files;
   const auto words = [&](const char* table) {
     return std::vector<std::string>{LabProgram(), "physics", "--cases", "tower-10,scissor-lift",
@@ -315,7 +315,7 @@ TEST(LabPhysics, KilledItGoesOnToTheSameTableButForTheCpu) {
   EXPECT_EQ(files.Read("t.csv").substr(0, kept), part.substr(0, kept)) << "not run again";
 }
 
-TEST(LabPhysics, MistakesAreSaidAndNothingIsWritten) {
+TEST(LabPhysics, MistakesAreReportedAndNothingIsWritten) {
   const LabWorkspace files;
   const auto refused = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {LabProgram(), "physics", "-o", files / "t.csv"};

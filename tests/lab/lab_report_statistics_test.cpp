@@ -1,5 +1,5 @@
-/// The report's arithmetic: tables that were read, medians, fronts, ranges of axes; hand-made, with
-/// answers known beforehand.
+/// The report's arithmetic: CSV tables, medians, fronts and ranges of axes, made by hand with known
+/// answers.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace lab_report_statistics_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What Parse says is wrong with a text.
+/// Returns the error that Parse reports for a text.
 std::string Mistake(const std::string& text) {
   try {
     CsvTable::Parse(text, "t.csv");
@@ -43,7 +43,7 @@ TEST(CsvTable, FindsColumnsByNameAndReadsQuotedFields) {
   EXPECT_FALSE(t.Has("penetration_m"));
 }
 
-TEST(CsvTable, SaysInWhichLineItIsDamaged) {
+TEST(CsvTable, NamesTheDamagedLine) {
   EXPECT_EQ(Mistake("a,b\n1,2\n1,2,3\n"), "t.csv:3: 3 fields, but the header has 2");
   EXPECT_EQ(Mistake("a,b\n1,2\n1,"),
             "t.csv:3: the line has no end: its writer was interrupted, or still writes");
@@ -53,7 +53,7 @@ TEST(CsvTable, SaysInWhichLineItIsDamaged) {
   EXPECT_EQ(Mistake("a,b\n1,2\n"), "nothing");
 }
 
-TEST(CsvTable, RefusesWhatIsNoNumberAndTakesInfinity) {
+TEST(CsvTable, RefusesTextForANumberAndAcceptsInfinity) {
   const CsvTable t = CsvTable::Parse("error\ninf\n1.5x\n-2e-3\n", "t.csv");
   EXPECT_EQ(t.Number(0, "error"), kInfinity);
   EXPECT_EQ(t.Number(2, "error"), -0.002);
@@ -73,7 +73,7 @@ TEST(Quartiles, AreTheNearestRanks) {
   EXPECT_EQ(one->low, 7);
   EXPECT_EQ(one->median, 7);
   EXPECT_EQ(one->high, 7);
-  // Of 1..20: numbers 5, 10 and 15. Of 1..5: ceil(1.25) = 2, ceil(2.5) = 3, ceil(3.75) = 4.
+  // For 1..20: numbers 5, 10 and 15. For 1..5: ceil(1.25) = 2, ceil(2.5) = 3, ceil(3.75) = 4.
   const auto twenty =
       FindQuartiles({20, 1, 19, 2, 18, 3, 17, 4, 16, 5, 15, 6, 14, 7, 13, 8, 12, 9, 11, 10});
   EXPECT_EQ(twenty->low, 5);
@@ -93,13 +93,13 @@ TEST(Quartiles, CountRunsThatFailedAsTheLargest) {
   EXPECT_EQ(q->high, kInfinity);
 }
 
-TEST(ParetoFront, HoldsWhatNothingBeats) {
+TEST(ParetoFront, HoldsEveryTrialThatNoOtherBeats) {
   // (1, 10) and (3, 4) and (8, 1) are on it; (2, 10) costs more for the same, (4, 4) too.
   const std::vector<CostError> trials = {{8, 1}, {2, 10}, {3, 4}, {4, 4}, {1, 10}, {9, 2}, {3, 6}};
   EXPECT_EQ(ParetoFront(trials), (std::vector<std::size_t>{4, 2, 0}));
 }
 
-TEST(ParetoFront, LeavesOutWhatFailedAndKeepsTheFirstOfEquals) {
+TEST(ParetoFront, LeavesOutFailuresAndKeepsTheFirstOfEquals) {
   const std::vector<CostError> trials = {{1, kInfinity}, {2, 3}, {2, 3}, {std::nan(""), 0}, {5, 0}};
   EXPECT_EQ(ParetoFront(trials), (std::vector<std::size_t>{1, 4}));
   EXPECT_TRUE(ParetoFront({{1, kInfinity}}).empty());
@@ -126,14 +126,14 @@ TEST(Range, PutsZeroAndInfinityAtTheEdgesOfALogarithmicAxis) {
   EXPECT_GT(nothing.high, nothing.low);
 }
 
-TEST(Range, OfALinearAxisBeginsAtZeroUnlessThereIsLess) {
+TEST(Range, ALinearAxisBeginsAtZeroUnlessAValueIsNegative) {
   EXPECT_EQ(FindRange({3, 10}, false).low, 0);
   EXPECT_GT(FindRange({3, 10}, false).high, 10);
   EXPECT_LT(FindRange({-1, 10}, false).low, -1);
   EXPECT_GT(FindRange({0, 0}, false).high, 0) << "all values equal";
 }
 
-TEST(Digits, AreThreeThatCount) {
+TEST(Digits, AreThreeSignificantOnes) {
   EXPECT_EQ(Digits(0), "0");
   EXPECT_EQ(Digits(0.0123456), "0.0123");
   EXPECT_EQ(Digits(12.345), "12.3");

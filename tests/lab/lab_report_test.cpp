@@ -1,4 +1,4 @@
-/// seam-lab report: what it makes of tables whose answers are known, and of tables that are wrong.
+/// seam-lab report: its pages from tables with known answers, and from damaged tables.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ const TextTable& TableOf(const Section& section, const std::string& name) {
   throw OperatorError("no table " + name);
 }
 
-TEST(SweepView, FindsWhatWasVariedInsideTheNetworksText) {
+TEST(SweepView, FindsTheVariedValueInTheNetworksText) {
   const Sweep sweep = SweepOf(LatencyCsv());
   EXPECT_EQ(sweep.view.axis.key, "one_way_ms");
   EXPECT_FALSE(sweep.view.axis.ours);
@@ -63,7 +63,7 @@ TEST(SweepView, FindsWhatWasVariedInsideTheNetworksText) {
   EXPECT_NE(sweep.view.fixed.find("loss 2 %"), std::string::npos) << sweep.view.fixed;
 }
 
-TEST(SweepView, NamesASecondThingThatWasVariedWithTheMethod) {
+TEST(SweepView, NamesASecondVariedSettingWithTheMethod) {
   std::string csv = LatencyCsv();
   const std::size_t at = csv.rfind("script,on");  // of strict, 100 ms, seed 3
   csv.replace(at, 9, "script,off");
@@ -73,7 +73,7 @@ TEST(SweepView, NamesASecondThingThatWasVariedWithTheMethod) {
   EXPECT_EQ(view.groups[0].runs.count("strict, smooth on"), 1u);
 }
 
-TEST(SweepView, WhatScenesDifferInByThemselvesWasNotVaried) {
+TEST(SweepView, IgnoresDifferencesBetweenTheScenesThemselves) {
   // Buffers of 1 and 5 m were tried in one scene, 5 m is set in both; substeps are the scenes' own.
   std::string csv = "scene,set,mode,reconcile,impair,drive,seed,substeps,buffer_m,error_rms_m\n";
   csv += "wall,buffer=1,buffer,fade,perfect,script,1,1,1,0.5\n";
@@ -98,7 +98,7 @@ TEST(SweepSection, TabulatesMediansAndQuartiles) {
   EXPECT_NE(table.note.find("floor: 1.0e-06 m"), std::string::npos);
 }
 
-TEST(SweepSection, DrawsEveryMeasureThatIsThereAndNamesThoseThatAreZero) {
+TEST(SweepSection, DrawsEveryPresentMeasureAndListsTheZeroOnes) {
   const Section section = SweepSection(SweepOf(LatencyCsv()));
   const auto* figure = std::get_if<Figure>(&section.items[0]);
   ASSERT_NE(figure, nullptr);
@@ -114,7 +114,7 @@ TEST(SweepSection, DrawsEveryMeasureThatIsThereAndNamesThoseThatAreZero) {
   EXPECT_EQ(fade.points[1].high, 0.006);
 }
 
-TEST(FrontTable, SaysWhoIsOnItAndHowFarTheOthersAre) {
+TEST(FrontTable, NamesTheFrontAndTheDistanceOfTheOthers) {
   // At 10 and 20 Hz: a costs 100 and 200, errs 4 and 2; b costs 150 and 300, errs 6 and 3.
   std::string csv =
       "scene,mode,reconcile,impair,send_hz,drive,duration_s,seed,"
@@ -171,7 +171,7 @@ TEST(Physics, ASettingThatFailedIsOnNoFrontAndIsNotTheCheapest) {
   EXPECT_NEAR(ErrorRatio(*c.scene, *c.stock), 1.0 / 3, 1e-12);
 }
 
-TEST(Physics, TheVerdictSaysWhatWasAchieved) {
+TEST(Physics, TheVerdictComparesErrorAndCost) {
   EXPECT_EQ(Verdict(CaseOf("0.03", "", "0.01", "", "0.9")), "much better, cheaper");
   EXPECT_EQ(Verdict(CaseOf("0.03", "", "0.03", "", "0.9")), "no worse, cheaper");
   EXPECT_EQ(Verdict(CaseOf("0.03", "", "0.01", "", "1.05")), "much better, same cost");
@@ -203,7 +203,7 @@ TEST(Physics, EveryCaseIsInTheTableWithItsFailure) {
   EXPECT_NE(script.find("add ('diverged' "), std::string::npos);
 }
 
-TEST(ReportPage, NothingOfADataFileIsTakenForHtml) {
+TEST(ReportPage, TextOfADataFileIsEscapedForHtml) {
   EXPECT_EQ(EscapeHtml("<b a=\"1\">&'"), "&lt;b a=&quot;1&quot;&gt;&amp;&#39;");
   TextTable table;
   table.header = {"case", "what|ever"};
@@ -212,7 +212,7 @@ TEST(ReportPage, NothingOfADataFileIsTakenForHtml) {
   EXPECT_NE(Markdown(table).find("| \\<script> | a\\|b |"), std::string::npos) << Markdown(table);
 }
 
-TEST(FillIn, ReplacesItsPlacesAndNothingElse) {
+TEST(FillIn, ReplacesOnlyItsMarkedPlaces) {
   TextTable table;
   table.name = "speed";
   table.header = {"scene", "×"};
@@ -232,7 +232,7 @@ TEST(FillIn, ReplacesItsPlacesAndNothingElse) {
   EXPECT_THROW(FillIn("<!-- report:speed -->\nold\n", "r.md", {&table}, &missing), OperatorError);
 }
 
-TEST(Report, WritesAPageWhoseLinksAllExist) {
+TEST(Report, WritesAPageWithoutDeadLinks) {
   const LabWorkspace files;
   std::filesystem::create_directories(files / "data");
   files.Write("data/latency.csv", LatencyCsv());
@@ -287,7 +287,7 @@ TEST(Report, ADamagedTableIsOneLineAndNothingIsWritten) {
   EXPECT_EQ(nothing.exit_status(), 2);
 }
 
-TEST(Report, TablesOfWhatAWorldCostsAreTakenAsTheyAre) {
+TEST(Report, TablesOfWorldCostsAreCopiedUnchanged) {
   const LabWorkspace files;
   std::filesystem::create_directory(files / "world");
   files.Write("world/water.csv", "method,error (m)\nexact,0.01\n\"voxel, 4\",0.5\n");

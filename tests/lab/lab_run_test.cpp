@@ -1,5 +1,5 @@
-/// seam-lab run: the same settings give the same bytes, in this process and in others, and what is
-/// written is a recording as any other.
+/// seam-lab run: the same settings give the same bytes, in this process and in others, and the
+/// result is an ordinary recording.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(LabRun, TwoProcessesWriteTheSameBytesAsThisOne) {
   }
 }
 
-TEST(LabRun, TheLogIsWhatThePeersPublishedInVirtualTime) {
+TEST(LabRun, TheLogEqualsTheMessagesPublishedInVirtualTime) {
   const LabWorkspace files;
   const RunCommand command = Short(files / "a.lcm");
   EXPECT_EQ(RunLog(command), 0);
@@ -66,7 +66,7 @@ TEST(LabRun, TheLogIsWhatThePeersPublishedInVirtualTime) {
   EXPECT_EQ(read.bus_gaps + read.foreign + read.undecodable + read.skipped_bytes, 0);
   EXPECT_EQ(Measure(read, ComputeOracle(read)).error_rms_m,
             Measure(direct, ComputeOracle(direct)).error_rms_m);
-  // One clock stamps all events, whatever the clocks of the clients say.
+  // One clock stamps all events, independent of the clients' clocks.
   LogReader log(command.log);
   LogEvent event;
   std::int64_t last_us = 0, first_us = -1;
@@ -114,7 +114,7 @@ TEST(LabRun, AnOperatorsMistakeIsOneLineAndWritesNothing) {
   EXPECT_EQ(files.Read("kept.lcm"), "mine");
 }
 
-TEST(LabRun, ANetworkThatLetsNobodyInIsSaid) {
+TEST(LabRun, ReportsANetworkThatLetsNobodyIn) {
   SessionSettings settings;
   settings.scene = "scenes/crossing.toml";
   settings.impair = "loss=100%";

@@ -1,5 +1,5 @@
-/// Numbers of a scene set in its text: what was meant is what the scene then says, and all else
-/// stays as it was.
+/// Settings written into a scene's text: the scene gets the value, and everything else stays
+/// unchanged.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(SceneSettings, ReplaceALineOrAddOne) {
   EXPECT_EQ(With(""), kText);
 }
 
-TEST(SceneSettings, AreWhatTheSceneThenSays) {
+TEST(SceneSettings, AreAppliedToTheScene) {
   const Scene scene = ParseScene(With("buffer=2.5;solver.substeps=3;solver.sleep=false;"
                                       "solver.welds=\"joint\";solver.velocity_iterations=1"),
                                  "test.toml");
@@ -68,7 +68,7 @@ TEST(SceneSettings, AreTheSameInAnyOrderOfTwoAndCanBeSetAgain) {
             "buffer=5;solver.substeps=4");
 }
 
-TEST(SceneSettings, ThatMeanNothingAreRefused) {
+TEST(SceneSettings, AreRefusedWhenMeaningless) {
   for (const char* settings :
        {"buffer", "=5", "buffer=", "buffer=five", "buffer=5;buffer=6", ";", "a.b.c=1", "Buffer=5",
         "buffer=5 # more", "buffer=[", "buffer=5\nsolver = 3", "solver.=1", ".x=1"}) {

@@ -1,5 +1,5 @@
-/// seam-lab sweep: its table is the same whatever the number of jobs and however often it was
-/// interrupted, and its rows are what the other programs measure.
+/// seam-lab sweep: its table is the same for any number of jobs and interruptions, and its rows
+/// equal the measures of the other programs.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ int Complete(const std::string& path) {
   return added;
 }
 
-TEST(SweepTable, CutAnywhereItIsCompletedToTheSameFile) {
+TEST(SweepTable, ATruncatedTableIsCompletedToTheSameFile) {
   const LabWorkspace files;
   const std::string whole = WholeTable();
   for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
@@ -74,7 +74,7 @@ TEST(SweepTable, RowsThatCameLaterStayBehindAtEveryMoment) {
   EXPECT_EQ(files.Read("t.csv"), WholeTable());
 }
 
-TEST(SweepTable, WhatIsNotOfThisSweepIsKept) {
+TEST(SweepTable, KeepsTheFileOfAnotherSweep) {
   const LabWorkspace files;
   const std::string header = std::string(kHeader) + "\n";
   for (const std::string& text :
@@ -89,7 +89,7 @@ TEST(SweepTable, WhatIsNotOfThisSweepIsKept) {
   EXPECT_THROW(SweepTable(files / "no/t.csv", kHeader, 2, kKeys, false), OperatorError);
 }
 
-TEST(Jobs, ResultsComeInOrderWhateverTakesLongest) {
+TEST(Jobs, ResultsComeInOrderDespiteSlowJobs) {
   for (const int jobs : {1, 2, 5}) {
     std::vector<std::string> results;
     RunJobs(
@@ -127,7 +127,7 @@ TEST(Jobs, AnErrorOrACrashOfOneHarmsNoOther) {
             (std::vector<std::string>{"+fine", "-no such thing", "-crashed: Killed", "+fine"}));
 }
 
-TEST(Jobs, StoppedTheyEndAndWhatHadFinishedIsKept) {
+TEST(Jobs, StoppingEndsThemAndKeepsFinishedResults) {
   std::vector<std::size_t> done;
   bool stop = false;
   RunJobs(
@@ -190,7 +190,7 @@ TEST(LabSweep, TheTableIsTheSameForAnyJobsAndAfterAnyInterruption) {
   EXPECT_EQ(whole.rfind(SweepHeader() + "\n" + kLabVersion, 0), 0u);
   EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 9);
   EXPECT_EQ(WithoutCpu(files.Read("two.csv")), WithoutCpu(whole));
-  // Cut in the middle of a row: what was there stays as it was, bytes and all.
+  // Cut in the middle of a row: the existing bytes stay as they were.
   std::size_t rows = 0;  // the header and four rows
   for (int line = 0; line < 5; ++line) rows = whole.find('\n', rows) + 1;
   const std::size_t cut = rows + 100;
@@ -210,7 +210,7 @@ TEST(LabSweep, TheTableIsTheSameForAnyJobsAndAfterAnyInterruption) {
   EXPECT_EQ(WithoutCpu(files.Read("two.csv")), WithoutCpu(files.Read("new.csv")));
 }
 
-TEST(LabSweep, KilledOrStoppedItGoesOnWhereItWas) {
+TEST(LabSweep, AKilledOrStoppedSweepResumes) {
   const LabWorkspace files;
   files.Write("sweep.toml", "scenes = \"scenes/cradle.toml\"\nseeds = {count = 12}\nfloor = false");
   RunWhole(SweepWords(files, "whole.csv", "2"), "12 of 12 rows");
@@ -241,7 +241,7 @@ std::string ColumnOf(const std::string& row, const std::string& column) {
   return "";
 }
 
-TEST(LabSweep, ARowHoldsWhatMeasuringTheSameRunGives) {
+TEST(LabSweep, ARowHoldsTheMeasuresOfItsRun) {
   const LabWorkspace files;
   const Grid grid = GridOf(files, "scenes = \"scenes/crossing.toml\"\nmethods = \"buffer/fade\"");
   const std::string row = SweepRow(grid.points[0], {true, false});

@@ -1,5 +1,5 @@
 /// seam-lab tune and overhead: the cheapest setting of a known problem is found; the core and the
-/// engine alone end alike.
+/// engine alone end in the same state.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST(Tune, FindsTheCheapestOfAMadeUpProblem) {
         const TuneResult result = Tune(problem);
         ASSERT_TRUE(result.best.has_value());
         EXPECT_TRUE(result.complete);
-        // By trying everything.
+        // Finds the least cost by trying everything.
         double least = std::numeric_limits<double>::infinity();
         std::vector<int> rates = {20, 30, 60, 120, 240};
         if (keep_hz) rates = {60};
@@ -95,7 +95,7 @@ TEST(Tune, FindsTheCheapestOfAMadeUpProblem) {
   }
 }
 
-TEST(Tune, WhatCostsLessThanPredictedIsFoundToo) {
+TEST(Tune, FindsASettingThatCostsLessThanPredicted) {
   // Piles that are solved well sleep at once: from 20 iterations on they cost a tenth.
   TuneProblem problem = MadeUpProblem(1.5 / 60, 5);
   problem.measured_cost = [cost = problem.predicted](const Solver& s) {
@@ -117,7 +117,7 @@ TEST(Tune, WhatCostsLessThanPredictedIsFoundToo) {
   EXPECT_EQ(best.solver.tick_hz * best.solver.substeps, 60);
 }
 
-TEST(Tune, OneOddTimingDoesNotDecide) {
+TEST(Tune, OneOutlierTimingDoesNotDecide) {
   TuneProblem problem = MadeUpProblem(1.5 / 60, 1);
   bool odd = true;
   problem.measured_cost = [&odd, cost = problem.measured_cost](const Solver& s) {
@@ -131,7 +131,7 @@ TEST(Tune, OneOddTimingDoesNotDecide) {
   EXPECT_EQ(result.trials[*result.best].solver.velocity_iterations, 1);
 }
 
-TEST(Tune, TriesExactAndIterativeJointsWhereThereAreJoints) {
+TEST(Tune, TriesExactAndIterativeJointsIfTheSceneHasJoints) {
   TuneProblem problem = MadeUpProblem(1.5 / 60, 1);
   problem.jointed = true;
   problem.run = [run = problem.run](Trial* trial) {
@@ -161,7 +161,7 @@ TEST(Tune, ItsFrontFallsInErrorAsItRisesInCost) {
   EXPECT_EQ(std::count(result.front.begin(), result.front.end(), *result.best), 1);
 }
 
-TEST(Tune, SaysWhenNothingReachesIt) {
+TEST(Tune, ReportsWhenNothingReachesTheTarget) {
   const TuneResult none = Tune(MadeUpProblem(1e-9, 1));
   EXPECT_FALSE(none.best.has_value());
   EXPECT_TRUE(none.complete);
@@ -194,7 +194,7 @@ TEST(LabTune, PrintsLinesToPasteOrThatNoneReachesIt) {
               "position = [0, 20]\n");
   const std::string found =
       OutputOf({"tune", files / "fall.toml", "--error", "0.03", "--keep-hz"}, 0);
-  // The iterations of what touches nothing cost nothing: which of them it names is up to the clock.
+  // Iterations cost nothing without contacts: the clock decides which of them it names.
   EXPECT_NE(found.find("\n[solver]\nsubsteps = 2\nvelocity_iterations = "), std::string::npos)
       << found;
   const std::string none =
@@ -223,7 +223,7 @@ TEST(Overhead, TheCoreAndTheEngineAloneEndAlikeWithTheScenesScripts) {
   EXPECT_NE(pushed.Hash(), left.Hash());
 }
 
-TEST(LabOverhead, WritesARowForEachSceneAndGoesOnWhereItStopped) {
+TEST(LabOverhead, WritesARowForEachSceneAndResumes) {
   const LabWorkspace files;
   OutputOf({"overhead", "scenes/cradle.toml", "-o", files / "o.csv", "--repeats", "1"}, 0);
   const std::string one = files.Read("o.csv");

@@ -27,23 +27,21 @@ Command* DefineRun(Command& app, RunCommand& c) {
   run->Option("--predict", s.predict, "of mode central's clients: own | all (default all)");
   run->Option("--impair", s.impair, "network, both directions: a profile's name or a list");
   run->Option("--seed", s.seed, "of network and bots").Range(0, 1000000000);
-  run->Option("--send-hz", s.send_hz, "state messages per second")
-      .Range(1, kSendHzMax);
+  run->Option("--send-hz", s.send_hz, "state messages per second").Range(1, kSendHzMax);
   run->Option("--duration", s.duration_s, "seconds after tick 0 (0: the scene's own)")
       .Range(0.0, kDurationMax);
   run->Option("--players", s.players, "the first so many join, the others are absent (0: all)")
       .Range(0, kPlayersMax);
-  run->Option("--publish", s.publish,
-                  "of server and clients: all (default), own, none or auto");
+  run->Option("--publish", s.publish, "of server and clients: all (default), own, none or auto");
   run->Option("--drive", s.drive, "script | bot").OneOf({"script", "bot"});
   run->Option("--smooth", c.smooth,
-                  "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
+              "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
       .OneOfOrRange({"on", "off"}, kSmoothRateMin, kSmoothRateMax);
   run->Option("--set", c.set, "KEY=VALUE of the scene: solver.substeps=2 (repeatable)")
       .OneValueEach();
   run->Option("--buffer", c.buffer_m, "width of the buffer zone, m (as --set buffer=M)");
   run->Option("--input-delay", c.input_delay_ticks,
-                  "ticks from an input to its acting (as --set input_delay=N)")
+              "ticks from an input to its acting (as --set input_delay=N)")
       .Range(0, kInputDelayTicksMax);
   run->Switch("--force", c.force, "overwrite the log");
   run->Switch("!--no-floor", c.floor, "do not measure the run and its floor");
@@ -63,8 +61,7 @@ Command* DefineDivergence(Command& app, DivergenceCommand& c) {
       "first-divergence", "where two recordings' views differ first (status 1), or equal (0)");
   divergence->Option("A", c.log_a, "an LCM log").Required();
   divergence->Option("B", c.log_b, "an LCM log of the same scene").Required();
-  divergence->Option("--peer", c.peer, "compare this peer's views alone")
-      .Range(0, 31);
+  divergence->Option("--peer", c.peer, "compare this peer's views alone").Range(0, 31);
   divergence->Switch("--common", c.common, "leave out views that only one of them has");
   return divergence;
 }
@@ -73,8 +70,7 @@ Command* DefineSweep(Command& app, SweepCommand& c) {
   Command* sweep = &app.Add("sweep", "run and measure all combinations of settings");
   sweep->Option("FILE", c.file, "what to vary (TOML; docs/lab.md)").Required();
   sweep->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
-  sweep->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      .Range(1, 256);
+  sweep->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
   sweep->Switch("--force", c.force, "begin the table anew");
   sweep->Switch("--quiet", c.quiet, "no progress line");
   return sweep;
@@ -87,12 +83,10 @@ Command* DefinePhysics(Command& app, PhysicsCommand& c) {
   physics->Option("--seconds", c.seconds, "simulated of SCENES (default: the scene's, 60 most)")
       .Range(0.1, kDurationMax);
   physics->Option("--cases", c.cases, "names (default: all)").CommaSeparated();
-  physics->Option("--grid", c.grid, "quick | report | full")
-      .OneOf({"quick", "report", "full"});
+  physics->Option("--grid", c.grid, "quick | report | full").OneOf({"quick", "report", "full"});
   physics->Option("-o,--output", c.table, "CSV table to write, or to complete");
   physics->Option("--scenes", c.folder, "folder of the hard scenes (default: scenes/hard)");
-  physics->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      .Range(1, 256);
+  physics->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
   physics->Switch("--force", c.force, "begin the table anew");
   physics->Switch("--quiet", c.quiet, "no progress line");
   return physics;
@@ -102,8 +96,7 @@ void DefineTuneGait(Command& tune, TuneGaitCommand& c) {
   Command* gait = &tune.Add("gait", "search a character's gains by CMA-ES");
   gait->Option("OBJECTIVE", c.objective, "what to search (TOML; docs/lab.md)").Required();
   gait->Option("-o,--output", c.output, "gains file to put the result into");
-  gait->Option("--jobs", c.jobs, "trials at a time (default: one a core)")
-      .Range(1, 256);
+  gait->Option("--jobs", c.jobs, "trials at a time (default: one a core)").Range(1, 256);
   gait->Option("--generations", c.generations, "instead of the objective's; 0: tables only")
       .Range(0, 100000);
   gait->Option("--seed", c.seed, "instead of the objective's").Range(0, 1000000);
@@ -113,7 +106,8 @@ Command* DefineTune(Command& app, TuneCommand& c, TuneGaitCommand& gait) {
   Command* tune = &app.Add("tune", "the cheapest solver setting below an error");
   DefineTuneGait(*tune, gait);
   const Flag scene = tune->Option("SCENE", c.scene, "scene file, or the name of a scene");
-  const Flag error = tune->Option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
+  const Flag error =
+      tune->Option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
           .Range(0.0, 1e9);
   tune->RequireWithoutCommand({scene, error});  // not of `tune gait`
   tune->Switch("--keep-hz", c.keep_hz, "leave tick_hz as it is");
@@ -129,8 +123,7 @@ Command* DefineOverhead(Command& app, OverheadCommand& c) {
   Command* overhead = &app.Add("overhead", "what a step costs beside Box2D alone");
   overhead->Option("SCENES", c.scenes, "scene files (default: four of scenes, two hard ones)");
   overhead->Option("-o,--output", c.table, "CSV table to write, or to complete");
-  overhead->Option("--repeats", c.repeats, "of which the least counts")
-      .Range(1, 1000);
+  overhead->Option("--repeats", c.repeats, "of which the least counts").Range(1, 1000);
   overhead->Switch("--force", c.force, "begin the table anew");
   return overhead;
 }
@@ -144,18 +137,15 @@ Command* DefineBenches(Command& app, const char* name, const char* what, BenchCo
 }
 
 Command* DefineFairness(Command& app, FairnessCommand& c) {
-  Command* fairness =
-      &app.Add("fairness", "a mirrored crash between a near and a far player");
+  Command* fairness = &app.Add("fairness", "a mirrored crash between a near and a far player");
   fairness->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
   fairness->Option("--scene", c.scene, "two players' cars that meet (default: headon)");
   fairness->Option("--methods", c.methods, "strict, buffer/fade, ... (default: all)")
       .CommaSeparated();
   fairness->Option("--near", c.near_path, "the near player's network, either way");
   fairness->Option("--far", c.far_path, "the far player's network, either way");
-  fairness->Option("--seeds", c.seeds, "from 1, each both ways round (default: 8)")
-      .Range(1, 1000);
-  fairness->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      .Range(1, 256);
+  fairness->Option("--seeds", c.seeds, "from 1, each both ways round (default: 8)").Range(1, 1000);
+  fairness->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
   fairness->Switch("--force", c.force, "begin the table anew");
   fairness->Switch("--quiet", c.quiet, "no progress line");
   return fairness;
@@ -168,8 +158,7 @@ Command* DefineTitles(Command& app, TitlesCommand& c) {
   titles->Option("--impair", c.networks, "profile's name or list; repeatable (default: 4g)")
       .OneValueEach();
   titles->Option("--seeds", c.seeds, "from 1 (default: 10)").Range(1, 10000);
-  titles->Option("--jobs", c.jobs, "runs at a time (default: one a core)")
-      .Range(1, 256);
+  titles->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
   titles->Switch("--force", c.force, "begin the table anew");
   titles->Switch("--quiet", c.quiet, "no progress line");
   return titles;
@@ -186,8 +175,7 @@ Command* DefineLoad(Command& app, LoadCommand& c) {
   load->Option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
       .Range(0.0, kDurationMax);
   load->Option("--seeds", c.seeds, "from 1 (default: 1)").Range(1, 10000);
-  load->Option("--jobs", c.jobs, "runs at a time (default: 1; more blur CPU times)")
-      .Range(1, 256);
+  load->Option("--jobs", c.jobs, "runs at a time (default: 1; more blur CPU times)").Range(1, 256);
   load->Switch("--force", c.force, "begin the table anew");
   load->Switch("--quiet", c.quiet, "no progress line");
   return load;
@@ -200,8 +188,7 @@ Command* DefineHandOver(Command& app, HandOverCommand& c) {
   hand_over->Option("--players", c.players, "the first so many join (default: all)")
       .Range(0, kPlayersMax);
   hand_over->Option("--impair", c.network, "profile's name or list (default: demo)");
-  hand_over->Option("--drive", c.drive, "script | bot")
-      .OneOf({"script", "bot"});
+  hand_over->Option("--drive", c.drive, "script | bot").OneOf({"script", "bot"});
   hand_over->Option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
       .Range(0.0, kDurationMax);
   hand_over->Option("--seeds", c.seeds, "from 1 (default: 1)").Range(1, 10000);

@@ -68,7 +68,7 @@ void SweepTable::Load(const std::string& text, int key_columns,
     const auto row = whole ? rows.find(fields) : rows.end();
     if (row == rows.end() || Has(row->second)) {
       RefuseTable(path_, "line " + std::to_string(number) +
-                        " is not of this sweep (scene, settings or version differ)");
+                             " is not of this sweep (scene, settings or version differ)");
     }
     lines_[row->second] = line;
     ++count_;

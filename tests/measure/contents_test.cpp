@@ -1,4 +1,4 @@
-/// What is in a log, as --list says it.
+/// The contents of a log, as --list prints them.
 
 #include "common/measure/contents/contents.h"
 
@@ -23,7 +23,7 @@ void ExpectIn(const std::string& text, const std::string& all) {
   EXPECT_NE(all.find(text), std::string::npos) << "no \"" << text << "\" in\n" << all;
 }
 
-TEST(Contents, SayDurationMethodPlayersViewsBodiesAndEvents) {
+TEST(Contents, ListDurationMethodPlayersViewsBodiesAndEvents) {
   const Recording recording = Played();
   const std::string text = FormatContents("a.lcm", recording);
   ExpectIn("a.lcm: crossing, ", text);
@@ -43,7 +43,7 @@ TEST(Contents, SayDurationMethodPlayersViewsBodiesAndEvents) {
   EXPECT_EQ(text.find("damage"), std::string::npos);
 }
 
-TEST(Contents, SayWhatIsMissingAndDamaged) {
+TEST(Contents, ReportMissingAndDamagedData) {
   Recording recording = Played();
   recording.views.erase(2);
   recording.skipped_bytes = 12;
@@ -54,7 +54,7 @@ TEST(Contents, SayWhatIsMissingAndDamaged) {
   ExpectIn("  scene      cannot be read: crossing.toml:1: ", FormatContents("a.lcm", recording));
 }
 
-TEST(Contents, DoNotLetARecordingCommandTheTerminal) {
+TEST(Contents, EscapeControlCharactersOfARecording) {
   Recording recording = Played();
   recording.room.impair = "\033[31mred";
   Event event;

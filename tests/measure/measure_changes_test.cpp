@@ -66,7 +66,7 @@ Edit Insert(const std::string& name, double x, EditCause cause) {
 Edit Push(PartId part) { return Edit(PushEdit{part, {4, 0}}, EditCause::kOutside); }
 Edit Remove(PartId part) { return Edit(RemoveEdit{part}, EditCause::kOutside); }
 
-/// Edits and the tick after whose step they are made.
+/// Edits, each with the tick after which it is made.
 using Timed = std::vector<std::pair<std::int64_t, Edit>>;
 
 View ViewOf(const World& world, int peer) {
@@ -89,7 +89,7 @@ View ViewOf(const World& world, int peer) {
   return view;
 }
 
-/// Two peers who show the same world, in which the edits are made.
+/// Two peers that show the same world, in which the edits are made.
 Recording Simulate(const Timed& edits) {
   Recording recording;
   recording.room.scene_name = "bar";
@@ -119,7 +119,7 @@ Timed Eventful() {
           {50, Remove(kAlone)}};
 }
 
-TEST(MeasureChanges, TheOracleDoesWhatWasDoneFromOutside) {
+TEST(MeasureChanges, TheOracleRepeatsEditsFromOutside) {
   const Recording recording = Simulate(Eventful());
   for (const Oracle& oracle : {ComputeOracle(recording), OracleFromRecording(recording)}) {
     const Measures m = Measure(recording, oracle);
@@ -136,7 +136,7 @@ TEST(MeasureChanges, TheOracleDoesWhatWasDoneFromOutside) {
   }
 }
 
-TEST(MeasureChanges, APartWithinABodyIsWhereTheBodyCarriesIt) {
+TEST(MeasureChanges, APartWithinABodyMovesWithIt) {
   const Oracle oracle = ComputeOracle(Simulate({{90, BreakGlue(EditCause::kOutside)}}));
   // The bar turns about its centre of mass, 0.5 m from the heavy box: 2 kg at 0, 1 kg at 1.5 m.
   for (const std::int64_t tick : {0, 10, 55, 89}) {
@@ -155,7 +155,7 @@ TEST(MeasureChanges, APartWithinABodyIsWhereTheBodyCarriesIt) {
   EXPECT_TRUE(oracle.SameBody(89, 90, kAlone));
 }
 
-TEST(MeasureChanges, WhatPhysicsBreaksTheOracleMustFindByItself) {
+TEST(MeasureChanges, TheOracleFindsBreaksByPhysicsItself) {
   // Nothing pulls at the glue: the oracle keeps it, and says where the parts of the bar are.
   const Recording recording = Simulate({{40, BreakGlue(EditCause::kPhysics)}});
   const Oracle oracle = ComputeOracle(recording);
@@ -167,7 +167,7 @@ TEST(MeasureChanges, WhatPhysicsBreaksTheOracleMustFindByItself) {
   EXPECT_NEAR(m.error_max_m, std::hypot(std::cos(turned) - 1, std::sin(turned) - 3 * t), 0.02);
 }
 
-TEST(MeasureChanges, PartsThatCameAreKnownByTheirNames) {
+TEST(MeasureChanges, InsertedPartsAreMatchedByTheirNames) {
   const Recording recording = Simulate({{10, Insert("debris", -3, EditCause::kPhysics)},
                                         {20, Insert("crate", 3, EditCause::kOutside)},
                                         {60, Remove(kFirstNew + 1)}});
@@ -237,7 +237,7 @@ TEST(MeasureChanges, ASessionUnderLossLosesNoBody) {
   EXPECT_LT(m.error_max_m, 1.5);
 }
 
-TEST(MeasureChanges, ARevisionIsTheSameHoweverOftenItIsAskedFor) {
+TEST(MeasureChanges, ARevisionIsTheSameAtEveryRequest) {
   std::vector<Edit> edits;
   for (int i = 0; i < 300; ++i) {  // more than are kept
     edits.push_back(Insert("n" + std::to_string(i), i, EditCause::kOutside));

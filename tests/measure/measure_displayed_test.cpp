@@ -1,5 +1,5 @@
-/// Penetration, joint drift, energy gain, jitter at rest and the two sides of a hand-over, of
-/// recordings made by hand whose answers are known.
+/// Penetration, joint drift, energy gain, jitter at rest and the two sides of a hand-over, in
+/// recordings made by hand with known answers.
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ TEST(Displayed, JointDriftIsTheWorstOfAnyTick) {
   EXPECT_NEAR(m.oracle_joint_drift_m.value(), 0, 1e-5);
 }
 
-TEST(Displayed, EnergyGainIsWhatTheOracleNeverHadAroundThen) {
+TEST(Displayed, EnergyGainIsTheExcessOverTheOraclesMaximumNearby) {
   Recording run = WithScene(MakeRecording(2, 200, Lying()));
   const Oracle oracle = MakeOracle(200, Lying());
   EXPECT_EQ(Measure(run, oracle).energy_gain_j.value(), 0);
@@ -109,7 +109,7 @@ TEST(Displayed, EnergyGainIsWhatTheOracleNeverHadAroundThen) {
   EXPECT_EQ(Measure(run, oracle).energy_gain_j.value(), 0);
 }
 
-TEST(Displayed, ALateBlowOrAnInputIsNoGainOfEnergyButABlowThatNeverEndsIs) {
+TEST(Displayed, ALateImpactOrInputIsNoEnergyGainButAnEndlessImpactIs) {
   // 8 J at tick 0, lost at tick 64 in the oracle; a run shows it later.
   const auto stopped_at = [](std::int64_t stop) {
     return [=](std::int64_t tick) { return State(0, 0.5, tick < stop ? 4 : 0, 0); };
@@ -131,7 +131,7 @@ TEST(Displayed, ALateBlowOrAnInputIsNoGainOfEnergyButABlowThatNeverEndsIs) {
       0);
 }
 
-TEST(Displayed, WithoutASceneItsBodiesOrItsJointsNothingIsClaimed) {
+TEST(Displayed, ReportsNothingWithoutASceneItsBodiesOrItsJoints) {
   const Oracle oracle = MakeOracle(100, Lying());
   const Measures none = Measure(MakeRecording(1, 100, Lying()), oracle);
   EXPECT_FALSE(none.penetration_m || none.joint_drift_m || none.energy_gain_j);
@@ -194,7 +194,7 @@ Recording HandedOver(std::int64_t at, std::int64_t gap) {
   return run;
 }
 
-TEST(Handover, ComparesTheOldAndTheNewAuthorityWhenTheNewOneTakesUp) {
+TEST(Handover, ComparesTheOldAndTheNewAuthorityAtTheHandOver) {
   for (const std::int64_t gap : {0, 5}) {
     Recording run = HandedOver(100, gap);
     Measures right;
@@ -222,7 +222,7 @@ TEST(Handover, WithoutAChangeOfAuthorityHasNoGap) {
 
 // ---- floor and cost
 
-TEST(Floor, OfBodiesThatFallAloneIsTheNudgeOfOneAmongAll) {
+TEST(Floor, EqualsTheNudgeOfOneBodyAmongFreelyFallingOnes) {
   Recording run;
   run.room.tick_hz = kHz;
   run.room.scene_name = "fall";
@@ -243,7 +243,7 @@ TEST(Floor, OfBodiesThatFallAloneIsTheNudgeOfOneAmongAll) {
   EXPECT_GT(ErrorFloor(run, ComputeOracle(run)), 1);
 }
 
-TEST(Cost, WhatClientsSendIsAlsoToldApart) {
+TEST(Cost, ReportsTheBytesThatClientsSendSeparately) {
   Recording run = MakeRecording(3, 10, Moving(2));
   for (int peer = 0; peer < 3; ++peer) {
     Stats begin, end;

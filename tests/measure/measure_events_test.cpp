@@ -1,4 +1,4 @@
-/// Rebound, rest, hand-over and cost of recordings made by hand whose answers are known.
+/// Rebound, rest, hand-over and cost in recordings made by hand with known answers.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TEST(Rebound, IsTheShareOfTheMomentumThatArrived) {
   }
 }
 
-TEST(Rebound, ALateBlowIsStillTheWholeBlow) {
+TEST(Rebound, ALateImpactCountsInFull) {
   const Oracle oracle = MakeOracle(200, Struck(4));
   const auto rebound = Rebound(MakeRecording(1, 200, Struck(4, 13)), oracle, {{3, 1}}, 10);
   EXPECT_DOUBLE_EQ(rebound.value(), 1);
@@ -55,7 +55,7 @@ TEST(Rebound, OnlyTheChangeCountsNotTheMotionBefore) {
   EXPECT_DOUBLE_EQ(Rebound(run, oracle, {{3, 1}}, 0).value(), 0.5);
 }
 
-TEST(Rebound, BlowsBeforeTheWatchedTickAreNotMeant) {
+TEST(Rebound, IgnoresImpactsBeforeTheWatchedTick) {
   const Path twice = [](std::int64_t tick) {
     return State(0, 0, tick < 20 ? 0 : tick < 100 ? 50 : 54, 0);
   };
@@ -66,7 +66,7 @@ TEST(Rebound, BlowsBeforeTheWatchedTickAreNotMeant) {
   EXPECT_DOUBLE_EQ(Rebound(MakeRecording(1, 200, half), oracle, {{3, 1}}, 60).value(), 0.5);
 }
 
-TEST(Rebound, WithoutACollisionOrItsEndThereIsNone) {
+TEST(Rebound, IsUnknownWithoutACollisionOrItsEnd) {
   const Oracle still = MakeOracle(200, Struck(0));
   EXPECT_FALSE(Rebound(MakeRecording(1, 200, Struck(0)), still, {{3, 1}}, 0).has_value());
   const Oracle oracle = MakeOracle(200, Struck(4));
@@ -106,7 +106,7 @@ TEST(Rest, AgreementThatDoesNotLastDoesNotCount) {
   EXPECT_FALSE(RestTicks(run, oracle).has_value());
 }
 
-TEST(Rest, IsUnknownWhenTheOracleNeverRestsOrNobodyElseLooks) {
+TEST(Rest, IsUnknownIfTheOracleNeverRestsOrThereIsOneView) {
   EXPECT_FALSE(RestTicks(MakeRecording(2, 300, Moving(1)), MakeOracle(300, Moving(1))).has_value());
   const Oracle oracle = MakeOracle(300, Stopping(100));
   EXPECT_FALSE(RestTicks(MakeRecording(1, 300, Stopping(100)), oracle).has_value());

@@ -1,4 +1,4 @@
-/// Penetration, joint drift and energy of states whose answers are known by hand.
+/// Penetration, joint drift and energy of states with answers known by hand.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ std::string Body(const std::string& name, const std::string& rest) {
 
 constexpr double kRound = 1e-6;  // the scenes' numbers are floats, m
 
-TEST(Overlap, OfTwoBoxesIsTheShortestWayOut) {
+TEST(Overlap, TwoBoxesOverlapByTheShortestWayOut) {
   const auto boxes = [](const std::string& second) {
     return Meters(Body("a", "box = [2, 1]") + Body("b", "box = [1, 1]\n" + second)).Deepest();
   };
@@ -62,7 +62,7 @@ TEST(Overlap, OfTwoBoxesIsTheShortestWayOut) {
   EXPECT_EQ(boxes("angle = 0.785398163\nposition = [1.4, 0.9]"), 0);
 }
 
-TEST(Overlap, OfCirclesIsExactOutsideAndInside) {
+TEST(Overlap, CirclesAreExactOutsideAndInside) {
   const std::string a = Body("a", "circle = 0.5");
   EXPECT_NEAR(Meters(a + Body("b", "circle = 1\nposition = [0.9, 1.2]")).Deepest(), 0, kRound);
   EXPECT_NEAR(Meters(a + Body("b", "circle = 1\nposition = [0.6, 0.8]")).Deepest(), 0.5, kRound);
@@ -76,7 +76,7 @@ TEST(Overlap, OfCirclesIsExactOutsideAndInside) {
   EXPECT_NEAR(in_box("[1.5, 0.25]"), 1.0, kRound);   // its centre inside
 }
 
-TEST(Overlap, OfCapsulesIsTheirRimsAroundTheirMiddleLines) {
+TEST(Overlap, CapsulesOverlapByTheirRadiiAroundTheirCentreLines) {
   const std::string lying = Body("a", "capsule = [2, 0.5]");
   const auto with = [&](const std::string& other) {
     return Meters(lying + Body("b", other)).Deepest();
@@ -119,7 +119,7 @@ TEST(Overlap, PolygonsCountEitherWayRoundAndBeneathATurnedRoot) {
   EXPECT_EQ(m.overlap.Deepest(turned), 0);
 }
 
-TEST(Overlap, OfThingsThatDoNotCollideIsNone) {
+TEST(Overlap, BodiesThatDoNotCollideDoNotOverlap) {
   const std::string at = "box = [1, 1]\n";
   EXPECT_EQ(Meters(Body("a", at + "group = -3") + Body("b", at + "group = -3")).Deepest(), 0);
   EXPECT_EQ(Meters(Body("a", at + "group = 3") + Body("b", at + "group = 3")).Deepest(), 1);
@@ -180,7 +180,7 @@ TEST(Overlap, FarBelowTerrainAndBeyondItsEndsIsOpen) {
   EXPECT_EQ(InTerrain("box = [0.5, 0.5]\nposition = [-10.3, -0.3]"), 0);
 }
 
-TEST(Overlap, OfManyIsTheDeepestOfAllPairs) {
+TEST(Overlap, IsTheDeepestOfAllPairs) {
   Random random(20);
   for (const double height : {2.0, 40.0}) {  // a sweep along x, and one along y
     std::vector<std::string> bodies;
@@ -207,7 +207,7 @@ TEST(Overlap, OfManyIsTheDeepestOfAllPairs) {
   }
 }
 
-TEST(Overlap, OfWhatIsNotFiniteIsInfinite) {
+TEST(Overlap, IsInfiniteForANonFiniteState) {
   const Meters m(Body("a", "box = [1, 1]") + Body("b", "box = [1, 1]\nposition = [5, 0]"));
   std::vector<BodyState> states = m.Start();
   states[1].position.x() = std::nanf("");
@@ -231,7 +231,7 @@ double DriftAfter(const std::string& text, const Vec2& shift, float turn = 0) {
   return m.joints.Worst(states);
 }
 
-TEST(JointDrift, IsHowFarTheAnchorsAreApart) {
+TEST(JointDrift, IsTheDistanceBetweenTheAnchors) {
   const std::string pin = TwoBoxes() +
                           "[[joint]]\nname = \"j\"\nkind = \"revolute\"\na = \"a\"\nb = \"b\"\n"
                           "anchor = [2, 2]\n";
@@ -245,14 +245,14 @@ TEST(JointDrift, IsHowFarTheAnchorsAreApart) {
   EXPECT_NEAR(DriftAfter(to_ground, {0, -0.25f}), 0.25, kRound);
 }
 
-TEST(JointDrift, OfWeldsCountsOnlyWhereTheyAreJoints) {
+TEST(JointDrift, CountsWeldsOnlyWhereTheyAreJoints) {
   const std::string weld =
       TwoBoxes() + "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\n";
   EXPECT_NEAR(DriftAfter("[solver]\nwelds = \"joint\"\n" + weld, {0.3f, 0.4f}), 0.5, kRound);
   EXPECT_EQ(DriftAfter(weld, {0.3f, 0.4f}), 0);  // one body
 }
 
-TEST(JointDrift, OfAWheelIsAcrossItsAxisUnlessItIsRigid) {
+TEST(JointDrift, IsAcrossTheAxisOfAWheelUnlessItIsRigid) {
   const std::string wheel = TwoBoxes() +
                             "[[joint]]\nname = \"j\"\nkind = \"wheel\"\na = \"a\"\nb = \"b\"\n"
                             "axis = [3, 4]\n";
@@ -261,7 +261,7 @@ TEST(JointDrift, OfAWheelIsAcrossItsAxisUnlessItIsRigid) {
   EXPECT_NEAR(DriftAfter(wheel, {0.3f, 0.4f}), 0.5, kRound);
 }
 
-TEST(JointDrift, OfARigidDistanceIsItsStretchOfASpringNone) {
+TEST(JointDrift, IsTheStretchOfARigidDistanceAndZeroForASpring) {
   const std::string rod =
       TwoBoxes() + "[[joint]]\nname = \"j\"\nkind = \"distance\"\na = \"a\"\nb = \"b\"\n";
   EXPECT_NEAR(DriftAfter(rod, {0.25f, 0}), 0.25, kRound);
@@ -307,7 +307,7 @@ TEST(Energy, SpringsStoreHalfTheStiffnessTimesTheStretchSquared) {
   EXPECT_NEAR(stored("kind = \"wheel\"\naxis = [0, 1]", {0.3f, 0.5f}), stiffness / 8, 1e-4);
 }
 
-TEST(Energy, IsTheWorldsOwnWhereThereAreNoSprings) {
+TEST(Energy, EqualsTheWorldsEnergyWithoutSprings) {
   const Scene scene = LoadScene("scenes/wall.toml");
   Scene without = scene;
   for (Joint& joint : without.joints) joint.frequency_hz = 0;
@@ -319,7 +319,7 @@ TEST(Energy, IsTheWorldsOwnWhereThereAreNoSprings) {
   EXPECT_NEAR(meter.Of(states), world.Energy(), 1e-6 * std::abs(world.Energy()));
 }
 
-TEST(Energy, OfABouncingSpringIsKeptByTheWorld) {
+TEST(Energy, IsConservedForABouncingSpring) {
   const Meters m("gravity = [0, -10]\n[solver]\ntick_hz = 960\nsubsteps = 8\n" +
                  Body("roof", "box = [1, 1]\nposition = [0, 4]\nanchored = true") +
                  Body("bob", "box = [1, 1]\n") +

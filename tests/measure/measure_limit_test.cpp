@@ -1,4 +1,5 @@
-/// The two oracles, and the information limit: what nobody could know of the others' inputs.
+/// The two oracles, and the information limit: the error that no method can avoid without the
+/// others' inputs.
 
 #include <gtest/gtest.h>
 
@@ -73,7 +74,7 @@ Recording Drive(std::int64_t bob_until, std::int64_t late_us) {
   return recording;
 }
 
-/// How many ticks are not known, at each of the ticks from 40 on.
+/// Numbers of unknown ticks, at each of the ticks from 40 on.
 std::set<std::int64_t> Ages(const Recording& recording, int of, int at) {
   const KnownInputs known = FindKnownInputs(recording);
   std::set<std::int64_t> ages;
@@ -85,7 +86,7 @@ std::set<std::int64_t> Ages(const Recording& recording, int of, int at) {
 
 using OfTicks = std::set<std::int64_t>;
 
-TEST(KnownInputs, AreAsOldAsTheWayToTheServerAndTheWayFromIt) {
+TEST(KnownInputs, AreAsOldAsTheDelayToAndFromTheServer) {
   for (const int ticks : {0, 3, 12}) {
     const Recording recording = Drive(200, ticks * kTickUs);
     ASSERT_EQ(FindKnownInputs(recording).size(), 2u);
@@ -101,9 +102,9 @@ TEST(KnownInputs, AreNoneBeforeTheFirstCame) {
   EXPECT_EQ(known[6], 0);
 }
 
-TEST(KnownInputs, CountHowFarAClientRunsAheadAsTheRoundTripTells) {
-  // The input of tick t is there two ticks before the server makes t, after four ticks on the way:
-  // the clients are six ticks ahead. What comes back after four is for a screen of ten ticks later.
+TEST(KnownInputs, IncludeTheClientsLeadDerivedFromTheRoundTrip) {
+  // The input of tick t arrives two ticks before the server makes t, after four ticks of delay: the
+  // clients are six ticks ahead. A state received after four more is displayed ten ticks later.
   Recording recording = Drive(200, -2 * kTickUs);
   for (const int peer : {1, 2}) {
     Stats stats;
@@ -114,7 +115,7 @@ TEST(KnownInputs, CountHowFarAClientRunsAheadAsTheRoundTripTells) {
   EXPECT_EQ(Ages(recording, 1, 0), OfTicks{8});
 }
 
-TEST(KnownInputs, HoldWhatIsWaitedForTheNextMessage) {
+TEST(KnownInputs, AgeWhileWaitingForTheNextMessage) {
   Recording recording = Drive(200, 3 * kTickUs);
   auto& bob = recording.inputs[1];  // only every fourth tick is said, with all before it
   for (auto piece = bob.begin(); piece != bob.end();) {
@@ -131,7 +132,7 @@ TEST(KnownInputs, AreUnknownWithoutTheServersViews) {
   EXPECT_FALSE(InformationLimit(recording).has_value());
 }
 
-TEST(InformationLimit, IsExactlyZeroWhereWhatWasHeldWasRight) {
+TEST(InformationLimit, IsExactlyZeroIfTheHeldInputsWereRight) {
   EXPECT_EQ(InformationLimit(Drive(-1, 0)).value(), 0);  // bob never drives, and all is known
   Recording recording = Drive(200, 6 * kTickUs);
   recording.inputs.erase(0);  // ann does nothing at all, and her inputs are not on record
@@ -141,9 +142,9 @@ TEST(InformationLimit, IsExactlyZeroWhereWhatWasHeldWasRight) {
   EXPECT_EQ(InformationLimit(recording).value(), 0);
 }
 
-TEST(InformationLimit, IsWhatTheUnknownInputsDoInTheTicksTheyAreUnknown) {
-  // A sled of 1 kg under 10 N that for n ticks of 1/60 s is wrongly held to be driven, or not to
-  // be, is h^2 10 n(n+1)/2 beside. Both begin unseen; ann holds bob's for driven after he let go.
+TEST(InformationLimit, IsTheEffectOfTheInputsWhileTheyAreUnknown) {
+  // A sled of 1 kg under 10 N that is wrongly assumed to be driven, or not, for n ticks of 1/60 s
+  // errs by h^2 10 n(n+1)/2. Both begin unseen; ann assumes bob's to be driven after he let go.
   const auto expected = [](std::int64_t until, std::int64_t age) {
     double sum = 0;
     int count = 0;
@@ -166,7 +167,7 @@ TEST(InformationLimit, IsWhatTheUnknownInputsDoInTheTicksTheyAreUnknown) {
               2e-3 * expected(95, 24));
 }
 
-TEST(InformationLimit, FindsASinglePressWhereverItFalls) {
+TEST(InformationLimit, FindsASinglePressAtAnyTick) {
   // A press is unknown for twelve ticks: one in ten ticks would see it once or not at all.
   std::string scene = kSleds;
   const std::string bob = "vehicle = \"b\"";
@@ -195,7 +196,7 @@ TEST(InformationLimit, NeedsASecondPlayer) {
   EXPECT_FALSE(InformationLimit(recording).has_value());
 }
 
-TEST(InformationLimit, OfAScriptedCrashIsFarBelowTheErrorsOfAMethod) {
+TEST(InformationLimit, IsFarBelowAMethodsErrorsInAScriptedCrash) {
   ClusterConfig config;
   config.scene = "crossing";
   config.mode = "strict";
@@ -205,7 +206,7 @@ TEST(InformationLimit, OfAScriptedCrashIsFarBelowTheErrorsOfAMethod) {
   EXPECT_LT(limit, 0.1 * Measure(recording, ComputeOracle(recording)).error_rms_m);
 }
 
-TEST(Oracles, OnlyRulesThatGoBackAreJudgedByTheOneWithBarriers) {
+TEST(Oracles, OnlyReplayingRulesAreJudgedByTheOracleWithBarriers) {
   Room room;
   room.send_hz = 20;
   room.tick_hz = 60;
@@ -223,7 +224,7 @@ TEST(Oracles, OnlyRulesThatGoBackAreJudgedByTheOneWithBarriers) {
   }
 }
 
-TEST(Oracles, BarriersChangeNothingForWhatIsFreeAndMetresOfAChaoticWall) {
+TEST(Oracles, BarriersDoNotMoveFreeBodiesButMoveAChaoticWall) {
   const Recording sleds = Drive(95, 0);
   EXPECT_EQ(
       OracleDistance(sleds, ComputeOracle(sleds), ComputeOracle(sleds, WithBarriers(sleds.room))),
@@ -238,7 +239,7 @@ TEST(Oracles, BarriersChangeNothingForWhatIsFreeAndMetresOfAChaoticWall) {
   EXPECT_EQ(OracleDistance(wall, rebuilt, ComputeOracle(wall, WithBarriers(wall.room))), 0);
 }
 
-TEST(Oracles, LookForAContactOfTwoPlayersWhereTheSceneExpectsOne) {
+TEST(Oracles, SearchForAContactOfTwoPlayersIfTheSceneExpectsOne) {
   Recording recording = Drive(0, 0);  // ann drives into bob's sled, which stands
   EXPECT_FALSE(ComputeOracle(recording).contact.has_value()) << "nobody asked";
   recording.room.scene_text = "expect = 'contact'\n" + std::string(kSleds);

@@ -1,5 +1,4 @@
-/// The computed oracle does what the recording says was done, to the bit; and seam-measure as a
-/// program.
+/// The computed oracle repeats the recorded session to the bit; and seam-measure as a program.
 
 #include <gtest/gtest.h>
 
@@ -101,7 +100,7 @@ Input Drive(int drive, int buttons) {
   return input;
 }
 
-/// What ann did: full speed, then a kick while she brakes.
+/// Ann's inputs: full speed, then a kick while she brakes.
 Input InputAt(std::int64_t tick) {
   if (tick < 10) return Drive(0, 0);
   if (tick < 20) return Drive(127, 0);
@@ -230,7 +229,7 @@ class MeasureProgram : public ::testing::Test {
     WriteLog(run, log_.path());
   }
 
-  /// Runs it; what it wrote is in output_. Returns the exit status.
+  /// Runs it; its output is in output_. Returns the exit status.
   int Run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), program_);
     ChildProcess child(arguments);

@@ -60,7 +60,7 @@ Recording Pressed() {
   return run;
 }
 
-/// What a screen has of the puck at a tick.
+/// The puck's pose on a screen at a tick.
 using Screening = std::function<DoublePose(const Oracle&, std::int64_t)>;
 
 /// The puck as it was `ticks` ago.
@@ -114,27 +114,27 @@ Measures Response(const Screening& own, const Screening& server, const Screening
   return measures;
 }
 
-TEST(Response, TakesOneTickWhereTheOracleIsShownAtOnce) {
+TEST(Response, TakesOneTickIfTheOracleIsShownAtOnce) {
   const Measures m = Response(Past(0), Past(0), Past(0));
   EXPECT_NEAR(m.response_own_ms.value(), 1000 * kH, 0.1);
   EXPECT_NEAR(m.response_server_ms.value(), 1000 * kH, 0.1);
   EXPECT_NEAR(m.response_other_ms.value(), 1000 * kH, 0.1);
 }
 
-TEST(Response, OfAViewOfThePastIsItsDelay) {
+TEST(Response, EqualsTheDelayOfAViewOfThePast) {
   const Measures m = Response(Past(0), Past(6), Past(20));
   EXPECT_NEAR(m.response_server_ms.value(), 7000 * kH, 0.1);
   EXPECT_NEAR(m.response_other_ms.value(), 21000 * kH, 0.1);
 }
 
-TEST(Response, OfAGuessIsTheTimeUntilItIsPutRight) {
+TEST(Response, EqualsTheTimeUntilAGuessIsCorrected) {
   const Measures m = Response(Past(0), Guessed(9), Guessed(25));
   EXPECT_NEAR(m.response_own_ms.value(), 1000 * kH, 0.1);
   EXPECT_NEAR(m.response_server_ms.value(), 10000 * kH, 0.1);
   EXPECT_NEAR(m.response_other_ms.value(), 26000 * kH, 0.1);
 }
 
-TEST(Response, IsOfTheClockNotOfTicks) {
+TEST(Response, CountsClockTimeNotTicks) {
   const Measures m = Response(Past(0), Past(0), Past(4), 50000);
   EXPECT_NEAR(m.response_other_ms.value(), 50 + 5000 * kH, 0.1);
 }
@@ -144,7 +144,7 @@ TEST(Response, AnInputThatActsLaterWasReadEarlier) {
   EXPECT_NEAR(m.response_own_ms.value(), 6000 * kH, 0.1);
 }
 
-TEST(Response, IsNotGivenWhereAScreenNeverAnswersOrThereAreNoTimes) {
+TEST(Response, IsUnknownIfAScreenNeverRespondsOrTimesAreMissing) {
   const Screening straight = [](const Oracle& oracle, std::int64_t tick) {
     return DoublePose({DoublePose(*oracle.At(tick, 0)).position.x(), 0}, 0);
   };
@@ -177,7 +177,7 @@ TEST(Response, InASessionItIsATickOnTheOwnScreenAndTheNetworksDelayOnOthers) {
   }
 }
 
-TEST(Response, AreTheChangesThatWereRecordedEvenlyChosen) {
+TEST(Response, SamplesTheRecordedChangesEvenly) {
   const InputTape tape = TapeOf(Pressed());
   const auto all = ChangesOf(tape, 1, kLast, 100);
   ASSERT_EQ(all.size(), 12u);  // six presses, and the ticks after them

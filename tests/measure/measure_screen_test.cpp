@@ -1,4 +1,4 @@
-/// Point displacement, whose bodies are whose, and what is counted where, with analytic answers.
+/// Point displacement, ownership of bodies and the bodies counted, with analytic answers.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,8 @@ TEST(Extent, AQuarterTurnOfABoxDisplacesItsCornersMost) {
 
 TEST(Extent, TheMaterialOfADiscTurnsThoughItsOutlineDoesNot) {
   const Extent disc = ExtentOf(kDisc);
-  EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 0.2), DoublePose({0, 0}, 0)), std::sin(0.1), 1e-12);
+  EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 0.2), DoublePose({0, 0}, 0)), std::sin(0.1),
+              1e-12);
   EXPECT_NEAR(disc.Displacement(DoublePose({1, 0}, kPi), DoublePose({0, 0}, 0)), 2, 1e-12);
   EXPECT_NEAR(disc.Displacement(DoublePose({0, 0}, 4 * kPi), DoublePose({0, 0}, 0)), 0, 1e-12);
 }
@@ -84,8 +85,8 @@ a = "one"
 b = "ball"
 )");
   EXPECT_NEAR(body.radius(), 4.5, 1e-6);
-  EXPECT_NEAR(body.Displacement(DoublePose({0, 0}, 0.1), DoublePose({0, 0}, 0)), 2 * std::sin(0.05) * 4.5,
-              1e-6);
+  EXPECT_NEAR(body.Displacement(DoublePose({0, 0}, 0.1), DoublePose({0, 0}, 0)),
+              2 * std::sin(0.05) * 4.5, 1e-6);
 }
 
 /// Bodies 3 and 7 of a made recording; 3 is a disc and anna's vehicle.
@@ -123,7 +124,7 @@ Recording InRoom(Recording recording, const char* mode, const std::string& text 
   return recording;
 }
 
-TEST(PointError, TellsOwnFromOthersAndFromTheServersByTheVehicle) {
+TEST(PointError, SeparatesOwnOthersAndServerByTheVehicle) {
   Recording run = InRoom(MakeRecording(3, 100, Moving(2)), "central");
   for (auto& [tick, view] : run.views[0]) view.x[0] += 0.5f;   // the server's
   for (auto& [tick, view] : run.views[1]) view.x[0] += 0.25f;  // anna's own
@@ -134,7 +135,7 @@ TEST(PointError, TellsOwnFromOthersAndFromTheServersByTheVehicle) {
   EXPECT_DOUBLE_EQ(*m.error_others_m, 1 / std::sqrt(3));    // 7 by anna, 3 and 7 by bob
 }
 
-TEST(PointError, JudgesAllMethodsByTheSameBodiesWhoeverHasAuthorityOverThem) {
+TEST(PointError, JudgesAllMethodsByTheSameBodiesUnderAnyAuthority) {
   for (const char* mode : {"buffer", "strict", "central"}) {
     Recording run = InRoom(MakeRecording(3, 100, Moving(2)), mode);
     for (auto& [tick, view] : run.views[2]) {
@@ -156,7 +157,7 @@ TEST(PointError, ADiscThatIsTurnedWronglyIsInErrorThoughItIsInItsPlace) {
   EXPECT_NEAR(*m.error_own_m, std::sin(0.5), 1e-9);
 }
 
-TEST(PointError, OfOthersIsEmptyWithoutClientsAndOfPointsWithoutAScene) {
+TEST(PointError, IsEmptyWithoutClientsAndIgnoresAnglesWithoutAScene) {
   const Measures server = Measure(MakeRecording(1, 10, Moving(2)), MakeOracle(10, Moving(2)));
   EXPECT_FALSE(server.error_others_m || server.error_own_m);
   EXPECT_EQ(server.error_server_m, 0);

@@ -1,4 +1,4 @@
-/// What peers show against what the authority shows, on recordings made by hand.
+/// Compares peers' views with the authority's view, in recordings made by hand.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace seam {
 namespace measure_seam_test {
 
-TEST(Seam, APeerWhoShowsWhatTheAuthorityShowsHasNoneHoweverWrongBothAre) {
+TEST(Seam, APeerThatShowsTheAuthoritysStateHasNoSeamEvenIfBothErr) {
   const Recording run = MakeRecording(3, 100, Moving(2));
   const Measures m = Measure(run, MakeOracle(100, Moving(5)));
   EXPECT_GT(m.error_rms_m, 1);
@@ -43,7 +43,7 @@ TEST(Seam, AJumpOfTheAuthorityShowsInItsFollowers) {
                    0.125 * std::sqrt(41.0 / 202));
 }
 
-TEST(Seam, IsNotMeasuredWhereNobodyFollows) {
+TEST(Seam, IsNotMeasuredWithoutFollowers) {
   EXPECT_FALSE(Measure(MakeRecording(1, 50, Moving(2)), MakeOracle(50, Moving(2))).seam_rms_m);
   // Nor in a tick in which the authority's own view does not claim the body.
   Recording run = MakeRecording(2, 50, Moving(2));

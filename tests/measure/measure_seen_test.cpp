@@ -1,4 +1,5 @@
-/// The age of what is shown, its path, and what a person would notice, of recordings made by hand.
+/// The age of a view, its path, and the faults that a person would notice, in recordings made by
+/// hand.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ Measures Compare(const Path& truth, const Path& shown, std::int64_t last_tick = 
   return Measure(run, MakeOracle(last_tick, truth));
 }
 
-TEST(ViewAge, OfADelayedViewIsItsDelayAndItsPathIsRight) {
+TEST(ViewAge, EqualsTheDelayOfADelayedViewWithTheRightPath) {
   for (const int ticks : {0, 1, 7, 40}) {
     const Measures m = Compare(Delayed(0), [ticks](std::int64_t tick) {
       return Delayed(0)(std::max<std::int64_t>(0, tick - ticks));
@@ -47,13 +48,13 @@ TEST(ViewAge, OfADelayedViewIsItsDelayAndItsPathIsRight) {
   }
 }
 
-TEST(ViewAge, LiesBetweenTicksWhereTheDelayDoes) {
+TEST(ViewAge, LiesBetweenTicksForAFractionalDelay) {
   const Measures m = Compare(Delayed(0), Delayed(0.1));  // 6.4 ticks
   EXPECT_NEAR(*m.view_age_ms, 100, 2);
   EXPECT_LT(*m.path_error_rms_m, 0.001);
 }
 
-TEST(ViewAge, IsTheTurnsWhereABodyOnlyTurns) {
+TEST(ViewAge, ComesFromTheAngleIfABodyOnlyTurns) {
   BodyPath truth(0, 300), shown(0, 300);
   for (std::int64_t tick = 0; tick <= 300; ++tick) {
     const auto turn = [](double t) { return 0.002 * t * t; };
@@ -66,7 +67,7 @@ TEST(ViewAge, IsTheTurnsWhereABodyOnlyTurns) {
   EXPECT_FALSE(FitAge(shown, truth, 0, 100, 131, 64).told);  // a point does not turn
 }
 
-TEST(ViewAge, IsNotToldByWhatStandsOrIsSomewhereElse) {
+TEST(ViewAge, IsUnknownForStandingOrDisplacedBodies) {
   EXPECT_FALSE(Compare(Moving(0), Moving(0)).view_age_ms);
   const Measures m = Compare(Moving(2), [](std::int64_t tick) {
     BodyState state = Moving(2)(tick);
@@ -77,12 +78,12 @@ TEST(ViewAge, IsNotToldByWhatStandsOrIsSomewhereElse) {
   EXPECT_NEAR(*m.path_error_rms_m, 3 / std::sqrt(2), 1e-6);  // one of two bodies
 }
 
-TEST(Seen, NothingIsOfTheOracleItselfNorOfItsDelayedView) {
+TEST(Seen, FindsNothingInTheOracleOrItsDelayedView) {
   EXPECT_EQ(Compare(Delayed(0), Delayed(0)).seen, 0);
   EXPECT_EQ(Compare(Delayed(0), Delayed(0.1)).seen, 0);
 }
 
-TEST(Seen, MillimetresOfNoiseAreNot) {
+TEST(Seen, IgnoresMillimetresOfNoise) {
   const Path noisy = [](std::int64_t tick) {
     BodyState state = Delayed(0)(tick);
     state.position.x() += tick % 2 == 0 ? 0.002f : -0.002f;
@@ -91,7 +92,7 @@ TEST(Seen, MillimetresOfNoiseAreNot) {
   EXPECT_EQ(Compare(Delayed(0), noisy).seen, 0);
 }
 
-TEST(Seen, ASecondInWhichABodyJumpsIsOneOfAllSeconds) {
+TEST(Seen, CountsASecondWithAJumpAmongAllSeconds) {
   // 8 seconds of one moving body; a jump of 0.5 m, in the fourth second, back in the same.
   const Measures m = Compare(
       Moving(2),
@@ -104,7 +105,7 @@ TEST(Seen, ASecondInWhichABodyJumpsIsOneOfAllSeconds) {
   EXPECT_DOUBLE_EQ(*m.seen, 1.0 / 8);
 }
 
-TEST(Seen, ASecondWithoutMotionIsNotCounted) {
+TEST(Seen, DoesNotCountASecondWithoutMotion) {
   const Path late = [](std::int64_t tick) {
     return State(tick < 256 ? 0 : 2 * kH * static_cast<double>(tick - 256), 1);
   };
@@ -127,7 +128,7 @@ TEST(Seen, TheShareOfVelocityFallsOnAPowerOfTheWindow) {
   EXPECT_NEAR(VelocityShare(middle, kH), std::sqrt(0.07), 1e-12);
 }
 
-TEST(Seen, AVelocityThatIsATenthOffForHalfASecondIsAndOneThatIsATwentiethIsNot) {
+TEST(Seen, FindsAVelocityATenthOffForHalfASecondButNotATwentieth) {
   const auto off = [](double share) {
     return Compare(Moving(4),
                    [share](std::int64_t tick) {
@@ -154,7 +155,7 @@ struct Made {
   std::optional<ViewAges> ages;
 };
 
-TEST(Seen, AStopIsOnceItLastsEightyMilliseconds) {
+TEST(Seen, FindsAStopOfEightyMilliseconds) {
   for (const std::int64_t ticks : {5, 6}) {  // 78 and 94 ms
     const Made made(Moving(2), [ticks](std::int64_t tick) {
       return Moving(2)(tick < 100 || tick >= 100 + ticks ? tick : 99);
@@ -165,7 +166,7 @@ TEST(Seen, AStopIsOnceItLastsEightyMilliseconds) {
   EXPECT_TRUE(Stops(standing.Body()).empty());
 }
 
-TEST(Seen, AKinkIsSeenWhereTheTruthHasNone) {
+TEST(Seen, FindsAKinkThatTheOracleLacks) {
   const auto bent = [](double degrees) -> Path {
     return [degrees](std::int64_t tick) {
       const double s = 2 * kH * static_cast<double>(tick - 128), a = degrees * kPi / 180;
@@ -218,7 +219,7 @@ Recording Blow(int peers, std::int64_t delay) {
   return run;
 }
 
-TEST(Seen, AnAnswerThatIsATenthOfASecondLaterThanTheOtherBodysIs) {
+TEST(Seen, FindsAResponseATenthOfASecondAfterTheOtherBodys) {
   for (const std::int64_t delay : {0, 4, 9}) {  // 0, 63, 141 ms
     const Recording run = Blow(2, delay);
     const Oracle oracle = OracleFromRecording(Blow(1, 0));
@@ -227,7 +228,7 @@ TEST(Seen, AnAnswerThatIsATenthOfASecondLaterThanTheOtherBodysIs) {
   }
 }
 
-TEST(Seen, ALinkThatIsStretchedByMoreThanThreeHundredthsIs) {
+TEST(Seen, FindsALinkStretchedByMoreThanThreeHundredths) {
   const std::string jointed = std::string(kBalls) + R"(
 [[joint]]
 kind = "revolute"
@@ -261,7 +262,7 @@ Measures Session(const std::string& scene, const std::string& mode, const std::s
   return Measure(recording, ComputeOracle(recording));
 }
 
-TEST(Seen, NothingIsOfAnOraclesSession) {
+TEST(Seen, FindsNothingInAnOraclesSession) {
   for (const char* scene : {"crossing", "cradle", "ragdolls"}) {
     const Measures m = Session(scene, "oracle", "perfect");
     EXPECT_EQ(m.seen, 0) << scene;
@@ -272,9 +273,11 @@ TEST(Seen, NothingIsOfAnOraclesSession) {
   }
 }
 
-TEST(Seen, TheRubberWallIs) { EXPECT_GT(Session("crossing", "strict", "demo").seen.value(), 0.3); }
+TEST(Seen, FindsTheRubberWall) {
+  EXPECT_GT(Session("crossing", "strict", "demo").seen.value(), 0.3);
+}
 
-TEST(Kinetic, IsTheRatioOfWhatIsShownToTheOracles) {
+TEST(Kinetic, IsTheRatioOfDisplayedToOracleEnergy) {
   Recording run = Blow(2, 0);
   // Peer 1 shows body 3 at one and a half times its speed, and its physics has it at twice.
   for (auto& [peer, views] : run.views) {

@@ -1,4 +1,4 @@
-/// Errors, stutter, backsteps, and tables, of recordings made by hand whose answers are known.
+/// Errors, stutter, backsteps and tables, of recordings made by hand with known answers.
 
 #include <gtest/gtest.h>
 
@@ -145,7 +145,7 @@ TEST(Measure, TicksAndBodiesTheOracleDoesNotHaveAreLeftOut) {
 
 // ---- oracles and tables
 
-TEST(Oracle, OfARecordingNeedsModeOracleAndTheServersViews) {
+TEST(Oracle, FromARecordingNeedsModeOracleAndTheServersViews) {
   Recording run = MakeRecording(2, 10, Moving(2));
   run.room.mode = "buffer";
   EXPECT_THROW((void)OracleFromRecording(run), OperatorError);
@@ -163,7 +163,7 @@ TEST(Oracle, OfARecordingNeedsModeOracleAndTheServersViews) {
   EXPECT_THROW((void)OracleFromRecording(run), OperatorError);
 }
 
-TEST(Oracle, IsOfARecordingOfTheSameSceneAndTickRateOnly) {
+TEST(Oracle, NeedsTheSameSceneAndTickRate) {
   Room truth;
   truth.mode = "oracle";
   truth.scene_name = "wall";
@@ -227,7 +227,7 @@ TEST(Table, HasExactlyTheAgreedColumns) {
   EXPECT_NE(FormatTable({run}, false).find("not valid: no edit"), std::string::npos);
 }
 
-TEST(Table, IsAlignedAndShowsWhatDoesNotApplyAsADash) {
+TEST(Table, IsAlignedAndMarksMissingValuesWithADash) {
   MeasuredRun first, second;
   first.run = "a";
   second.run = "much_longer";

@@ -1,5 +1,5 @@
-/// A log of --publish own is enough to measure by, to draw, and to export: each is compared with
-/// the log of --publish all of the same session in the lab.
+/// A log of --publish own suffices to measure, to draw and to export: each result is compared with
+/// the log of --publish all of the same session.
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ Recording Cut(const Recording& all, const Recording& to) {
   return cut;
 }
 
-TEST_F(PublishOwn, ShowsOfTheSameSessionAPartOfEachViewAndNothingElse) {
+TEST_F(PublishOwn, ShowsOnlyAPartOfEachViewOfTheSameSession) {
   ASSERT_EQ(all_->views.size(), 4u);
   ASSERT_EQ(own_->views.size(), 4u);
   std::size_t shown_all = 0, shown_own = 0;
@@ -103,7 +103,7 @@ TEST_F(PublishOwn, ShowsOfTheSameSessionAPartOfEachViewAndNothingElse) {
   EXPECT_LT(shown_own, shown_all) << "it saves nothing";
 }
 
-TEST_F(PublishOwn, EveryBodyIsInTheViewOfWhoeverHasAuthorityOverIt) {
+TEST_F(PublishOwn, EveryBodyIsInTheViewOfItsAuthority) {
   std::size_t missing = 0, bodies = 0;
   for (const auto& [tick, whole] : all_->views.at(0)) {
     if (tick == 0) continue;  // the clients' first views are of tick 1
@@ -120,7 +120,7 @@ TEST_F(PublishOwn, EveryBodyIsInTheViewOfWhoeverHasAuthorityOverIt) {
   EXPECT_EQ(missing, 0u);
 }
 
-TEST_F(PublishOwn, MeasuresAreThoseOfTheSameBodiesOfAll) {
+TEST_F(PublishOwn, MeasuresEqualThoseOfTheSameBodiesInFullViews) {
   const Oracle oracle = ComputeOracle(*all_, JudgeOf(all_->room));
   const Oracle from_own = ComputeOracle(*own_, JudgeOf(own_->room));
   ASSERT_EQ(from_own.ids, oracle.ids);
@@ -133,12 +133,12 @@ TEST_F(PublishOwn, MeasuresAreThoseOfTheSameBodiesOfAll) {
   EXPECT_EQ(own.error_rms_m, cut.error_rms_m);
   EXPECT_EQ(own.error_max_m, cut.error_max_m);
   EXPECT_EQ(own.stutter_mps2, cut.stutter_mps2);
-  // What a player sees of its own vehicle, and what it costs: all of it is there.
+  // A player's own vehicle and its costs are complete.
   EXPECT_EQ(own.error_own_m, all.error_own_m);
   EXPECT_EQ(own.bytes_per_s, all.bytes_per_s);
 }
 
-TEST_F(PublishOwn, WhatIsNotShownIsSaidByTheListAndByTheExport) {
+TEST_F(PublishOwn, TheListAndTheExportReportMissingBodies) {
   const Scene scene = ParseScene(own_->room.scene_text, "plain.toml");
   EXPECT_TRUE(PartialViews(scene, *all_).empty());
   const auto partial = PartialViews(scene, *own_);

@@ -1,4 +1,4 @@
-/// The page that Prometheus scrapes: answers whom it should, and waits for nobody.
+/// The page that Prometheus scrapes: answers valid requests and waits for nobody.
 
 #include "common/net/http_page.h"
 
@@ -70,7 +70,7 @@ class Peer {
   int fd_;
 };
 
-TEST(HttpPage, AGetBringsThePageWhateverItsLength) {
+TEST(HttpPage, AGetReturnsAPageOfAnyLength) {
   const std::string long_page(3000000, 'x');
   for (const std::string& text : {std::string("seam_tick 7\n"), std::string(), long_page}) {
     Served served(text);
@@ -99,12 +99,12 @@ TEST(HttpPage, OtherMethodsOtherPagesAndNonsenseAreRefused) {
   }
 }
 
-TEST(HttpPage, WhoAsksWithoutEndIsCutOffAndOthersAreAnswered) {
+TEST(HttpPage, CutsOffEndlessRequestsAndAnswersTheOthers) {
   Served served("page");
   Peer endless(served.port());
   endless.Say("GET /" + std::string(2 * HttpPage::kRequestBytesMax, 'a'));
   EXPECT_EQ(endless.Hear(), "");
-  // As many as there are seats say nothing; the next one is answered when their time is over.
+  // As many silent connections as allowed; the next one is answered when their time is over.
   std::vector<std::unique_ptr<Peer>> silent;
   for (std::size_t i = 0; i < HttpPage::kConnectionsMax; ++i) {
     silent.push_back(std::make_unique<Peer>(served.port()));
@@ -115,7 +115,7 @@ TEST(HttpPage, WhoAsksWithoutEndIsCutOffAndOthersAreAnswered) {
   EXPECT_EQ(body, "page");
 }
 
-TEST(HttpPage, NobodyListensAndATakenPortAreOneLineEach) {
+TEST(HttpPage, AnUnreachableAndATakenPortAreOneLineEach) {
   std::string body;
   EXPECT_EQ(FetchPage("127.0.0.1:1", 1000000, &body).why(), "no page at 127.0.0.1:1");
   Served served("");

@@ -9,7 +9,7 @@
 namespace seam {
 namespace keyed_hash_test {
 
-TEST(KeyedHash, IsThePapersExample) {
+TEST(KeyedHash, MatchesThePapersExample) {
   HashKey key;
   for (std::size_t i = 0; i < key.size(); ++i) key[i] = static_cast<std::uint8_t>(i);
   Bytes message;
@@ -19,7 +19,7 @@ TEST(KeyedHash, IsThePapersExample) {
   EXPECT_NE(KeyedHash(key, message), 0xa129ca6149be45e5u);
 }
 
-TEST(Entropy, OfTheSystemDiffersAndOfASeedRepeats) {
+TEST(Entropy, SystemEntropyDiffersAndSeededEntropyRepeats) {
   OsEntropy a, b;
   EXPECT_NE(a.Next(), b.Next());
   EXPECT_NE(a.Next(), a.Next());

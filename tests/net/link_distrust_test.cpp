@@ -1,4 +1,4 @@
-/// Link believes nothing that is not whole; and the pieces it is made of.
+/// Link accepts only whole datagrams; and tests of its parts.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ const Link::Sink kIgnore = [](ByteView) {};
 
 Bytes Text(const std::string& text) { return Bytes(text.begin(), text.end()); }
 
-/// What Flush would send now.
+/// Returns the datagrams that Flush would send now.
 std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
   std::vector<Bytes> datagrams;
   link.Flush(now_us, [&](ByteView d) { datagrams.emplace_back(d.begin(), d.end()); });
@@ -117,7 +117,7 @@ TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
   EXPECT_FALSE(link.Receive(0, Forge({kSession, 9, 0, 0}, Bytes(1177, 1)), kIgnore));  // too long
 }
 
-TEST(Link, NeverDeliversWhatWasNotSentHoweverDatagramsAreMutated) {
+TEST(Link, NeverDeliversMutatedDatagrams) {
   Random random(20240817);
   Link a(kSession), b(kSession);
   std::vector<Bytes> samples;
@@ -150,7 +150,7 @@ TEST(Link, NeverDeliversWhatWasNotSentHoweverDatagramsAreMutated) {
   EXPECT_GT(b.rejected(), kRounds - 100);
 }
 
-TEST(Link, StandsAnyContentThatHasARightChecksum) {
+TEST(Link, SurvivesAnyContentWithARightChecksum) {
   Random random(77);
   Link link(kSession);
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(link.SendReliable(Text("waiting")));
@@ -205,7 +205,7 @@ TEST(SequenceWindow, UnwrapsToTheNearestNumber) {
   EXPECT_EQ(Unwrap(3, 10 * 65536 - 2), 10 * 65536 + 3);
 }
 
-TEST(SequenceWindow, KnowsWhatArrivedAndWhatShareDidNot) {
+TEST(SequenceWindow, RemembersArrivalsAndTheShareOfLosses) {
   SequenceWindow window;
   EXPECT_EQ(window.loss_ppm(), 0);
   for (const std::int64_t number : {10, 11, 13, 12, 19}) {

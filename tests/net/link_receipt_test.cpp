@@ -1,4 +1,4 @@
-/// What a Link knows of the arrival of its unreliable messages.
+/// Receipts of a Link: which unreliable messages have arrived.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
   return datagrams;
 }
 
-TEST(LinkReceipts, TellTheLargestNumberThatArrivedOfEachSlot) {
+TEST(LinkReceipts, ReportTheLargestNumberThatArrivedInEachSlot) {
   Link here(kSession), there(kSession);
   const Bytes message = {1, 2, 3};
   const auto ignore = [](ByteView) {};
@@ -47,7 +47,7 @@ TEST(LinkReceipts, TellTheLargestNumberThatArrivedOfEachSlot) {
   EXPECT_EQ(here.acked(1), 70);
 }
 
-TEST(LinkReceipts, OneMessageMayHaveSeveral) {
+TEST(LinkReceipts, OneMessageMayHaveSeveralReceipts) {
   Link here(kSession), there(kSession);
   const Bytes message = {1, 2, 3};
   here.SendUnreliable(message, {{3, 30}, {0, 7}, {255, 9}});
@@ -61,7 +61,7 @@ TEST(LinkReceipts, OneMessageMayHaveSeveral) {
   EXPECT_EQ(here.acked(1), -1);
 }
 
-TEST(LinkReceipts, SendsSaysWhetherAFlushWouldSend) {
+TEST(LinkReceipts, SendsIsTrueIfAFlushWouldSend) {
   Link link(kSession);
   const Bytes message = {1};
   EXPECT_TRUE(link.Sends(0)) << "the first datagram";

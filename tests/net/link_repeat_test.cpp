@@ -1,4 +1,4 @@
-/// What is repeated before it is late, and that it is bounded.
+/// Speculative duplicates of urgent messages, and their bounds.
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ struct InFlight {
   Bytes datagram;
 };
 
-/// Two ends, ticked at 60 Hz, what is sent 50 ms under way. `lose` says what is lost of what `a`
-/// sends: by the datagrams with messages, from 0.
+/// Two ends, ticked at 60 Hz, with a delay of 50 ms. `lose` selects the losses among `a`'s
+/// datagrams with messages, by number from 0.
 struct Path {
   template <typename Lose>
   void Tick(const Lose& lose) {
@@ -75,7 +75,7 @@ struct Path {
   std::size_t sent_bytes = 0;
 };
 
-TEST(LinkRepeat, WhatIsLostOnceComesThreeTicksLater) {
+TEST(LinkRepeat, AMessageThatIsLostOnceArrivesThreeTicksLater) {
   for (const int losses : {0, 1}) {
     Path path;
     path.Settle();
@@ -90,7 +90,7 @@ TEST(LinkRepeat, WhatIsLostOnceComesThreeTicksLater) {
   }
 }
 
-TEST(LinkRepeat, CopiesAreFewAndCauseNoAnswersOfTheirOwn) {
+TEST(LinkRepeat, CopiesAreFewAndAreNotAcknowledgedSeparately) {
   Path path;
   path.Settle();
   ASSERT_TRUE(path.a.SendUrgent(Text("grant")));
@@ -99,7 +99,7 @@ TEST(LinkRepeat, CopiesAreFewAndCauseNoAnswersOfTheirOwn) {
   EXPECT_LE(path.answers, 3) << "one for the message, and those that come every 100 ms";
 }
 
-TEST(LinkRepeat, CopiesOfMuchTakeABoundedShareOfThePath) {
+TEST(LinkRepeat, CopiesTakeABoundedShareOfThePath) {
   Path path;
   path.Settle();
   std::size_t bytes = 0;
@@ -108,7 +108,7 @@ TEST(LinkRepeat, CopiesOfMuchTakeABoundedShareOfThePath) {
     ASSERT_TRUE(path.a.SendUrgent(Text(text)));
     bytes += FramedBytes(text.size(), true);
   }
-  // Nothing is acknowledged yet: what goes out beyond the messages themselves are copies.
+  // Nothing is acknowledged yet: all further datagrams are copies.
   const int ticks = 8;  // 13 kB take two
   for (int n = 0; n < ticks; ++n) path.Tick([](int) { return true; });
   ASSERT_GE(path.full_datagrams, 11);

@@ -1,4 +1,4 @@
-/// Link delivers what it must, once and in order, over every kind of bad network.
+/// Link delivers reliable messages once and in order over every kind of bad network.
 
 #include "common/net/link.h"
 
@@ -27,14 +27,14 @@ const Link::Sink kIgnore = [](ByteView) {};
 Bytes Text(const std::string& text) { return Bytes(text.begin(), text.end()); }
 std::string ToText(ByteView bytes) { return std::string(bytes.begin(), bytes.end()); }
 
-/// What Flush would send now.
+/// Returns the datagrams that Flush would send now.
 std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
   std::vector<Bytes> datagrams;
   link.Flush(now_us, [&](ByteView d) { datagrams.emplace_back(d.begin(), d.end()); });
   return datagrams;
 }
 
-/// One end of a link: its endpoint, its impairment of what it sends, and what it has heard.
+/// One end of a link: its endpoint, the impairment of its datagrams, and the received messages.
 struct End {
   End(MemoryNetwork& network, const Address& self, const Address& peer,
       const ImpairProfile& profile, std::uint64_t seed)
@@ -121,9 +121,9 @@ TEST(Link, CarriesALargeRoomInChunksBothWaysAtOnceUnderLoss) {
   EXPECT_EQ(pair.b.heard, sent);
 }
 
-/// As many as a holder's hand-overs at their worst: what is lost holds up what comes after it, and
-/// no more than that.
-TEST(Link, ManySmallMessagesASecondDoNotPileUpWhereAQuarterIsLost) {
+/// As many as a holder's hand-overs at their worst: a lost message delays its successors, and no
+/// more than that.
+TEST(Link, ManySmallMessagesDoNotPileUpAtAQuarterLoss) {
   Pair pair("delay=96ms,jitter=16ms,loss=27%");
   const int per_s = 120, ticks = 1200;
   std::vector<double> told_s, late_s;  // by message: when it was said, and how long it took

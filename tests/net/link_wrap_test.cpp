@@ -1,5 +1,5 @@
-/// Sixteen bits on the wire, many more in the session: numbers and ids wrap, nothing is lost or
-/// comes twice.
+/// Sixteen bits on the wire, many more in the session: numbers and ids wrap, and nothing is lost or
+/// delivered twice.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::uint32_t NumberOf(ByteView bytes) {
   return number;
 }
 
-/// A path that loses, doubles and reorders without knowing what it carries.
+/// A path that loses, doubles and reorders datagrams of any content.
 class Path {
  public:
   explicit Path(std::uint64_t seed) : random_(seed) {}
@@ -152,7 +152,7 @@ TEST(LinkWrap, TheWindowKnowsItsEdgesAcrossAWrap) {
   EXPECT_FALSE(window.IsNew(window.Full(static_cast<std::uint16_t>(far + 32'768))));
 }
 
-TEST(LinkWrap, AFirstNumberNearTheEdgeIsAsGoodAsAnyOther) {
+TEST(LinkWrap, AFirstNumberNearTheEdgeWorks) {
   for (const int first : {0, 1, 255, 32767, 32768, 65535}) {
     SequenceWindow window;
     window.Insert(window.Full(static_cast<std::uint16_t>(first)));
@@ -166,7 +166,7 @@ TEST(LinkWrap, AFirstNumberNearTheEdgeIsAsGoodAsAnyOther) {
   }
 }
 
-TEST(Link, WhatItsGateRefusesIsAsIfItHadBeenLost) {
+TEST(Link, ADatagramThatTheGateRefusesCountsAsLost) {
   Link a(kSession), b(kSession);
   ASSERT_TRUE(a.SendReliable(Number(5)));
   std::vector<Bytes> sent;

@@ -1,4 +1,4 @@
-/// The impaired network does each of its effects as told, and does it again for the same seed.
+/// The impaired network has each of its effects, and repeats them for the same seed.
 
 #include <gtest/gtest.h>
 
@@ -186,7 +186,7 @@ TEST(Impair, FrequentAdvancesChangeNothing) {
   EXPECT_EQ(coarse, trace(1000));
 }
 
-TEST(Impair, NothingPassesWhileCutAndWhatWasUnderWayIsLost) {
+TEST(Impair, ACutStopsAllTrafficAndLosesDatagramsInFlight) {
   MemoryNetwork network;
   auto a = network.Attach(kHere), b = network.Attach(kThere);
   const ImpairProfile profile = FindProfile("delay=10ms");

@@ -1,4 +1,4 @@
-/// The named profiles keep the averages that they promise, and specs are read or refused.
+/// The named profiles keep their documented averages, and specs are read or refused.
 
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ TEST(Impair, StarlinkLosesHalfForAMomentEveryFifteenSeconds) {
   EXPECT_LT(lost_in_middle, 80);
 }
 
-TEST(Profiles, AreFoundByNameAndAllHaveALineAbout) {
+TEST(Profiles, AreFoundByNameAndHaveADescription) {
   for (const char* name : {"perfect", "lan", "fibre", "cable", "broadband", "wifi_busy", "4g",
                            "4g_driving", "3g", "starlink", "geo", "terrible", "soak", "corrupt",
                            "lte", "oneway100", "oneway200", "demo"}) {
@@ -131,7 +131,7 @@ TEST(Profiles, AreFoundByNameAndAllHaveALineAbout) {
   EXPECT_EQ(FindProfile("lte").rate_bits_per_s, FindProfile("4g").rate_bits_per_s);
 }
 
-TEST(Profiles, CanBeSpelledOut) {
+TEST(Profiles, CanBeWrittenOut) {
   const ImpairProfile profile = FindProfile(
       "delay=50ms,jitter=500us,loss=1%,reorder=2%:0.03s,duplicate=0.25,corrupt=0.1%,rate=2.5Mb,"
       "burst=1%:50%,spikes=0.1:100ms:600ms");
@@ -150,7 +150,7 @@ TEST(Profiles, CanBeSpelledOut) {
   EXPECT_EQ(profile.spike_max_us, 600'000);
 }
 
-TEST(Profiles, AWrongSpecIsOneLineThatSaysWhatToChange) {
+TEST(Profiles, AWrongSpecIsOneLineThatNamesTheMistake) {
   for (const char* spec : {"nosuch",
                            "",
                            "delay=",

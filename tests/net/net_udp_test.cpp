@@ -44,7 +44,7 @@ std::string ErrorOf(const std::string& address) {
   return "";
 }
 
-TEST(Udp, CarriesADatagramBothWaysAndSaysWhoSentIt) {
+TEST(Udp, CarriesADatagramBothWaysWithItsSender) {
   UdpNet a({kLoopback, 0}), b({kLoopback, 0});
   const Bytes ping = {1, 2, 3}, pong(kDatagramBytesMax, 9);
   a.Send(b.local(), ping);
@@ -121,7 +121,7 @@ TEST(Udp, AnAddressOfAnotherMachineCannotBeBound) {
   EXPECT_THROW(UdpNet(Address{0x08080808, 0}), OperatorError);
 }
 
-TEST(Udp, SendingToNobodyIsLossAndHurtsNobodyElse) {
+TEST(Udp, SendingToAClosedPortIsLossAndHurtsNobodyElse) {
   UdpNet a({kLoopback, 0}), b({kLoopback, 0});
   Address gone;
   {
@@ -193,7 +193,7 @@ TEST(Addresses, AreReadWithAndWithoutAPort) {
   EXPECT_EQ(ToString(ParseAddress("192.168.0.1:65535", 1)), "192.168.0.1:65535");
 }
 
-TEST(Addresses, ThatMakeNoSenseAreOneLineThatQuotesThem) {
+TEST(Addresses, NonsenseIsQuotedInOneLine) {
   const std::string no_host(70, 'x');  // no resolver is asked for a label above 63 letters
   for (const std::string& text : std::vector<std::string>{
            "", ":80", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1", "127.0.0.1:8o",
@@ -223,7 +223,7 @@ TEST(MemoryNetwork, DeliversInOrderAndOnlyToEndpointsThatExist) {
   EXPECT_FALSE(b->Receive(&from, &data));
 }
 
-TEST(MemoryNetwork, ARestartedEndpointTakesTheOldOnesPlace) {
+TEST(MemoryNetwork, ARestartedEndpointReplacesTheOldOne) {
   MemoryNetwork network;
   const Address here{1, 1}, there{1, 2};
   auto a = network.Attach(here), old = network.Attach(there);

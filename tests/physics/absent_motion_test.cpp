@@ -1,5 +1,4 @@
-/// What an absent body promises: it goes where its path takes it, touches nothing, and comes back
-/// as it was, with its joints.
+/// Absent bodies follow their path, touch nothing, and return unchanged with their joints.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +23,7 @@ std::unique_ptr<World> TwoDiscs() {
       "", kNoGravity);
 }
 
-TEST(AbsentBody, IsPassedThroughAndGoesItsWay) {
+TEST(AbsentBody, OthersPassThroughItAndItFollowsItsPath) {
   const std::unique_ptr<World> world = TwoDiscs();
   world->SetMotion(kShown, Motion::kAbsent);
   const BodyState start{{3, 0}, 0.25f, {-1, 0.125f}, 2};
@@ -44,7 +43,7 @@ TEST(AbsentBody, IsPassedThroughAndGoesItsWay) {
   EXPECT_NEAR(world->Read(kBall).position.x(), 6, 1e-4);
 }
 
-TEST(AbsentBody, HitsAgainAsSoonAsItIsBack) {
+TEST(AbsentBody, CollidesAgainAfterItsReturn) {
   const std::unique_ptr<World> world = TwoDiscs();
   world->SetMotion(kShown, Motion::kAbsent);
   Steps(world.get(), 5);
@@ -68,7 +67,7 @@ TEST(AbsentBody, SleepsWhenItsPathStandsStill) {
   EXPECT_TRUE(world->awake(kShown));
 }
 
-TEST(AbsentBody, KeepsTheMotionOfItsOriginWhereItsMassLiesElsewhere) {
+TEST(AbsentBody, KeepsTheMotionOfItsOriginIfItsMassLiesElsewhere) {
   // Three quarters of the mass left of the root's middle: it turns about the common centre.
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"heavy\"\nbox = [1, 1]\ndensity = 3\nposition = [10, 5]\n"
@@ -86,7 +85,7 @@ TEST(AbsentBody, KeepsTheMotionOfItsOriginWhereItsMassLiesElsewhere) {
   EXPECT_EQ(back.spin, state.spin);
 }
 
-TEST(AbsentBody, KeepsItsPoseAmongManyThatAreAbsent) {
+TEST(AbsentBody, KeepsItsPoseAmongManyAbsentBodies) {
   constexpr int kMany = 100;  // several of a snapshot's pages
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\n"
@@ -114,7 +113,7 @@ TEST(AbsentBody, KeepsItsPoseAmongManyThatAreAbsent) {
   EXPECT_EQ(world->Read(70).position, placed[70].position) << "it goes back as well";
 }
 
-TEST(AbsentBody, EachBarrierTellsOfEveryBodyWhateverCameGoesAndWasMoved) {
+TEST(AbsentBody, EachBarrierHoldsEveryBodyThroughAbsenceAndWrites) {
   constexpr int kMany = 100;
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\nvelocity = [0.5, 0]\n"
@@ -185,7 +184,7 @@ void SetRope(World* world, Motion motion) {
   for (int body = 0; body < kLinks; ++body) world->SetMotion(body, motion);
 }
 
-/// How far the pins' two points are apart, at worst, m.
+/// Largest distance between the two points of a pin, m.
 double Open(const World& world) {
   double worst = 0;
   for (const Pin& pin : world.Pins()) {
@@ -198,7 +197,7 @@ double Open(const World& world) {
   return worst;
 }
 
-TEST(AbsentBody, ItsJointsAreKnownWhileItIsAwayAndHoldWhenItIsBack) {
+TEST(AbsentBody, ItsJointsAreKnownWhileAbsentAndHoldAfterItsReturn) {
   for (const char* joints : {"joints = \"exact\"\n", "joints = \"iterative\"\n"}) {
     const std::unique_ptr<World> world = SmallWorld(kRope, joints);
     Steps(world.get(), 30);
@@ -217,7 +216,7 @@ TEST(AbsentBody, ItsJointsAreKnownWhileItIsAwayAndHoldWhenItIsBack) {
   }
 }
 
-TEST(AbsentBody, AWorldGoesBackToATickAtWhichOthersWereThere) {
+TEST(AbsentBody, AWorldGoesBackToATickWithOtherPresentBodies) {
   const std::unique_ptr<World> world = SmallWorld(kRope);
   Steps(world.get(), 30);
   const WorldSnapshot then = world->Barrier();
@@ -233,7 +232,7 @@ TEST(AbsentBody, AWorldGoesBackToATickAtWhichOthersWereThere) {
   EXPECT_EQ(world->Hash(), hash) << "bit for bit as without the absence";
 }
 
-TEST(AbsentBody, AnEditReachesWhatIsAway) {
+TEST(AbsentBody, AnEditReachesAnAbsentBody) {
   const std::unique_ptr<World> world = SmallWorld(kRope);
   SetRope(world.get(), Motion::kAbsent);
   Steps(world.get(), 2);
@@ -251,7 +250,7 @@ TEST(AbsentBody, AnEditReachesWhatIsAway) {
 
 class AbsentInScene : public testing::TestWithParam<const char*> {};
 
-TEST_P(AbsentInScene, EverySecondMechanismGoesAndComesBackAndTheRestGoesOn) {
+TEST_P(AbsentInScene, RemovingAndReturningEverySecondMechanismKeepsTheRest) {
   ScriptedWorld run(GetParam());
   World& world = run.world;
   run.StepTo(30);

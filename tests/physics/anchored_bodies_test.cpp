@@ -1,4 +1,4 @@
-/// Many anchored parts have few bodies: what they do is what bodies of their own did.
+/// Many anchored parts share few bodies, and act as if each had its own.
 
 #include "common/physics/anchored_bodies.h"
 
@@ -29,7 +29,7 @@ std::string Tiles(int count, double angle = 0) {
          ", step = [" + FloatDigits(c) + ", " + FloatDigits(s) + "]}\n";
 }
 
-TEST(AnchoredBodies, OnlyManyShareAndOnlyThoseThatNothingTakesHoldOf) {
+TEST(AnchoredBodies, OnlyManyPartsWithoutJointsShareABody) {
   EXPECT_EQ(CountShared(ParseScene(Tiles(kShareFrom - 1), "a.toml")), 0);
   EXPECT_EQ(CountShared(ParseScene(Tiles(kShareFrom), "a.toml")), kShareFrom);
   const std::string door =
@@ -140,7 +140,7 @@ TEST(AnchoredBodies, AFarWallIsAsSmoothAsANearOne) {
   EXPECT_LT(far.velocity.norm(), 1e-2f);
 }
 
-TEST(AnchoredBodies, OneThatIsFreedFallsAndTheOthersStay) {
+TEST(AnchoredBodies, AFreedOneFallsAndTheOthersStay) {
   auto world =
       SmallWorld(Tiles(40) + "[[part]]\nname = \"floor\"\nchain = [[-30, -9], [30, -9]]\n");
   EXPECT_EQ(world->body_count(), 0);
@@ -191,7 +191,7 @@ std::string Rows(double angle) {
   return text;
 }
 
-TEST(AnchoredBodies, AtAnAngleTheyAreInContactWithNoMoreThanWhatIsNear) {
+TEST(AnchoredBodies, TurnedRowsContactOnlyNearbyBodies) {
   const auto contacts = [](double angle) {
     const Scene scene = ParseScene(Rows(angle), "rows.toml");
     b2World world(b2Vec2(scene.gravity.x(), scene.gravity.y()));

@@ -1,4 +1,4 @@
-/// Explosions push what they see: by silhouette and distance, and cover counts.
+/// Explosions push visible bodies by silhouette and distance, and cover counts.
 
 #include "common/physics/blast_push.h"
 
@@ -49,7 +49,7 @@ class Blasted {
   World world;
 };
 
-/// What a face at x = `face` from y = -half to half takes along x: by the angle, in small steps.
+/// Impulse along x on a face at x = `face` from y = -half to half: by the angle, in small steps.
 double OnFace(double face, double half, double radius, double impulse) {
   double sum = 0;
   const int steps = 10000;
@@ -126,7 +126,7 @@ TEST(BlastPush, AWallOfGluedBoxesThatItBreaksCovers) {
   }
 }
 
-TEST(BlastPush, WhatTheCentreLiesInNeitherCoversNorIsPushed) {
+TEST(BlastPush, ABodyAroundTheCentreNeitherCoversNorIsPushed) {
   const float open = Blasted(Crate("crate", 2, 0)).Momentum("crate").norm();
   const Blasted b(Crate("crate", 2, 0) + Crate("bomb", 0.1f, 0.1f));
   EXPECT_NEAR(b.Momentum("crate").norm(), open, 1e-3f * open);
@@ -162,7 +162,7 @@ TEST(BlastPush, ThrowsARingOfDiscsOutwardsAlike) {
   EXPECT_LT(sum.norm(), 0.05f * b.Momentum("d0").norm());
 }
 
-TEST(BlastPush, WakesWhatSleepsKeepsTheSpeedLimitAndLeavesAnchoredThings) {
+TEST(BlastPush, WakesSleepersKeepsTheSpeedLimitAndSparesAnchoredBodies) {
   Blasted b("speed_limit = 20\n" + Crate("light", 2, 0, "density = 0.01\n") +
             Crate("post", -2, 0, "anchored = true\n"));
   EXPECT_NEAR(b.Of("light").velocity.norm(), 20, 1e-3);
@@ -173,7 +173,7 @@ TEST(BlastPush, WakesWhatSleepsKeepsTheSpeedLimitAndLeavesAnchoredThings) {
   EXPECT_TRUE(world.awake(0));
 }
 
-TEST(BlastPush, DoneAgainAfterGoingBackGivesTheSameBits) {
+TEST(BlastPush, RepeatsBitForBitAfterGoingBack) {
   World world(ParseScene("[[part]]\nname = \"ground\"\nchain = [[-9, 0], [9, 0]]\n" +
                              Crate("a", 2, 0.5f) + Crate("b", -2, 0.5f) + Crate("c", -2, 1.6f),
                          "again.toml"));
@@ -190,7 +190,7 @@ TEST(BlastPush, DoneAgainAfterGoingBackGivesTheSameBits) {
   EXPECT_GT(world.Read(0).position.x(), 2.3f) << "it did something";
 }
 
-TEST(BlastPush, WhatCannotBeIsRefusedAndPushesNothing) {
+TEST(BlastPush, AnInvalidBlastIsRefusedAndPushesNothing) {
   const float nan = std::nanf("");
   const BlastEdit wrong[] = {{{nan, 0}, 6, 0, 40}, {{0, 0}, nan, 0, 40},  {{0, 0}, 6, nan, 40},
                              {{0, 0}, 6, 0, nan},  {{0, 0}, 6, 0, -1},    {{0, 0}, -6, 0, 40},
@@ -243,7 +243,7 @@ TEST(BlastPush, GlueFeelsEachOfManyBlastsOfOneTick) {
   }
 }
 
-TEST(BlastPush, SaysWhatABlastAmongAThousandBodiesCosts) {
+TEST(BlastPush, PrintsTheCostOfABlastAmongAThousandBodies) {
   World world(
       ParseScene("[[part]]\nname = \"ground\"\nchain = [[-40, 0], [40, 0]]\n"
                  "[[part]]\nname = \"box\"\nbox = [0.4, 0.4]\nposition = [-10, 0.25]\n"

@@ -1,4 +1,4 @@
-/// One sweep finds the contacts that the engine's tree finds.
+/// One sweep finds the same contacts as the engine's tree.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ void Fill(b2World* world, std::uint64_t seed, float width, float height) {
   }
 }
 
-TEST(ContactFind, TheSweepFindsWhatTheEngineFindsInOrder) {
+TEST(ContactFind, TheSweepFindsTheEnginesContactsInOrder) {
   for (const auto& [width, height] : {std::pair(120.0f, 8.0f), {8.0f, 120.0f}, {25.0f, 25.0f}}) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       b2World swept({0, -10}), engine({0, -10});
@@ -96,7 +96,7 @@ TEST(ContactFind, TheSweepFindsWhatTheEngineFindsInOrder) {
   }
 }
 
-TEST(ContactFind, WhatMovesAfterwardsIsFoundByTheEngine) {
+TEST(ContactFind, TheEngineFindsContactsOfBodiesThatMoveAfterwards) {
   b2World swept({0, -10}), engine({0, -10});
   for (b2World* world : {&swept, &engine}) Fill(world, 7, 60, 60);
   FindContactsInOrder(&swept);

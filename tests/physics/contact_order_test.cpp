@@ -1,4 +1,4 @@
-/// What a world does with a pile hangs on the pile alone, not on what else is somewhere else.
+/// The motion of a pile depends on the pile alone, not on distant bodies.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ void SendAway(World* world) {
   }
 }
 
-TEST(ContactOrder, IsTheSameWhateverElseIsInTheWorld) {
+TEST(ContactOrder, DoesNotDependOnOtherBodies) {
   const std::unique_ptr<World> whole = Heap(), part = Heap();
   SendAway(part.get());
   for (int tick = 0; tick <= 240; ++tick) {
@@ -75,7 +75,7 @@ TEST(ContactOrder, IsTheSameWhateverElseIsInTheWorld) {
   EXPECT_GT(whole->Read(kFirst).position.x(), 3.5f) << "the ball went into the heap";
 }
 
-TEST(ContactOrder, GoesOnTheSameFromABarrierAmongOthersThatAreAbsent) {
+TEST(ContactOrder, ReplaysTheSameFromABarrierAmongAbsentBodies) {
   const std::unique_ptr<World> whole = Heap(), part = Heap();
   SendAway(part.get());
   const WorldSnapshot snapshot = whole->Barrier();
@@ -116,7 +116,7 @@ void Strike(World* world) {
   world->SetAwake(3, true);
 }
 
-TEST(ContactOrder, ABarrierOfWhatSleepsIsAsGoodAsBuildingItAnew) {
+TEST(ContactOrder, ABarrierOfSleepersEqualsRebuildingThem) {
   const std::unique_ptr<World> saved = Sleepers(), built = Sleepers();
   for (int tick = 0; tick < 400; ++tick) {
     if (tick == 240) {

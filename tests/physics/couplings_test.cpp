@@ -124,13 +124,13 @@ TEST(Couplings, AGearGoesWithAPartOfItsJoints) {
   Steps(world.get(), 10);
 }
 
-TEST(Couplings, BondsLeaveAGearsWheelsWhereTheyAre) {
+TEST(Couplings, BondsDoNotMoveAGearsWheels) {
   const auto world = SmallWorld(Gearbox("motor = {speed = 3, torque = 100}") +
                                     Named("lump", "circle = 0.1\nposition = [20, 0]"),
                                 "", kWeightless);
   Steps(world.get(), 60);
   const double turned = AngleOf(*world, 1);
-  // The small wheel is what the bond moves in the scene: its pose there is no longer the start's.
+  // The bond moves the small wheel in the scene: its pose there is no longer the start's.
   BondEdit bond;
   bond.a = 3;
   bond.b = 1;
@@ -193,7 +193,7 @@ TEST(Couplings, ReplayBitForBitFromABarrier) {
             0);
 }
 
-/// Whether a box of 1 kg that is glued under the end of a rope, b's with ratio 2, falls off.
+/// True if a box of 1 kg, glued under the end of a rope (b's, with ratio 2), falls off.
 bool TearsOff(double strength) {
   const std::string hook = "box = [0.4, 0.4]\ndensity = 6.25\nposition = [2, 0]";
   const auto world = SmallWorld(

@@ -1,5 +1,5 @@
-/// Joints between bodies that are not simulated: a peer that only displays a body moves it along a
-/// path, and whatever it hangs from must not mind.
+/// Joints to bodies that are not simulated: a peer moves a displayed body along a path, and jointed
+/// bodies must stay finite.
 
 #include <gtest/gtest.h>
 

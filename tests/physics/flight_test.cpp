@@ -1,4 +1,4 @@
-/// Bodies that nobody simulates here fall and bounce as the engine would let them.
+/// Bodies simulated elsewhere fall and bounce as in the engine.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace seam {
 namespace flight_test {
 
-/// A body over ground. {} is the part, with what it hits.
+/// A body over ground. {} is the part, followed by its obstacles.
 World WorldOf(const std::string& text) { return World(ParseScene(text, "flight.toml")); }
 
 std::string Ball(const std::string& more) {
@@ -22,7 +22,7 @@ std::string Ball(const std::string& more) {
 constexpr const char* kFloor =
     "[[part]]\nname = \"floor\"\nbox = [60, 2]\nposition = [0, -1]\nanchored = true\n";
 
-/// The largest distance, m, from what the engine makes of body 0, in `ticks`.
+/// Largest distance of body 0 from the engine's simulation, in `ticks`, m.
 float OffFromEngine(World* world, int ticks, int every) {
   BodyState at = world->Read(0);
   float off = 0;
@@ -52,7 +52,7 @@ TEST(Flight, BouncesOffFloorsWallsAndLinesFromTheirSolidSide) {
   World line = WorldOf(Ball(thrown) +
                        "[[part]]\nname = \"line\"\nchain = [[-30, 0], [30, 0]]\nfriction = 0.5\n");
   EXPECT_LT(OffFromEngine(&line, 60, 6), 0.1f);
-  // From below the same line is open. The engine pushes out what overlaps it once the centre is
+  // From below the same line is open. The engine pushes out overlapping bodies once the centre is
   // through, which is no flight.
   World below = WorldOf(Ball("position = [0, -3]\nvelocity = [0, 12]\n") +
                         "[[part]]\nname = \"line\"\nchain = [[-30, 0], [30, 0]]\n");
@@ -68,7 +68,7 @@ TEST(Flight, BouncesOffFloorsWallsAndLinesFromTheirSolidSide) {
 }
 
 /// Boxes that tumble land where the engine's do, roughly, and never in the floor or behind it.
-TEST(Flight, WhateverIsThrownStaysOutOfWhatIsAnchored) {
+TEST(Flight, ThrownBodiesStayOutsideAnchoredBodies) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> drawn(-1, 1);
   const std::string room =
@@ -101,7 +101,7 @@ TEST(Flight, WhateverIsThrownStaysOutOfWhatIsAnchored) {
   EXPECT_GT(bounced, 400);
 }
 
-TEST(Flight, WhatItLandsOnWithoutABounceItRestsOn) {
+TEST(Flight, ABodyThatDoesNotBounceComesToRest) {
   World world = WorldOf("[[part]]\nname = \"it\"\nbox = [1, 1]\nposition = [0, 2]\nfriction = 1\n" +
                         std::string(kFloor));
   const BodyState at = world.AfterFlight(0, world.Read(0), 2);
@@ -109,7 +109,7 @@ TEST(Flight, WhatItLandsOnWithoutABounceItRestsOn) {
   EXPECT_LT(at.velocity.norm(), 0.05f);
 }
 
-TEST(Flight, FiltersAndWhatIsNotAnchoredAreNotMet) {
+TEST(Flight, PassesThroughFilteredAndMovingBodies) {
   World through = WorldOf(Ball("position = [0, 3]\ngroup = -2\n") + kFloor + "group = -2\n" +
                           "[[part]]\nname = \"other\"\nbox = [4, 1]\nposition = [0, 1]\n");
   EXPECT_LT(through.AfterFlight(0, through.Read(0), 1.5f).position.y(), -5);

@@ -9,7 +9,7 @@
 namespace seam {
 namespace history_test {
 
-/// Two bodies whose states say which tick and body they are.
+/// Two bodies with states that encode tick and body.
 std::vector<BodyState> StatesOf(std::int64_t tick) {
   std::vector<BodyState> states(2);
   for (std::size_t body = 0; body < 2; ++body) {
@@ -57,7 +57,7 @@ TEST(History, CorrectionsStayAndClearForgets) {
   EXPECT_EQ(history.At(99, 0), nullptr);
 }
 
-TEST(HistoryDeathTest, GapsAreOurOwnBug) {
+TEST(HistoryDeathTest, AGapAborts) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   History history(2, 5);
   history.Record(3, StatesOf(3));

@@ -79,7 +79,7 @@ TEST(Joints, APrismaticMotorTooWeakForItsLoadOnlySlowsItsFall) {
   EXPECT_NEAR(world->Read(0).velocity.x(), 0, 1e-4);
 }
 
-TEST(Joints, AStrongOneLiftsAtItsSpeedUpToTheLimit) {
+TEST(Joints, AStrongPrismaticMotorLiftsAtItsSpeedUpToTheLimit) {
   const auto world = Lift(
       "limits = [-3, 2]\n"
       "motor = {player = \"ann\", axis = \"lift\", speed = 1.5, force = 25}");
@@ -109,7 +109,7 @@ TEST(Joints, APrismaticLoadDoesNotTurn) {
   EXPECT_NEAR(world->Read(0).position.y(), 0, 5e-3);
 }
 
-TEST(Joints, ARopeIsNothingUntilItIsTaut) {
+TEST(Joints, ARopeDoesNothingUntilItIsTaut) {
   const auto world =
       SmallWorld(std::string(kPost) + PartOf("load", "circle = 0.2\nposition = [0, -1]") +
                  JointOf("rope", "length = 4"));
@@ -124,7 +124,7 @@ TEST(Joints, ARopeIsNothingUntilItIsTaut) {
   EXPECT_NEAR(world->Read(0).velocity.norm(), 0, 0.02);
 }
 
-TEST(Joints, ARopesLengthIsThatOfItsPlaceUnlessSaid) {
+TEST(Joints, ARopesDefaultLengthIsTheInitialDistance) {
   const auto world = SmallWorld(
       std::string(kPost) + PartOf("load", "circle = 0.2\nposition = [3, 0]") + JointOf("rope"));
   float longest = 0;
@@ -239,7 +239,7 @@ TEST(Joints, GlueMakesOneBodyAsAWeldDoes) {
   EXPECT_EQ(glued->scene().joints[0].strength, 200);
 }
 
-TEST(Joints, AMotorJointHoldsAsFarAsItsForceGoes) {
+TEST(Joints, AMotorJointHoldsUpToItsForce) {
   const std::string parts = std::string(kPost) + PartOf("load", "box = [1, 1]\nposition = [2, 0]");
   const auto weak = SmallWorld(parts + JointOf("motor", "force = 7\ntorque = 1"));
   Steps(weak.get(), 60);
@@ -269,8 +269,8 @@ TEST(Joints, AMotorJointFollowsItsPlayersAxis) {
   EXPECT_NEAR(world->Read(0).position.y(), 0, 0.01);
 }
 
-/// Goes on for `ticks` with a barrier every three, goes back to the eighth and does it again: how
-/// many ticks came out differently.
+/// Runs for `ticks` with a barrier every three, goes back to the eighth and replays. Returns the
+/// number of ticks that differ.
 int TicksThatDiffer(const std::string& joint) {
   const std::string text =
       std::string(kDriver) + "[[part]]\nname = \"ground\"\nchain = [[-20, -6], [20, -6]]\n" +

@@ -1,4 +1,4 @@
-/// What a led body promises: it goes where its path takes it, and what hits it feels its own mass.
+/// Prescribed bodies follow their path, and others collide with their own mass.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ float Rebound(double mass, Motion motion) {
   return world->Read(kBall).velocity.x();
 }
 
-TEST(LedBody, IsFeltWithItsOwnMassAndNotAsAWall) {
+TEST(PrescribedBody, CollidesWithItsOwnMassAndNotAsAWall) {
   for (const double mass : {2.0, 3.0, 10.0}) {
     const double free = 6 * (1 - mass) / (1 + mass);
     EXPECT_NEAR(Rebound(mass, Motion::kDynamic), free, 0.01) << mass << " kg";
@@ -47,7 +47,7 @@ TEST(LedBody, IsFeltWithItsOwnMassAndNotAsAWall) {
   }
 }
 
-TEST(LedBody, StrikesWithItsOwnMassToo) {
+TEST(PrescribedBody, StrikesWithItsOwnMassToo) {
   const std::unique_ptr<World> world = TwoDiscs(1.0 / 3);
   world->SetMotion(kShown, Motion::kPrescribed);
   BodyState shown = world->Read(kShown);
@@ -58,7 +58,7 @@ TEST(LedBody, StrikesWithItsOwnMassToo) {
   EXPECT_NEAR(world->Read(kBall).velocity.x(), -4, 0.01);
 }
 
-TEST(LedBody, IsWhereItsPathTakesItWhateverHitsIt) {
+TEST(PrescribedBody, FollowsItsPathDespiteCollisions) {
   const std::unique_ptr<World> world = TwoDiscs(3);
   world->SetMotion(kShown, Motion::kPrescribed);
   const BodyState start{{3, 0}, 0.25f, {-1, 0.125f}, 2};
@@ -72,14 +72,14 @@ TEST(LedBody, IsWhereItsPathTakesItWhateverHitsIt) {
     const auto t = static_cast<float>(tick) * world->dt();
     EXPECT_EQ(now.velocity, start.velocity) << tick;
     EXPECT_EQ(now.spin, start.spin) << tick;
-    // As many additions in single precision.
+    // Allows for as many additions in single precision.
     EXPECT_NEAR((now.position - start.position - t * start.velocity).norm(), 0, 1e-5) << tick;
     EXPECT_NEAR(now.angle, start.angle + t * start.spin, 1e-5) << tick;
   }
   EXPECT_LT(world->Read(kBall).velocity.x(), 0) << "it was hit";
 }
 
-TEST(LedBody, GravityDoesNotMoveItNorDoesWhatItStandsIn) {
+TEST(PrescribedBody, NeitherGravityNorAnOverlapMovesIt) {
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"ground\"\nchain = [[-9, 0], [9, 0]]\n"
       "[[part]]\nname = \"shown\"\nbox = [1, 1]\nposition = [0, 0.2]\n");
@@ -96,7 +96,7 @@ const char* const kLopsided =
     "[[part]]\nname = \"light\"\nbox = [1, 1]\nposition = [12, 5]\n"
     "[[joint]]\nname = \"bar\"\nkind = \"weld\"\na = \"light\"\nb = \"heavy\"\n";
 
-TEST(LedBody, ThePathIsThatOfItsOriginAlsoWhenItsMassLiesElsewhere) {
+TEST(PrescribedBody, ItsOriginFollowsThePathIfTheMassLiesElsewhere) {
   const std::unique_ptr<World> world = SmallWorld(kLopsided, "substeps = 4", kNoGravity);
   ASSERT_EQ(world->body_count(), 1);
   world->SetMotion(0, Motion::kPrescribed);
@@ -111,7 +111,7 @@ TEST(LedBody, ThePathIsThatOfItsOriginAlsoWhenItsMassLiesElsewhere) {
   }
 }
 
-TEST(LedBody, AChangeOfMotionCarriesTheMotionOver) {
+TEST(PrescribedBody, AChangeOfMotionCarriesTheMotionOver) {
   const std::unique_ptr<World> world = SmallWorld(kLopsided, "substeps = 4", kNoGravity);
   const BodyState free{{10, 5}, 0.3f, {2, -1}, 4};  // of the centre of mass
   world->Write(0, free);
@@ -124,12 +124,12 @@ TEST(LedBody, AChangeOfMotionCarriesTheMotionOver) {
   EXPECT_EQ(again.position, free.position);
   EXPECT_NEAR((again.velocity - free.velocity).norm(), 0, 1e-5);
   EXPECT_EQ(again.spin, free.spin);
-  // The origin of what turns is not as fast as its centre of mass.
+  // The origin of a turning body is not as fast as its centre of mass.
   world->SetMotion(0, Motion::kPrescribed);
   EXPECT_NEAR((world->Read(0).velocity - free.velocity).norm(), 0.5 * 4, 1e-5);
 }
 
-TEST(LedBody, ABarrierKeepsItLedAndGoingBackDoesTheSameAgain) {
+TEST(PrescribedBody, ABarrierKeepsItPrescribedAndReplaysTheSame) {
   const std::unique_ptr<World> world = TwoDiscs(3);
   world->SetMotion(kShown, Motion::kPrescribed);
   world->Write(kShown, BodyState{{3, 0}, 0, {-1, 0}, 1});
@@ -149,7 +149,7 @@ TEST(LedBody, ABarrierKeepsItLedAndGoingBackDoesTheSameAgain) {
   EXPECT_NEAR(world->Read(kShown).position.x(), 2, 1e-5);
 }
 
-TEST(LedBody, WhatBreaksElsewhereLeavesItLed) {
+TEST(PrescribedBody, ABreakElsewhereLeavesItPrescribed) {
   ScriptedWorld run(ParseScene(std::string(kNoGravity) + kLopsided +
                                    "[[part]]\nname = \"shown\"\nbox = [1, 1]\nposition = [0, 0]\n",
                                "test.toml"));
@@ -166,7 +166,7 @@ TEST(LedBody, WhatBreaksElsewhereLeavesItLed) {
   EXPECT_NEAR(run.Read("shown").position.x(), 3, 1e-5);
 }
 
-TEST(LedBody, HalvesOfOneThatTurnsMoveAsTheirPlacesInItMoved) {
+TEST(PrescribedBody, HalvesOfATurningBodyMoveAsTheirPlacesMoved) {
   for (const Motion motion : {Motion::kDynamic, Motion::kPrescribed, Motion::kKinematic}) {
     ScriptedWorld run(ParseScene(std::string(kNoGravity) + kLopsided, "test.toml"));
     BodyState turning{{10, 5}, 0, {3, 1}, 4};  // of the centre of mass, 0.5 m right of the root's
@@ -183,7 +183,7 @@ TEST(LedBody, HalvesOfOneThatTurnsMoveAsTheirPlacesInItMoved) {
   }
 }
 
-TEST(LedBody, BothHalvesOfOneThatBreaksAreLed) {
+TEST(PrescribedBody, BothHalvesOfABrokenOneArePrescribed) {
   ScriptedWorld run(ParseScene(std::string(kNoGravity) + kLopsided, "test.toml"));
   run.world.SetMotion(0, Motion::kPrescribed);
   run.world.Write(0, BodyState{{10, 5}, 0, {3, 0}, 0});
@@ -213,7 +213,7 @@ float FallsOnceSimulated(Motion shown, const std::string& sleep) {
   return 5 - world.Read(0).position.y();
 }
 
-TEST(LedBody, WhereNothingSleepsNothingHangsInTheAirAsItWasShown) {
+TEST(PrescribedBody, WithoutSleepABodyFallsOnceItIsSimulated) {
   for (const Motion shown : {Motion::kKinematic, Motion::kPrescribed, Motion::kAbsent}) {
     EXPECT_NEAR(FallsOnceSimulated(shown, "false"), 10 * 0.5 * 0.5 / 2, 0.1);
     EXPECT_EQ(FallsOnceSimulated(shown, "true"), 0) << "it sleeps on, as it is told";

@@ -1,5 +1,5 @@
-/// The world against closed formulas. Each tolerance is a little above what was measured, and says
-/// where the rest comes from. g = 10 m/s^2, h = 1/60 s unless said otherwise.
+/// The world against closed formulas. Each tolerance is slightly above the measured error, and
+/// names its source. g = 10 m/s^2, h = 1/60 s unless stated otherwise.
 
 #include <gtest/gtest.h>
 
@@ -118,7 +118,7 @@ std::unique_ptr<World> OnSlope(double angle, double friction, const std::string&
                     "angle=" + FloatDigits(-angle) + "\nposition=" + at(0, 0.515) + "\n");
 }
 
-/// How far it came along the slope, m.
+/// Distance moved along the slope, m.
 double Along(const World& world, double angle) {
   const Vec2 p = world.Read(0).position;
   return p.x() * std::cos(angle) - p.y() * std::sin(angle);

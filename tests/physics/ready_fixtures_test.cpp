@@ -1,4 +1,4 @@
-/// ReadyFixtures: a body that is given what another had has the same, bit for bit.
+/// ReadyFixtures: a body that is given the fixtures of another has the same, bit for bit.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace seam {
 namespace ready_fixtures_test {
 
-/// Of every kind that may move; a polygon of ten corners is two pieces, a capsule three.
+/// Parts of every kind that may move; a polygon of ten corners is two pieces, a capsule three.
 const char* const kParts = R"(
 [[part]]
 name = "box"

@@ -1,4 +1,4 @@
-/// Capsules, wedges, segments and polygons of many corners: mass by integration, and how they lie,
+/// Capsules, wedges, segments and polygons of many corners: mass by integration, and how they rest,
 /// slide and roll.
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ Part OnlyPart(const std::string& shape) {
   return ParseScene("[[part]]\nname = \"p\"\n" + shape, "shape.toml").parts[0];
 }
 
-/// By summing over small squares.
+/// Mass properties by summing over small squares.
 MassProperties Summed(const Part& part, bool (*inside)(const Part&, double, double)) {
   const double side = 0.002, reach = 2;
   MassProperties sum;
@@ -95,7 +95,7 @@ TEST(Shapes, AStockCapsuleRestsAboveTheGroundAsBoxesDo) {
   EXPECT_NEAR(world->Read(0).angle, 0, 2e-3);
 }
 
-TEST(Shapes, ThingsSlideDownAWedgeByItsSlope) {
+TEST(Shapes, BodiesSlideDownAWedgeByItsSlope) {
   // a = g (sin - mu cos) with tan = 3/4, mu = 0.25: 10 (0.6 - 0.2) = 4 m/s^2 along the slope.
   const auto world = SmallWorld(
       "[[part]]\nname = \"ramp\"\nwedge = [40, 30]\nanchored = true\nfriction = 0.25\n"
@@ -146,7 +146,7 @@ TEST(Shapes, APolygonOfManyCornersIsOneBodyOfTheRightMass) {
 }
 
 TEST(Shapes, AWheelOfManyCornersRollsDownAsADisc) {
-  // A disc that rolls gains two thirds of what one that slides would: m r^2/2 beside m r^2.
+  // A rolling disc gains two thirds of a sliding one: m r^2/2 beside m r^2.
   const auto world = SmallWorld(
       "[[part]]\nname = \"slope\"\nchain = [[-50, 8], [50, -8]]\nfriction = 1\n"
       "[[part]]\nname = \"wheel\"\n" +

@@ -1,4 +1,4 @@
-/// World: impacts against the formulas of mechanics, sleep, terrain, and who collides with whom.
+/// World: impacts against the formulas of mechanics, sleep, terrain, and collision filters.
 
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(WorldContact, SleepCanBeSwitchedOff) {
   EXPECT_TRUE(run.world.awake(0));
 }
 
-TEST(WorldContact, WritingBackWhatWasReadChangesNothing) {
+TEST(WorldContact, WritingBackAReadStateChangesNothing) {
   ScriptedWorld run("stack"), written("stack");
   for (int i = 0; i < 300; ++i) {
     for (int body = 0; body < written.world.body_count(); ++body) {
@@ -153,7 +153,7 @@ TEST(WorldContact, TerrainIsOpenFromBelow) {
   EXPECT_GT(run.Read("ball").position.y(), 25);
 }
 
-TEST(WorldContact, BulletsDoNotTunnelThroughThinMovingThings) {
+TEST(WorldContact, BulletsDoNotTunnelThroughThinMovingBodies) {
   const auto shot = [](const char* bullet) {
     ScriptedWorld run = Simulate(std::string(R"(
 gravity = [0, 0]

@@ -1,4 +1,4 @@
-/// World at its edges: what is not finite, single bits, limits of joints, moved bodies.
+/// World at its edges: non-finite values, single bits, limits of joints, moved bodies.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(WorldEdges, MovingAssembliesAreNumberedByTheirIds) {
   EXPECT_EQ(world->tick(), 501);
 }
 
-TEST(WorldEdgesDeathTest, WriteRefusesWhatIsNotFinite) {
+TEST(WorldEdgesDeathTest, WriteRefusesNonFiniteStates) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto world = SmallWorld(Box("a", 0, 0));
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -146,7 +146,7 @@ TEST(WorldEdges, ImpactsOfATickAreTheSameInAnySubsteps) {
       }
       ASSERT_EQ(impacts.size(), 1u) << e << " " << substeps;
       EXPECT_NEAR(impacts[0].dv, (1 + e) * 3 / 4.0 * 6, 1e-4) << e << " " << substeps;
-      // Where they were after the step: 0.1 m of overlap and as much of parting.
+      // Positions after the step: 0.1 m of overlap and as much of parting.
       EXPECT_NEAR((impacts[0].point - Vec2(-0.5f, 0)).norm(), 0, 0.2);
     }
   }

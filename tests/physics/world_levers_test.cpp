@@ -1,4 +1,4 @@
-/// The other settings of `[solver]`, each with what it costs to turn it the wrong way.
+/// The other settings of `[solver]`, each with the cost of a wrong value.
 
 #include <gtest/gtest.h>
 

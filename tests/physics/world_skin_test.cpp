@@ -1,4 +1,4 @@
-/// The skin of `[solver]`: things rest where they touch, and nothing passes through thin floors.
+/// The skin of `[solver]`: bodies rest in contact, and nothing passes through thin floors.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ const char* kPile =
     "[[part]]\nname = \"wedge\"\npolygon = [[-0.5, -0.3], [0.5, -0.3], [0, 0.6]]\n"
     "position = [6, 0.3]\n";
 
-/// Heights of the pile's bodies after four seconds; each begins `lift` m above what it lies on.
+/// Heights of the pile's bodies after four seconds; each begins `lift` m above its support.
 std::vector<float> Rest(const std::string& solver, bool chain, float lift) {
   Scene scene = ParseScene("[solver]\n" + solver + "\n" + Ground(chain) + kPile, "s.toml");
   for (Part& part : scene.parts) {
@@ -41,7 +41,7 @@ std::vector<float> Rest(const std::string& solver, bool chain, float lift) {
   return heights;
 }
 
-TEST(Skin, AtHalfTheSlopThingsRestWhereTheyTouch) {
+TEST(Skin, AtHalfTheSlopBodiesRestInContact) {
   const std::vector<float> right = {0.5f, 1.5f, 0.5f, 2.5f, 0.3f};
   for (const bool chain : {false, true}) {
     const std::vector<float> got = Rest("skin = 0.0025", chain, 0);
@@ -50,14 +50,14 @@ TEST(Skin, AtHalfTheSlopThingsRestWhereTheyTouch) {
   }
 }
 
-TEST(Skin, TheEnginesOwnLetsBoxesRestFifteenMillimetresApart) {
-  // What falls stops anywhere within the slop of 5 mm.
+TEST(Skin, TheEnginesDefaultLetsBoxesRestFifteenMillimetresApart) {
+  // A falling body stops anywhere within the slop of 5 mm.
   const std::vector<float> got = Rest("", false, 0.03f);
   EXPECT_NEAR(got[0], 0.5f + 0.0175f, 3e-3f);
   EXPECT_NEAR(got[1], 1.5f + 0.035f, 6e-3f);
 }
 
-TEST(Skin, AWiderOneKeepsThatMuchMoreApartEverywhere) {
+TEST(Skin, AWiderSkinWidensEveryGapByTheSame) {
   const float apart = 2 * 0.008f - 0.0025f;  // in the middle of the slop
   const std::vector<float> got = Rest("skin = 0.008", true, 0.03f);
   EXPECT_NEAR(got[0], 0.5f + apart, 3e-3f);
@@ -100,14 +100,14 @@ int Through(float skin) {
   return through;
 }
 
-TEST(Skin, TheLeastOneLetsNothingThroughAThinFloor) { EXPECT_EQ(Through(0.0025f), 0); }
+TEST(Skin, TheThinnestSkinLetsNothingThroughAThinFloor) { EXPECT_EQ(Through(0.0025f), 0); }
 
-TEST(Skin, LessThanTheLeastWouldLetShotsThrough) {
-  // What the limit of the scene file guards against: a sum of rims of 1.01 cm is not enough.
+TEST(Skin, AThinnerSkinWouldLetShotsThrough) {
+  // The limit of the scene file prevents this: a sum of rims of 1.01 cm is not enough.
   EXPECT_GT(Through(0.0001f), 0);
 }
 
-TEST(Skin, OutOfItsRangeIsAMistake) {
+TEST(Skin, AValueOutOfRangeIsAMistake) {
   EXPECT_ANY_THROW(ParseScene("[solver]\nskin = 0.002\n" + Ground(true), "s.toml"));
   EXPECT_ANY_THROW(ParseScene("[solver]\nskin = 0.02\n" + Ground(true), "s.toml"));
 }

@@ -11,8 +11,8 @@
 namespace seam {
 namespace world_snapshot_test {
 
-/// Runs `ticks` of a scene with a barrier every `every`, goes back to each barrier in turn and does
-/// again what came after it. The number of ticks whose hash was another one then.
+/// Runs `ticks` of a scene with a barrier every `every`, goes back to each barrier in turn and
+/// replays. Returns the number of ticks with a different hash.
 int DifferentTicks(const Scene& scene, int ticks, int every, int again) {
   World world(scene);
   std::vector<std::uint64_t> hashes = {world.Hash()};
@@ -43,7 +43,7 @@ TEST(Snapshot, ReplayIsBitExactWithContactsJointsMotorsAndSleep) {
   }
 }
 
-TEST(Snapshot, WithoutTheBarrierAReplayGoesAnotherWay) {
+TEST(Snapshot, WithoutTheBarrierAReplayDiverges) {
   // The reason for it: if this ever fails, the barrier can go.
   const Scene scene = LoadScene("scenes/wall.toml");
   ScriptedWorld live(scene), other(scene);
@@ -120,7 +120,7 @@ const char* kPile =
     "[[part]]\nname = \"c\"\nbox = [1, 1]\nposition = [0, 2.5]\n"
     "[[part]]\nname = \"d\"\nbox = [1, 1]\nposition = [0.1, 3.5]\n";
 
-TEST(Snapshot, BarriersKeepWhatHoldsAPileUpAndLetItSleep) {
+TEST(Snapshot, BarriersKeepAPilesContactsAndLetItSleep) {
   World world(ParseScene(kPile, "pile.toml")), plain(ParseScene(kPile, "pile.toml"));
   int asleep_at = -1, plain_asleep_at = -1;
   for (int t = 1; t <= 240; ++t) {
@@ -138,7 +138,7 @@ TEST(Snapshot, BarriersKeepWhatHoldsAPileUpAndLetItSleep) {
   }
 }
 
-TEST(Snapshot, ABarrierChangesNothingWhereNothingTouches) {
+TEST(Snapshot, ABarrierChangesNothingWithoutContacts) {
   const char* flight =
       "[[part]]\nname = \"a\"\nbox = [1, 0.5]\nposition = [0, 5]\n"
       "velocity = [3, 8]\nspin = 4\n";
@@ -215,7 +215,7 @@ TEST(Snapshot, RestoreAcrossAnInsertIsRefusedAndAcrossAPushItGoesBack) {
   EXPECT_FALSE(world.Restore(before).ok());
 }
 
-TEST(Snapshot, SaysWhatABarrierCosts) {
+TEST(Snapshot, PrintsTheCostOfABarrier) {
   for (const char* name : {"crossing", "wall", "stack"}) {
     ScriptedWorld s{std::string(name)};
     s.StepTo(60);

@@ -1,4 +1,4 @@
-/// What lies still, and whether who keeps something about it hears of every change.
+/// Still bodies: every change of one is reported to callers that cache it.
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ void DoSomething(World* world, Random* random) {
   }
 }
 
-TEST(WorldStill, EveryChangeOfWhatLiesStillIsAmongThoseThatAreTold) {
+TEST(WorldStill, ReportsEveryChangeOfAStillBody) {
   int told = 0, still = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     World world(ParseScene(kBoxes, "boxes.toml"));
@@ -78,7 +78,7 @@ TEST(WorldStill, EveryChangeOfWhatLiesStillIsAmongThoseThatAreTold) {
         for (int body = 0; body < world.body_count(); ++body) {
           const auto i = static_cast<std::size_t>(body);
           still += now[i] != 0 ? 1 : 0;
-          // What was not still has to be looked at anyway.
+          // Bodies that were not still are checked anyway.
           if (before[i] == 0 || now[i] == before[i]) continue;
           EXPECT_EQ(std::count(changed.begin(), changed.end(), body) > 0, true)
               << "seed " << seed << ", round " << round << ", body " << body;
@@ -94,7 +94,7 @@ TEST(WorldStill, EveryChangeOfWhatLiesStillIsAmongThoseThatAreTold) {
   EXPECT_GT(still, 2000);
 }
 
-TEST(WorldStill, WhatIsTooLongAgoIsNotKnown) {
+TEST(WorldStill, ForgetsChangesTooLongAgo) {
   World world(ParseScene(kBoxes, "boxes.toml"));
   world.SetMotion(3, Motion::kAbsent);
   world.Step();

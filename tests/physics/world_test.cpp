@@ -1,4 +1,4 @@
-/// What World promises: motion, inputs, contacts, sleep, one body for what is welded.
+/// The contract of World: motion, inputs, contacts, sleep, one body for welded parts.
 
 #include "common/physics/world.h"
 
@@ -28,7 +28,7 @@ box = [1, 1]
 position = [0, 0.515]
 )";
 
-TEST(World, KinematicBodiesMoveByTheirVelocityAndFeelNothing) {
+TEST(World, KinematicBodiesMoveByTheirVelocityDespiteCollisions) {
   ScriptedWorld run = Simulate(kGround + kBox + R"(
 [[part]]
 name = "ball"
@@ -203,7 +203,7 @@ position = [5, 0.5]
   EXPECT_EQ(touches[1].body_b, 2);
 }
 
-TEST(World, BlocksAreWhereAnchoredThingsHoldABody) {
+TEST(World, BlocksAreContactsWithAnchoredBodies) {
   ScriptedWorld run = Simulate(kGround + kBox + R"(
 [[part]]
 name = "wall"

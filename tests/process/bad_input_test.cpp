@@ -17,7 +17,7 @@ TEST_F(BadInput, ScenesAreRefusedByFileAndLine) {
   Judge(mistakes);
 }
 
-TEST_F(BadInput, FlagsOfTheServer) {
+TEST_F(BadInput, TheServerRefusesWrongFlags) {
   UdpNet taken(Address{0x7f000001, 0});
   const std::string port = std::to_string(taken.local().port);
   const auto flags = [](Words words, const std::string& says) {
@@ -91,7 +91,7 @@ TEST_F(BadInput, FlagsOfTheServer) {
        flags({"--lcm-url", "magic"}, "LCM url \"magic")});
 }
 
-TEST_F(BadInput, FlagsOfTheClient) {
+TEST_F(BadInput, TheClientRefusesWrongFlags) {
   const std::string nobody = "127.0.0.1:9";  // the discard port: nobody answers
   const auto flags = [&](Words words, const std::string& says) {
     words.insert(words.begin(), {nobody, "--join-timeout", "0.5"});
@@ -127,7 +127,7 @@ TEST_F(BadInput, FlagsOfTheClient) {
          flags({"--record", "words.lcm", "--force"}, "no answer from")});
 }
 
-TEST_F(BadInput, FlagsOfTheSwarmAndOfTop) {
+TEST_F(BadInput, TheSwarmAndTopRefuseWrongFlags) {
   const auto swarm = [](Words words, const std::string& says) {
     words.insert(words.begin(), {"seam-swarm", "127.0.0.1:9"});
     return Mistake{words, says};
@@ -150,7 +150,7 @@ TEST_F(BadInput, FlagsOfTheSwarmAndOfTop) {
          {{"seam-top", "--times", "-1"}, "--times"}});
 }
 
-TEST_F(BadInput, LogsAndFlagsOfTheMeasures) {
+TEST_F(BadInput, TheMeasuresRefuseWrongLogsAndFlags) {
   Judge({Measure({}, "which log?"),
          Measure({"--nonsense"}, "--nonsense"),
          Measure({"good.lcm", "--nonsense"}, "--nonsense"),
@@ -175,7 +175,7 @@ TEST_F(BadInput, LogsAndFlagsOfTheMeasures) {
          Measure({"good.lcm", "--names", "one,two"}, "--names")});
 }
 
-TEST_F(BadInput, LogsAndFlagsOfTheRenderer) {
+TEST_F(BadInput, TheRendererRefusesWrongLogsAndFlags) {
   const auto good = [](Words words, const std::string& says) {
     words.insert(words.begin(), {"good.lcm", "-o", "new", "--size", "320x240"});
     return Render(std::move(words), says);
@@ -233,7 +233,7 @@ TEST_F(BadInput, HelpIsNoMistake) {
   }
 }
 
-TEST(ServerProgram, SaysOnItsTerminalWhyAScriptWasStopped) {
+TEST(ServerProgram, PrintsTheReasonThatAScriptStopped) {
   const Workspace folder;
   folder.Write("s.toml",
                "[[part]]\nname = \"a\"\nbox = [1, 1]\n[[script]]\nname = \"bad\"\n"

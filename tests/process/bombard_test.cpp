@@ -1,5 +1,5 @@
-/// A seam-server and its clients on a path that somebody else writes on as well: real UDP, and a
-/// relay between client and server that adds, damages and forges datagrams under their addresses.
+/// A seam-server and its clients on a path with an attacker: real UDP, and a relay between client
+/// and server that adds, damages and forges datagrams under their addresses.
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -25,13 +25,13 @@ constexpr std::int64_t kTicks = 240;  ///< of a session
 /// Stands between one client and the server. The server knows the client by this relay's address.
 class Relay {
  public:
-  /// Called with a datagram under way; what it returns is passed on.
+  /// Called with a datagram in flight; its result is passed on.
   using Change = std::function<Bytes(const Bytes&)>;
 
   explicit Relay(std::uint16_t server_port) : server_port_(server_port) {}
   std::uint16_t port() const { return to_client_.port(); }
 
-  /// Passes on what has come, waiting at most a millisecond for it.
+  /// Passes on received datagrams, waiting at most a millisecond.
   void Pass(const Change& up, const Change& down) {
     pollfd wait[2] = {{to_client_.fd(), POLLIN, 0}, {to_server_.fd(), POLLIN, 0}};
     poll(wait, 2, 1);
@@ -156,7 +156,7 @@ Bytes Bad(Random* random, const std::vector<Bytes>& real) {
   }
 }
 
-TEST_F(Bombarded, TheServerCountsWhatIsForeignRunsOnAndKeepsItsClients) {
+TEST_F(Bombarded, TheServerCountsForeignDatagramsAndKeepsItsClients) {
   Relay relay(server_port_);
   auto ann = Join("ann", relay.port());
   auto bob = Join("bob", server_port_);
@@ -202,7 +202,7 @@ TEST_F(Bombarded, TheServerCountsWhatIsForeignRunsOnAndKeepsItsClients) {
   EXPECT_EQ(Number(*bob, " bad"), 0);
 }
 
-/// A forger who can compute checksums: a few bytes of the messages are others than were sent.
+/// A forger that can compute checksums: changes a few bytes of the messages.
 Bytes Forge(Random* random, const Bytes& data) {
   DatagramHeader header;
   std::vector<DatagramMessage> messages;

@@ -1,4 +1,4 @@
-/// A mistyped flag, subcommand, scene or name is one line that says what was probably meant.
+/// A mistyped flag, subcommand, scene or name is one line with a suggestion.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace did_you_mean_test {
 
 using Words = std::vector<std::string>;
 
-TEST(NearestName, OneMistakeOfAShortWordAndAThirdOfALongOne) {
+TEST(NearestName, AllowsOneMistakeInAShortWordAndAThirdInALongOne) {
   const Words known = {"ann", "bob", "rollback"};
   EXPECT_EQ(NearestName("bbo", known), "bob") << "two letters swapped are one mistake";
   EXPECT_EQ(NearestName("an", known), "ann");
@@ -37,7 +37,7 @@ std::string Refused(Words words) {
   return line;
 }
 
-TEST(DidYouMean, IsSaidByEveryProgramOfItsFlags) {
+TEST(DidYouMean, EveryProgramSuggestsFlags) {
   const std::pair<Words, const char*> mistakes[] = {
       {{"seam-server", "crossing", "--durtion", "3"}, "--duration"},
       {{"seam-client", "--nmae", "ann"}, "--name"},
@@ -57,7 +57,7 @@ TEST(DidYouMean, IsSaidByEveryProgramOfItsFlags) {
             "seam-server: there is no flag --xyzzyxyzzy; see seam-server --help\n");
 }
 
-TEST(DidYouMean, IsSaidOfSubcommandsScenesAndNames) {
+TEST(DidYouMean, SuggestsSubcommandsScenesAndNames) {
   const std::pair<Words, const char*> mistakes[] = {
       {{"seam-lab", "sweeep", "x.toml"}, "sweep"},
       {{"seam-lab", "run", "--drive", "scrpt", "crossing", "-o", "x.lcm"}, "script"},

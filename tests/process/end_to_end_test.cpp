@@ -43,9 +43,9 @@ class Sessions {
  private:
   using Flags = std::map<std::string, std::vector<std::string>>;
 
-  /// The stock logger's queue holds 30 messages, a sixth of a second of a session: where it is not
-  /// given the processor for so long it loses some, and that session is played again, up to three
-  /// times. What we lose ourselves is lost each time.
+  /// The stock logger's queue holds 30 messages, a sixth of a second of a session: without the
+  /// processor for so long it loses some, and the session is played again, up to three times. Our
+  /// own losses recur each time.
   void Play(const Flags& runs, int repeats = 3) {
     for (const auto& [name, flags] : runs) {
       SessionPlan plan;
@@ -144,7 +144,7 @@ TEST_F(EndToEnd, TheStockLoggerCapturesEveryTickOfEveryPeer) {
 
 using Messages = std::map<std::pair<std::string, Bytes>, int>;
 
-/// How often a log holds each (channel, bytes) of the room.
+/// Counts each (channel, bytes) of the room in a log.
 Messages Count(const std::string& path) {
   Messages messages;
   LogReader log(path);
@@ -155,7 +155,7 @@ Messages Count(const std::string& path) {
   return messages;
 }
 
-TEST_F(EndToEnd, TheServersOwnRecordIsWhatTheLoggerCaptured) {
+TEST_F(EndToEnd, TheServersOwnRecordEqualsTheLoggersCapture) {
   SEAM_INSIDE_ONLY();
   ASSERT_TRUE(Played().ended);
   const Messages captured = Count(Capture("retrospect"));
@@ -166,7 +166,7 @@ TEST_F(EndToEnd, TheServersOwnRecordIsWhatTheLoggerCaptured) {
     const auto found = captured.find(message);
     EXPECT_EQ(found == captured.end() ? 0 : found->second, times) << message.first;
   }
-  // What the record lacks is what clients showed when the server had closed it.
+  // The record lacks only the clients' views after the server had closed it.
   const Recording record = ReadRecording(Played().folder / "server.lcm");
   EXPECT_EQ(record.bus_gaps, 0);
   Messages late;
@@ -243,7 +243,7 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
     EXPECT_EQ(rows[i][4], "demo");
     EXPECT_EQ(rows[i][5], "1");
   }
-  // The same scene and script give the same truth, tick by tick, whoever simulates it.
+  // The same scene and script give the same truth, tick by tick, under every mode.
   EXPECT_EQ(number["oracle"]["error_max_m"], 0);
   EXPECT_EQ(number["oracle"]["rebound"], 1);
   EXPECT_EQ(number["oracle"]["error_others_m"], 0);
@@ -252,8 +252,9 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   EXPECT_GT(number["retrospect"]["rebound"], 0.9) << "the brick gets what is due to it";
   EXPECT_LT(number["retrospect"]["rebound"], 1.1);
   EXPECT_GT(number["central"]["rebound"], 0.9);
-  // That strict shows the rubber wall hangs, in one capture, on when which datagram comes: its
-  // median over seeds is Cluster.StrictShowsTheRubberWall...'s. Here the brick may get nothing.
+  // In one capture, the rubber wall of strict depends on the arrival of datagrams:
+  // Cluster.StrictShowsTheRubberWall... tests its median over seeds. Here the brick may receive no
+  // impulse.
   EXPECT_GE(number["strict"]["rebound"], 0);
   EXPECT_LT(number["retrospect"]["error_rms_m"], number["strict"]["error_rms_m"]);
   for (const char* run : {"retrospect", "central"}) {

@@ -1,4 +1,4 @@
-/// docs/how-to.md does what it says: its files and shell blocks, in order, in an empty folder.
+/// docs/how-to.md works: its files and shell blocks run in order in an empty folder.
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(HowTo, EachMarkedBlockRunsInAnEmptyFolder) {
   }
 }
 
-TEST(HowTo, ABlockThatFailsIsSeen) {
+TEST(HowTo, ReportsABlockThatFails) {
   const std::vector<Block> blocks =
       BlocksOf("# x\n<!-- run -->\n```sh\nfalse\ntrue\n```\n<!-- file: a -->\n```toml\nb\n```\n");
   ASSERT_EQ(blocks.size(), 2u);

@@ -1,4 +1,4 @@
-/// What `make install` puts somewhere works from there: programs, scenes by name, the library.
+/// An installation by `make install` works from its folder: programs, scenes by name, the library.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class Installed : public ::testing::Test {
 
   static std::string At(const std::string& path) { return *made_ / ("dest/opt/seam/" + path); }
 
-  /// Runs `words` in `folder`, with pkg-config looking at what was installed.
+  /// Runs `words` in `folder`, with pkg-config set to the installation.
   static std::unique_ptr<Program> Run(Words words, const Workspace& folder) {
     words.insert(words.begin(), {"env", "PKG_CONFIG_PATH=" + At("lib/pkgconfig")});
     auto program = std::make_unique<Program>(words, folder.path());
@@ -53,7 +53,7 @@ class Installed : public ::testing::Test {
   inline static std::unique_ptr<Workspace> made_;
 };
 
-/// What stands between `begin` and the next `end`; "" when there is no such place.
+/// Returns the text between `begin` and the next `end`; "" without such a place.
 std::string Between(const std::string& text, const std::string& begin, const std::string& end) {
   const std::size_t at = text.find(begin);
   if (at == std::string::npos) return "";
@@ -61,7 +61,7 @@ std::string Between(const std::string& text, const std::string& begin, const std
   return to == std::string::npos ? "" : text.substr(from, to - from);
 }
 
-TEST_F(Installed, TheProgramOfTheEmbeddingPageCompilesAndPrintsWhatThePageSays) {
+TEST_F(Installed, TheEmbeddingPagesProgramCompilesAndPrintsAsDocumented) {
   std::ifstream file(Root() / "docs/embedding.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::string code = Between(page, "```cpp\n", "```");
@@ -79,7 +79,7 @@ TEST_F(Installed, TheProgramOfTheEmbeddingPageCompilesAndPrintsWhatThePageSays) 
   EXPECT_EQ(slide->output(), printed + "\n");
 }
 
-TEST_F(Installed, PkgConfigAndEveryProgramSayTheVersion) {
+TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {
   const Workspace folder;
   EXPECT_EQ(Run({"pkg-config", "--modversion", "seam2d"}, folder)->output(),
             std::string(kVersion) + "\n");
@@ -137,7 +137,7 @@ TEST_F(Installed, ASceneOfTheCurrentFolderComesBeforeAnInstalledOne) {
   EXPECT_EQ(file->errors().rfind("seam-server: crossing:1: ", 0), 0u) << file->Story();
 }
 
-TEST_F(Installed, AScenesNameThatIsNowhereIsOneLineThatSaysWhereItLooked) {
+TEST_F(Installed, AnUnknownSceneIsOneLineThatListsTheFoldersSearched) {
   const Workspace folder;
   const auto server = Run(ServerWords("crosing"), folder);
   EXPECT_EQ(server->status(), 2);

@@ -52,7 +52,7 @@ class Interface {
   Names lines_;
 };
 
-/// What a program prints and ends well with.
+/// Returns a program's output; it must succeed.
 std::string Output(Names words) {
   words[0] = BuiltProgram(words[0]);
   Program program(words);
@@ -61,9 +61,9 @@ std::string Output(Names words) {
   return program.output();
 }
 
-/// What stands at the beginning of the lines of a --help below the title, "options" or
-/// "subcommands": of flags each spelling. CLI11 has changed the case of its titles and the columns
-/// of its flags: "  -o,--out TEXT", "  -o,     --out TEXT", "          --out TEXT".
+/// Returns the first words of the lines of a --help below the title, "options" or "subcommands": of
+/// flags each spelling. CLI11 has changed the case of its titles and the columns of its flags: "
+/// -o,--out TEXT", "  -o,     --out TEXT", "          --out TEXT".
 Names Below(const std::string& help, const std::string& title) {
   constexpr std::size_t kIndentMax = 12;  // what is further in goes on with a description
   Names names;
@@ -205,7 +205,7 @@ std::string Lacking(const Names& a, const Names& b) {
   return lines;
 }
 
-TEST(Interface, WhatScriptsDependOnIsWhatTheFileSays) {
+TEST(Interface, TheNamesThatScriptsUseMatchTheFile) {
   Interface found;
   AddTables(&found);
   AddPrograms(&found);
@@ -223,7 +223,7 @@ TEST(Interface, WhatScriptsDependOnIsWhatTheFileSays) {
   EXPECT_TRUE(pinned == found.lines()) << "the same names in another order, or some twice";
 }
 
-TEST(Interface, HelpIsReadHoweverItIsLaidOut) {
+TEST(Interface, ReadsHelpInAnyLayout) {
   const std::string help =
       "about\nUsage: x\n\nOPTIONS:\n  -o,--out TEXT  where\n  -h,     --help\n"
       "          --bind TEXT\n                   --not-this\n  --no-floor{false}  no\n\n"

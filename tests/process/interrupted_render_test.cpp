@@ -1,4 +1,4 @@
-/// A picture is there whole or not at all, however seam-render ends.
+/// A picture is written whole or not at all, even if seam-render is interrupted.
 
 #include <gtest/gtest.h>
 #include <signal.h>

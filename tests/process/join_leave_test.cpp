@@ -1,4 +1,4 @@
-/// Who comes, goes, vanishes and steers, with real processes.
+/// Clients join, leave, vanish and steer, with real processes.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -75,7 +75,7 @@ std::int64_t TickOf(const Recording& recording, const std::string& text) {
   return event < 0 ? -1 : recording.events[static_cast<std::size_t>(event)].tick;
 }
 
-/// Whether `peer` has shown anything after `tick`.
+/// True if `peer` has published a view after `tick`.
 bool ShowsAfter(const Recording& recording, int peer, std::int64_t tick) {
   const auto views = recording.views.find(peer);
   return views != recording.views.end() && views->second.upper_bound(tick) != views->second.end();
@@ -83,8 +83,8 @@ bool ShowsAfter(const Recording& recording, int peer, std::int64_t tick) {
 
 TEST_F(JoinLeave, SigintAndSigtermEndServerAndClientsWithStatus0AndAreNoticed) {
   SEAM_INSIDE_ONLY();
-  // Bob leaves by one signal, then the server by the other. What he still sends is delayed by his
-  // simulated network, and his goodbye must come through it.
+  // Bob leaves by one signal, then the server by the other. Bob's last messages are delayed by his
+  // simulated network, and his goodbye must pass it.
   const std::pair<int, int> kSignals[] = {{SIGINT, SIGTERM}, {SIGTERM, SIGINT}};
   std::vector<std::unique_ptr<LiveSession>> sessions;
   for (const auto& [first, second] : kSignals) {
@@ -128,7 +128,7 @@ TEST_F(JoinLeave, SigintAndSigtermEndServerAndClientsWithStatus0AndAreNoticed) {
   EXPECT_GE(drives[1].size(), 2u);
 }
 
-/// Who has authority over each mechanism after the grants up to `tick`.
+/// The authority over each mechanism after the grants up to `tick`.
 std::map<int, int> AuthorityAt(const Recording& recording, std::int64_t tick) {
   std::map<int, int> authority;
   std::map<int, int> epoch;
@@ -213,7 +213,7 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   EXPECT_EQ(session.client("bob").status(), 0);
 }
 
-/// What the first player has driven, by tick.
+/// The first player's inputs, by tick.
 struct Driving {
   std::map<std::int64_t, int> drive;
   bool button = false;

@@ -1,4 +1,4 @@
-/// What the operator reads on a machine that has no route for multicast, as LCM needs it.
+/// The messages on a machine that lacks a multicast route, which LCM needs.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace no_route_test {
 
 class NoRoute : public InNamespace {};
 
-TEST_F(NoRoute, EveryProgramOnTheBusSaysInOneLineWhatToTypeAndWritesNothing) {
+TEST_F(NoRoute, EveryBusProgramNamesTheFixInOneLineAndWritesNothing) {
   SEAM_INSIDE_ONLY("ip link set lo up");
   const std::string scene = std::filesystem::absolute("scenes/crossing.toml").string();
   const std::vector<std::vector<std::string>> commands = {
@@ -38,7 +38,7 @@ TEST_F(NoRoute, EveryProgramOnTheBusSaysInOneLineWhatToTypeAndWritesNothing) {
   }
 }
 
-TEST_F(NoRoute, TheDoctorSaysSoAndTheRoomCanDoWithoutTheBus) {
+TEST_F(NoRoute, TheDoctorReportsItAndTheRoomRunsWithoutTheBus) {
   SEAM_INSIDE_ONLY("ip link set lo up");
   Program doctor({BuiltProgram("seam-server"), "--doctor"});
   EXPECT_TRUE(doctor.Wait(30));

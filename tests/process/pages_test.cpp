@@ -1,5 +1,5 @@
-/// Man pages and completions say every flag of every program, and the tools that read them do not
-/// complain.
+/// Man pages and completions document every flag of every program, and the tools that read them
+/// accept them.
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ std::string Generated(const std::string& program, const std::string& kind) {
   return run.output();
 }
 
-/// Of each program: its flags and subcommands, and its subcommands' flags. The file is held to
-/// what --help says by tests/process/interface_test.cpp.
+/// Flags and subcommands of each program, and the subcommands' flags.
+/// tests/process/interface_test.cpp compares the file with --help.
 Words NamesOf(const std::string& program) {
   Words names;
   for (const std::string& line : Lines(Root() / "tests/process/interface.txt")) {
@@ -44,14 +44,14 @@ bool Has(const std::string& program) {
   return which.Wait(60) && which.status() == 0;
 }
 
-/// What is written on stderr, and a status that is not 0.
+/// Returns the text on stderr, and a status other than 0.
 std::string Complaints(const Words& words) {
   Program run(words);
   if (!run.Wait(60)) return "hangs";
   return run.errors() + (run.status() == 0 ? "" : "status " + std::to_string(run.status()));
 }
 
-TEST(Pages, SayEveryFlagAndSubcommand) {
+TEST(Pages, DocumentEveryFlagAndSubcommand) {
   for (const std::string program : kPrograms) {
     const Words names = NamesOf(program);
     EXPECT_GT(names.size(), 8u) << program;
@@ -77,7 +77,7 @@ TEST(Pages, SayEveryFlagAndSubcommand) {
   }
 }
 
-TEST(Pages, AreReadByManBashZshAndFishWithoutAWord) {
+TEST(Pages, AreAcceptedByManBashZshAndFishWithoutMessages) {
   const Workspace folder;
   for (const std::string program : kPrograms) {
     folder.Write(program + ".1", Generated(program, "man"));
@@ -85,7 +85,7 @@ TEST(Pages, AreReadByManBashZshAndFishWithoutAWord) {
     folder.Write(program + ".zsh", Generated(program, "zsh"));
     folder.Write(program + ".fish", Generated(program, "fish"));
     const std::string man = folder / (program + ".1");
-    // man-db names what roff did not understand with --warnings.
+    // man-db prints roff's warnings with --warnings.
     if (Has("man") && Has("groff")) {
       EXPECT_EQ(Complaints({"man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", man}), "");
     }
@@ -106,7 +106,7 @@ TEST(Pages, AreReadByManBashZshAndFishWithoutAWord) {
   }
 }
 
-/// What bash offers when the last of these words is being typed, in order.
+/// Returns bash's completions of the last of these words, in order.
 Words Completed(const Words& words) {
   const Workspace folder;
   folder.Write("script", Generated(words[0], "bash"));

@@ -1,5 +1,5 @@
-/// A recording that cannot be written: the room runs on, the operator is told at once and at the
-/// end, and the exit status is 1.
+/// A recording that cannot be written: the room runs on, the operator is informed at once and at
+/// the end, and the exit status is 1.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ Words Server(const std::string& record, const std::string& duration_s) {
           record};
 }
 
-/// How many lines of `text` contain `part`.
+/// Counts the lines of `text` that contain `part`.
 int LinesWith(const std::string& text, const std::string& part) {
   int lines = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -51,7 +51,7 @@ int LinesWith(const std::string& text, const std::string& part) {
   return lines;
 }
 
-TEST(RecordFailure, AFullDiskIsSaidAtOnceAndAtTheEndAndTheRoomRunsOn) {
+TEST(RecordFailure, AFullDiskIsReportedAtOnceAndAtTheEndAndTheRoomRunsOn) {
   const Workspace folder;
   Program server(OnAFullDisk(folder, Server(folder / "full.lcm", "3")));
   ASSERT_TRUE(server.WaitForErrors("full.lcm: ", 2)) << server.Story();
@@ -62,7 +62,7 @@ TEST(RecordFailure, AFullDiskIsSaidAtOnceAndAtTheEndAndTheRoomRunsOn) {
   EXPECT_EQ(LinesWith(server.errors(), "full.lcm: cannot be written: "), 2) << server.Story();
 }
 
-TEST(RecordFailure, APlaceThatTakesNoFileIsSaidAtOnceAndAtTheEnd) {
+TEST(RecordFailure, AnUnwritablePlaceIsReportedAtOnceAndAtTheEnd) {
   Program server(Server("/proc/seam.lcm", "0.5"));
   ASSERT_TRUE(server.Wait(30));
   if (server.status() == 2) GTEST_SKIP() << "not root: refused before it begins";

@@ -1,5 +1,5 @@
-/// The report's page in a browser: the first answer follows what is asked for, figures answer the
-/// mouse, methods and scenes can be left out, and there is no error in the console.
+/// The report's page in a browser: the first answer follows the choices, figures answer the mouse,
+/// methods and scenes can be hidden, and there is no error in the console.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace seam {
 namespace report_page_test {
 
-/// Of two scenes at two latencies: in wall fade errs less, at 100 ms in stack strict does.
+/// A table of two scenes at two latencies: in wall fade errs less, at 100 ms in stack strict does.
 std::string LatencyCsv() {
   std::string text =
       "version,scene,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed,"
@@ -68,7 +68,7 @@ class ReportInBrowser : public ::testing::Test {
   std::unique_ptr<Browser> browser_;
 };
 
-TEST_F(ReportInBrowser, SaysWhatToUseForTheLatencyAndTheSceneThatAreAsked) {
+TEST_F(ReportInBrowser, RecommendsAMethodForTheChosenLatencyAndScene) {
   Ask("latency", "60");
   Ask("scene", "stack");
   EXPECT_EQ(Verdict(), "Use fade: error 0.004 m, 5 ms of CPU per second, 2 kB/s.");
@@ -78,7 +78,7 @@ TEST_F(ReportInBrowser, SaysWhatToUseForTheLatencyAndTheSceneThatAreAsked) {
   EXPECT_EQ(Verdict(), "Use fade: error 0.002 m, 5 ms of CPU per second, 2 kB/s.");
 }
 
-TEST_F(ReportInBrowser, AFigureAnswersTheMouseAndLeavesOutWhatIsSwitchedOff) {
+TEST_F(ReportInBrowser, AFigureAnswersTheMouseAndHidesDisabledMethods) {
   Open("latency");
   EXPECT_EQ(browser_->Number("document.querySelectorAll('.chapter.shown').length"), 1);
   const std::string curves = "document.querySelectorAll('.shown .plot [data-curve=fade]').length";

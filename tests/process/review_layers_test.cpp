@@ -1,4 +1,4 @@
-/// What a review page shows besides bodies: jumps, losses, onion skin, strands, holes in bricks.
+/// The layers of a review page besides bodies: jumps, losses, onion skin, strands, holes in bricks.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ class ReviewLayers : public ::testing::Test {
   std::unique_ptr<Browser> browser_;
 };
 
-TEST_F(ReviewLayers, LossesHaveARowForEachChannelAndSayThemselves) {
+TEST_F(ReviewLayers, LossesHaveARowForEachChannelWithALabel) {
   Open("crossing", "5");
   EXPECT_EQ(Number("document.getElementById('losses').hidden ? 1 : 0"), 0);
   EXPECT_GE(Number("review.page.losses.rows.length"), 1);
@@ -51,13 +51,13 @@ TEST_F(ReviewLayers, LossesHaveARowForEachChannelAndSayThemselves) {
   EXPECT_NE(browser_->Evaluate(kPicture), before) << "onion skin";
 }
 
-TEST_F(ReviewLayers, RegionsAreAroundWhatEachClientHoldsWhereTheSceneFixesNone) {
+TEST_F(ReviewLayers, RegionsEncloseEachClientsBodiesIfTheSceneFixesNone) {
   Open("derby", "3");
   const std::string view = "review.page.runs[0].views[0]";
   ASSERT_EQ(Number(view + ".peer"), 0);
   EXPECT_GE(Number("heldRegions(" + view + ", 150).length"), 2);
   EXPECT_EQ(Number("review.page.runs[0].regions.length"), 0) << "the scene fixes none";
-  // How far a held body's middle is inside its holder's region, m: its reach and the margin.
+  // Distance of a held body's centre inside its holder's region, m: its reach and the margin.
   const std::string inside =
       "(() => { const v = " + view +
       "; let least = Infinity, held = 0;"
@@ -77,7 +77,7 @@ TEST_F(ReviewLayers, RegionsAreAroundWhatEachClientHoldsWhereTheSceneFixesNone) 
   EXPECT_NE(browser_->Evaluate(kPicture), before) << "the layer of regions";
 }
 
-TEST_F(ReviewLayers, StrandsHangWhereTheViewHasThem) {
+TEST_F(ReviewLayers, StrandsHangAsInTheView) {
   Open("obstacle", "2");
   const std::string view = "review.page.runs[0].views[1]";
   EXPECT_GE(Number(view + ".strands.length"), 1);
@@ -93,7 +93,7 @@ TEST_F(ReviewLayers, StrandsHangWhereTheViewHasThem) {
   EXPECT_GT(Number(view + ".strands[0].rowOf.size"), 60);
 }
 
-TEST_F(ReviewLayers, BricksThatABlastFreedAreHolesFromThenOn) {
+TEST_F(ReviewLayers, BlastedBricksAreHolesFromThenOn) {
   Open("battlefield", "9");
   const std::string worlds = "review.page.runs[0].worlds";
   EXPECT_EQ(Number(worlds + "[0].holes.length"), 0);

@@ -1,5 +1,5 @@
-/// A review page in a browser: what is clicked, dragged and pressed does what it says, its numbers
-/// are seam-measure's, and nothing leaves the file.
+/// A review page in a browser: clicks, drags and keys work, its numbers equal seam-measure's, and
+/// nothing leaves the file.
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST_F(ReviewPage, IsScrubbedByMouseAndByKeys) {
   EXPECT_EQ(browser_->Evaluate("review.state.playing"), "false");
 }
 
-TEST_F(ReviewPage, WipesBetweenTwoRunsWhereTheDividerIsDragged) {
+TEST_F(ReviewPage, ADraggedDividerWipesBetweenTwoRuns) {
   browser_->Click("#worst");
   browser_->Click("[data-mode=wipe]");
   const std::string half = browser_->Evaluate(kPicture);
@@ -152,7 +152,7 @@ TEST_F(ReviewPage, ADraggedRangesNumbersAreSeamMeasures) {
   EXPECT_GT(stutter, 1);
 }
 
-TEST_F(ReviewPage, ItsAddressShowsTheSameAgain) {
+TEST_F(ReviewPage, ItsAddressRestoresTheView) {
   browser_->Click("#worst");
   browser_->Click("[data-mode=difference]");
   browser_->Click("[data-layer=heat]");
@@ -169,7 +169,7 @@ TEST_F(ReviewPage, ItsAddressShowsTheSameAgain) {
   EXPECT_EQ(browser_->Evaluate(kPicture), picture);
 }
 
-TEST_F(ReviewPage, GivesPicturesAndNumbersAway) {
+TEST_F(ReviewPage, ExportsPicturesAndNumbers) {
   browser_->Click("#worst");
   const std::string svg = "new DOMParser().parseFromString(svgOf(review.page), 'image/svg+xml')";
   EXPECT_EQ(browser_->Evaluate(svg + ".querySelectorAll('parsererror').length"), "0");
@@ -179,7 +179,7 @@ TEST_F(ReviewPage, GivesPicturesAndNumbersAway) {
   EXPECT_EQ(browser_->Number(rows), 1 + 2 * 10 * 4);
 }
 
-TEST(ReviewPageNames, OfARecordingAreTextAndNeverMarkup) {
+TEST(ReviewPageNames, NamesInARecordingAreTextAndNeverMarkup) {
   if (Browser::Find().empty()) GTEST_SKIP() << "no chromium here: apt-get install chromium";
   const std::string hostile = "</script><img src=x onerror=\"hacked=1\"><b>&amp;'";
   Scene scene = synthetic::MakeScene();

@@ -1,5 +1,5 @@
-/// What is no regular file (a FIFO, a device, a socket, a folder) is refused as a scene, as a log
-/// and as an output: in one line, at once, with exit status 2. A FIFO would wait for ever.
+/// A FIFO, a device, a socket or a folder is refused as a scene, as a log and as an output: in one
+/// line, at once, with exit status 2. Opening a FIFO would block for ever.
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

@@ -99,7 +99,7 @@ TEST_F(SwarmProgram, FourClientsPlayForThreeSecondsAndLeaveCleanly) {
   EXPECT_GT(figures.client_us, 0) << said;
   EXPECT_EQ(figures.rejoins, 0) << said;
   EXPECT_GT(figures.slowest_clock, 0) << said;
-  // Nobody is there any more, at once: they said goodbye.
+  // The clients are gone at once: they said goodbye.
   std::vector<RoomLoad> loads = Loads(17500);
   for (int i = 0; i < 30 && !loads.empty() && loads[0].load.clients > 0; ++i) {
     usleep(100000);
@@ -121,7 +121,7 @@ std::string Contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST_F(SwarmProgram, ItsHeapIsOnHugePagesWhereTheSystemHasAny) {
+TEST_F(SwarmProgram, ItsHeapIsOnHugePagesIfTheSystemHasAny) {
   SEAM_INSIDE_ONLY();
   const std::string offered = Contents("/sys/kernel/mm/transparent_hugepage/enabled");
   if (offered.empty() || offered.find("[never]") != std::string::npos) GTEST_SKIP() << offered;

@@ -1,4 +1,4 @@
-/// What server and client say to the person who started them, with real processes.
+/// The messages of server and client to their operator, with real processes.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -37,7 +37,7 @@ class Terminals : public ::testing::Test {
   std::vector<std::string> ClientWords(const std::string& name) const {
     return {BuiltProgram("seam-client"), address_, "--name", name, "--lcm-url", "none"};
   }
-  /// What a client that is refused says; it must end with status 2.
+  /// Returns the message of a refused client; it must end with status 2.
   std::string Refused(const std::string& name) const {
     Program client(ClientWords(name));
     EXPECT_TRUE(client.Wait(kPatience));
@@ -48,7 +48,7 @@ class Terminals : public ::testing::Test {
   std::string address_;
 };
 
-TEST_F(Terminals, ATakenOrUnknownNameIsOneLineThatSaysWhatIsFreeAndStatus2) {
+TEST_F(Terminals, ATakenOrUnknownNameListsFreeNamesInOneLineWithStatus2) {
   Start({});
   Program ann(ClientWords("ann"));
   ASSERT_TRUE(server_->WaitForErrors("ann is here", kPatience)) << server_->Story();
@@ -64,7 +64,7 @@ TEST_F(Terminals, ATakenOrUnknownNameIsOneLineThatSaysWhatIsFreeAndStatus2) {
             "on\n");
 }
 
-TEST_F(Terminals, TheServerSaysWhoComesAndGoesAndEndsWithATableAndWithoutProgressInAFile) {
+TEST_F(Terminals, TheServerReportsJoinsAndLeavesAndEndsWithATable) {
   Start({});
   Program ann(ClientWords("ann"));
   ASSERT_TRUE(server_->WaitForErrors("ann is here as peer 1, 127.0.0.1:", kPatience));
@@ -87,7 +87,7 @@ TEST_F(Terminals, TheServerSaysWhoComesAndGoesAndEndsWithATableAndWithoutProgres
   }
 }
 
-TEST_F(Terminals, QuietLeavesOutWhoComesAndGoes) {
+TEST_F(Terminals, QuietOmitsJoinsAndLeaves) {
   Start({"--quiet", "--duration", "0.5"});
   Program ann(ClientWords("ann"));
   ASSERT_TRUE(server_->Wait(kPatience));
@@ -102,7 +102,7 @@ TEST_F(Terminals, DrivingByKeyboardShowsTheWorldAndItsKeys) {
   const Workspace folder;
   std::string command;
   for (const std::string& word : ClientWords("ann")) command += "'" + word + "' ";
-  // script gives it a terminal of its own on all three, and copies what it writes.
+  // script gives it a terminal of its own on all three, and copies its output.
   Program ann({"script", "-qefc", command + "--drive keyboard", folder / "seen"}, "",
               terminal.terminal());
   ASSERT_TRUE(server_->WaitForErrors("the room starts", kPatience)) << server_->Story();

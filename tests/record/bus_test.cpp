@@ -88,7 +88,7 @@ View MakeView(std::int32_t sequence, std::size_t bodies) {
   return view;
 }
 
-TEST_F(BusInNamespace, HearsWhatIsPublishedUpToTheLargestMessage) {
+TEST_F(BusInNamespace, ReceivesMessagesUpToTheLargest) {
   SEAM_ENTER(kMulticast);
   Bus speaker(""), listener("");
   std::vector<HeardMessage> heard;
@@ -116,7 +116,7 @@ TEST_F(BusInNamespace, ABurstOfLargeMessagesArrivesWhole) {
   std::vector<HeardMessage> heard;
   listener.Subscribe(".*", Into(&heard));
   if (!listener.warnings().empty()) GTEST_SKIP() << listener.warnings()[0];
-  // Sixty views of 28 kB at once: 1.7 MB, eight times what a default socket holds.
+  // Sixty views of 28 kB at once: 1.7 MB, eight times the default socket buffer.
   for (std::int32_t i = 0; i < 60; ++i) {
     speaker.Publish("SEAM.r.view.1", 0, Encode(MakeView(i, 1000)));
   }
@@ -124,7 +124,7 @@ TEST_F(BusInNamespace, ABurstOfLargeMessagesArrivesWhole) {
   EXPECT_EQ(heard.size(), 60u);
 }
 
-TEST_F(BusInNamespace, RefusesAndCountsWhatDoesNotFit) {
+TEST_F(BusInNamespace, RefusesAndCountsOversizedMessages) {
   SEAM_ENTER(kMulticast);
   Bus bus("");
   bus.Publish("A", 0, Bytes(kBusMessageBytesMax + 1));
@@ -163,7 +163,7 @@ TEST_F(BusInNamespace, AHandlerThatThrowsIsCountedAndTheNextMessageArrives) {
   EXPECT_EQ(bus.failures(), 3);
 }
 
-/// What the constructor or Subscribe complains of; "" when it works.
+/// Returns the error of the constructor or of Subscribe; "" on success.
 std::string Complaint(const std::string& url) {
   try {
     Bus bus(url);
@@ -174,7 +174,7 @@ std::string Complaint(const std::string& url) {
   return "";
 }
 
-TEST_F(BusInNamespace, WithoutARouteItSaysWhatToType) {
+TEST_F(BusInNamespace, NamesTheFixForAMissingRoute) {
   SEAM_ENTER("ip link set lo up");
   ::testing::internal::CaptureStderr();
   const std::string line = Complaint("");
@@ -192,7 +192,7 @@ TEST_F(BusInNamespace, AWrongUrlIsNamed) {
   }
 }
 
-TEST_F(BusInNamespace, BehindAFirewallItSaysSoInsteadOfCrashing) {
+TEST_F(BusInNamespace, ReportsAFirewallInsteadOfCrashing) {
   SEAM_ENTER(std::string(kMulticast) +
              "; tc qdisc add dev lo root pfifo limit 0 || export SEAM_TEST_NO_TC=1");
   if (std::getenv("SEAM_TEST_NO_TC") != nullptr) GTEST_SKIP() << "tc cannot play the firewall";
@@ -215,7 +215,7 @@ TEST_F(BusInNamespace, TheDoctorFindsAHealthyMachineHealthy) {
   EXPECT_NE(Text(report).find("60000 bytes comes back"), std::string::npos) << Text(report);
 }
 
-TEST_F(BusInNamespace, TheDoctorSaysWhatToTypeWithoutARoute) {
+TEST_F(BusInNamespace, TheDoctorNamesTheFixForAMissingRoute) {
   SEAM_ENTER("ip link set lo up");
   const DoctorReport report = RunDoctor("");
   EXPECT_FALSE(report.healthy) << Text(report);
@@ -236,7 +236,7 @@ TEST(Doctor, FindsTheMostSpecificUsableRoute) {
   EXPECT_EQ(RouteInterface("", "nonsense"), "");
 }
 
-TEST_F(BusInNamespace, StockLoggerRecordsWhatItPublishes) {
+TEST_F(BusInNamespace, TheStockLoggerRecordsItsMessages) {
   SEAM_ENTER(kMulticast);
   TemporaryFile file;
   ChildProcess logger({"lcm-logger", "--quiet", "--flush-interval=10", file.path()});
@@ -249,8 +249,8 @@ TEST_F(BusInNamespace, StockLoggerRecordsWhatItPublishes) {
   }
   ASSERT_TRUE(logging()) << logger.output();
 
-  // Nothing holds a publisher back: what its reader has no time for is lost where a socket ends. So
-  // no more is under way than two views, whatever else the machine does.
+  // Nothing throttles a publisher: messages overflow a slow reader's socket. So at most two views
+  // are in flight, on any machine.
   const std::size_t before = file.Read().size();
   std::size_t sent = 0;
   const auto written_but = [&](std::size_t under_way) {

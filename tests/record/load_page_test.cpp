@@ -1,4 +1,4 @@
-/// The page for Prometheus: what is written is read back, and it keeps to the exposition format.
+/// The page for Prometheus: a written page is read back, and it follows the exposition format.
 
 #include "common/record/load_page.h"
 
@@ -46,7 +46,7 @@ RoomLoad RandomRoom(const std::string& name, RandomMessages* messages, Random* t
   return {name, RandomLoad(messages), RandomTicks(ticks), RandomTicks(ticks)};
 }
 
-TEST(LoadPage, WhatIsWrittenIsReadBack) {
+TEST(LoadPage, ReadsBackAWrittenPage) {
   RandomMessages random(3);
   Random ticks(4);
   for (int i = 0; i < 50; ++i) {

@@ -78,7 +78,7 @@ std::size_t EventBytes(const LogEvent& e) {
   return kLogHeaderBytes + e.channel.size() + e.data.size();
 }
 
-TEST(Log, ReadsBackWhatWasWritten) {
+TEST(Log, ReadsBackAWrittenLog) {
   const std::vector<LogEvent> events = RandomEvents(1, 300, 60000);
   const ReadBack back = ReadLog(WriteLog(events));
   EXPECT_TRUE(back.events == events);
@@ -130,7 +130,7 @@ TEST(Log, RefusesToOverwriteUnlessForced) {
   EXPECT_THROW(LogWriter("/nonexistent/folder/a.lcm"), OperatorError);
 }
 
-TEST(Log, CountsWhatItCannotWrite) {
+TEST(Log, CountsEventsThatItCannotWrite) {
   TemporaryFile file;
   LogWriter writer(file.path());
   writer.Publish("", 0, Bytes{1});
@@ -141,7 +141,7 @@ TEST(Log, CountsWhatItCannotWrite) {
   EXPECT_EQ(file.Read(), Bytes{});
 }
 
-TEST(Log, CountsWhatAFullDiskDoesNotTake) {
+TEST(Log, CountsEventsLostToAFullDisk) {
   TemporaryFile file;
   LogWriter full(file.path());
   EXPECT_TRUE(full.trouble().ok());
@@ -171,7 +171,7 @@ TEST(Log, WritesAndReadsRegularFilesOnly) {
   EXPECT_THROW(LogReader(file.path()), OperatorError);
 }
 
-TEST(Log, WhatIsNoLogIsAnOperatorsMistake) {
+TEST(Log, AFileThatIsNoLogIsAnOperatorsMistake) {
   EXPECT_THROW(LogReader("/nonexistent.lcm"), OperatorError);
   EXPECT_THROW(LogReader("/tmp"), OperatorError);
   EXPECT_THROW(LogReader("/dev/zero"), OperatorError);

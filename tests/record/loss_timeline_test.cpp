@@ -1,4 +1,4 @@
-/// When and where a recording lost something: each kind of loss is found at its channel and moment.
+/// Time and place of losses in a recording: each kind of loss is found at its channel and moment.
 
 #include "common/record/loss_timeline.h"
 
@@ -24,7 +24,7 @@ std::vector<Loss> OfKind(const std::vector<Loss>& losses, Loss::Kind kind) {
   return some;
 }
 
-TEST(LossTimeline, ARecordingThatHasAllHasNone) {
+TEST(LossTimeline, ACompleteRecordingHasNoLosses) {
   const std::vector<Loss> losses = FindLosses(MakeRecording(2, 64, Moving(1)));
   EXPECT_TRUE(losses.empty());
   EXPECT_EQ(FormatLosses(losses), "no losses\n");
@@ -76,7 +76,7 @@ TEST(LossTimeline, InputsThatNeverCameAndDatagramsThatWereLostAreFound) {
   EXPECT_EQ(network[0].to_s, 2);
 }
 
-TEST(LossTimeline, WhatTheLoggerMissedIsFoundByTheNumbersOfItsChannel) {
+TEST(LossTimeline, FindsMessagesThatTheLoggerMissedByTheirSequenceNumbers) {
   const Workspace folder;
   const std::string whole = folder / "whole.lcm", torn = folder / "torn.lcm";
   synthetic::WriteLog(whole, synthetic::MakeRecording(0));

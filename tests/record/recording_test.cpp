@@ -21,7 +21,7 @@ Room MakeRoom(std::int64_t seed = 7) {
   return room;
 }
 
-/// A view of peer 0..31 with `count` bodies, whose every number tells the tick.
+/// A view of peer 0..31 with `count` bodies; every number encodes the tick.
 View MakeView(int peer, std::int64_t tick, std::size_t count = 2, std::int32_t first_id = 0) {
   View view;
   view.peer = peer;
@@ -58,7 +58,7 @@ struct Heard {
   Recording& recording() { return builder.recording(); }
 };
 
-TEST(ChannelNames, SayRoomKindAndPeer) {
+TEST(ChannelNames, EncodeRoomKindAndPeer) {
   EXPECT_EQ(ChannelName("demo", "room"), "SEAM.demo.room");
   EXPECT_EQ(ChannelName("demo", "view", 12), "SEAM.demo.view.12");
   EXPECT_THROW(ChannelName("two words", "view"), OperatorError);
@@ -187,7 +187,7 @@ TEST(Recording, APublisherThatStartsAgainIsNoGap) {
   EXPECT_EQ(heard.recording().views.at(1).size(), 400u);
 }
 
-TEST(Recording, GapsEqualWhatWasLostWhateverTheOrder) {
+TEST(Recording, GapsEqualTheLossesInAnyOrder) {
   Random random(11);
   Heard heard;
   constexpr int kSent = 3000;
@@ -254,7 +254,7 @@ TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
             file.path() + ": recorded with protocol 3; this program reads protocol 8 to 12");
 }
 
-TEST(Recording, SeparatesRoomsAndCountsWhatIsForeign) {
+TEST(Recording, SeparatesRoomsAndCountsForeignMessages) {
   RecordingBuilder first, second("second");
   for (RecordingBuilder* builder : {&first, &second}) {
     builder->Add("CAMERA", Bytes{1, 2, 3});
@@ -288,7 +288,7 @@ TEST(Recording, RedundantInputsKeepTheLongest) {
   EXPECT_EQ(heard.recording().inputs.at(3).at(40).drive.size(), 5u);
 }
 
-TEST(Recording, SortsByTickWhatArrivesOutOfOrder) {
+TEST(Recording, SortsReorderedMessagesByTick) {
   Heard heard;
   for (const int tick : {60, 180, 120, 240, 0}) heard.Hear(MakeStats(1, tick));
   std::vector<std::int64_t> ticks;

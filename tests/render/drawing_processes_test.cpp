@@ -1,4 +1,4 @@
-/// Items shared out among processes: each once, and no failure goes unheard.
+/// Items shared among processes: each is drawn once, and every failure is reported.
 #include "render/drawing_processes.h"
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ TEST(DrawingProcesses, EachItemIsDrawnOnceByOneOfTheChildren) {
   }
 }
 
-TEST(DrawingProcesses, WhatOneThrowsIsThrownAndTheOthersStop) {
+TEST(DrawingProcesses, AnExceptionInAChildIsRethrownAndTheOthersStop) {
   const Folder folder;
   EXPECT_EQ(Failure(1000000, 3,
                     [&](int item) {
@@ -63,7 +63,7 @@ TEST(DrawingProcesses, WhatOneThrowsIsThrownAndTheOthersStop) {
   EXPECT_LT(drawn, 100000);
 }
 
-TEST(DrawingProcesses, OneThatIsKilledIsAnError) {
+TEST(DrawingProcesses, AKilledChildIsAnError) {
   EXPECT_THAT(Failure(10, 2,
                       [](int item) {
                         if (item == 3) raise(SIGKILL);

@@ -1,4 +1,4 @@
-/// What a hostile peer writes into a log stays text in every format of seam-export.
+/// Hostile text in a log stays text in every format of seam-export.
 
 #include <gtest/gtest.h>
 

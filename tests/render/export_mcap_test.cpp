@@ -105,7 +105,7 @@ void ReadChunk(const McapRecord& record, McapFile* file) {
   }
 }
 
-/// Where a chunk's index says that it and its messages are, there they are.
+/// Checks that a chunk and its messages are at the places in the chunk's index.
 void CheckChunkIndex(const std::string& bytes, const McapRecord& record) {
   McapFields index(record.content);
   index.Take<std::uint64_t>();
@@ -251,7 +251,7 @@ const readable = {size: async () => BigInt(bytes.length), read: async (offset, l
   EXPECT_EQ(read.output(), std::to_string(ReadMcap(files_->Read("a.mcap")).counted) + "\n");
 }
 
-TEST(Crc32OfMcap, IsTheOneOfZip) {
+TEST(Crc32OfMcap, EqualsTheCrcOfZip) {
   EXPECT_EQ(Crc32("123456789"), 0xcbf43926u);  // the check value of the catalogue of CRCs
   EXPECT_EQ(Crc32("6789", Crc32("12345")), Crc32("123456789"));
 }

@@ -52,7 +52,7 @@ class ExportProgram : public ::testing::Test {
   static std::string Log() { return *files_ / "run.lcm"; }
   static std::string At(const std::string& name) { return *files_ / name; }
 
-  /// Runs a program with these words; returns what it wrote to stdout.
+  /// Runs a program with these words; returns its stdout.
   static std::string Run(Words words, int status = 0) {
     words[0] = BuiltProgram(words[0]);
     Program program(words);
@@ -67,7 +67,7 @@ class ExportProgram : public ::testing::Test {
     return Run(words, status);
   }
 
-  /// What seam-measure says in a column of its table.
+  /// Returns seam-measure's value in a column of its table.
   static double Measured(const std::string& column, const Words& range) {
     Words words = {"seam-measure", Log(), "--csv", At("measure.csv")};
     words.insert(words.end(), range.begin(), range.end());
@@ -121,7 +121,7 @@ TEST_F(ExportProgram, TheTableHasEveryPoseOfTheRecordingAndItsError) {
   EXPECT_GT(with_error, 1000u);
 }
 
-/// Of the last column.
+/// Root mean square of the last column.
 double RootMeanSquare(const std::string& csv) {
   MeanSquare all;
   const Words lines = LinesOf(csv);
@@ -168,7 +168,7 @@ TEST_F(ExportProgram, NamesChooseViewsAndBodies) {
             expected);
 }
 
-TEST_F(ExportProgram, JsonAndTraceSayWhatTheTableSays) {
+TEST_F(ExportProgram, JsonAndTraceAgreeWithTheTable) {
   for (const char* format : {"csv", "json", "trace"}) {
     Export({std::string("--") + format, "-o", At(std::string("all.") + format), "--force"});
   }
@@ -262,7 +262,7 @@ void WriteWithout(const std::string& from, const std::string& to, const std::str
   }
 }
 
-TEST_F(ExportProgram, AViewThatTheLogLacksIsNamedAndTheRestIsThere) {
+TEST_F(ExportProgram, AMissingViewIsNamedAndTheRestIsExported) {
   WriteWithout(Log(), At("no-bob.lcm"), ".view.2");
   const std::string csv = Run({"seam-export", At("no-bob.lcm"), "--csv"});
   EXPECT_NE(errors_.find("no view of bob"), std::string::npos) << errors_;
@@ -275,7 +275,7 @@ TEST_F(ExportProgram, AViewThatTheLogLacksIsNamedAndTheRestIsThere) {
   }
 }
 
-TEST_F(ExportProgram, ThePythonOfThePageReadsWhatIsExported) {
+TEST_F(ExportProgram, ThePagesPythonReadsTheExports) {
   std::ifstream file(Root() / "docs/read-a-log.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::size_t begin = page.find("```python\n") + 10, end = page.find("```", begin);

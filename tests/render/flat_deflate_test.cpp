@@ -1,4 +1,4 @@
-/// The fast compressor against zlib: what it writes is read back by zlib's own inflate.
+/// The fast compressor against zlib: zlib's inflate reads its output back.
 
 #include "render/canvas/flat_deflate.h"
 

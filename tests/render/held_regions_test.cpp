@@ -1,4 +1,4 @@
-/// Regions that follow the players, drawn from what each holds.
+/// Regions that follow the players, drawn around each player's bodies.
 
 #include "render/playback/held_regions.h"
 
@@ -19,7 +19,7 @@ Playback Recorded(const std::string& scene_text) {
   return Playback(RunCluster(config), std::nullopt);
 }
 
-TEST(HeldRegions, EachIsAroundWhatItsPeerHolds) {
+TEST(HeldRegions, EachRegionEnclosesTheBodiesOfItsPeer) {
   PlainScene plain;
   plain.players = 2;
   const Playback playback = Recorded(PlainText(plain));

@@ -1,5 +1,5 @@
-/// What a review page carries is the recording: decoded again it is within half a millimetre, half
-/// a milliradian and half a unit of error.
+/// A review page carries the recording: decoded, it is within half a millimetre, half a milliradian
+/// and half a unit of error.
 
 #include <gtest/gtest.h>
 
@@ -96,7 +96,7 @@ TEST(PageData, JumpsSpinsGapsAndBodiesThatComeAndGoAreKept) {
   EXPECT_EQ(tracks.world[23], 0);
 }
 
-TEST(PageData, WhatTheOracleDoesNotKnowHasNoError) {
+TEST(PageData, APoseUnknownToTheOracleHasNoError) {
   const Recording recording = synthetic::MakeRecording(6);
   Oracle oracle = synthetic::MakeOracle();
   oracle.ticks.resize(50);
@@ -105,7 +105,7 @@ TEST(PageData, WhatTheOracleDoesNotKnowHasNoError) {
   EXPECT_EQ(tracks.bodies.at(1).samples.at(50).error, -1);
 }
 
-TEST(PageData, ErrorsComeToTheMeasuresNumbers) {
+TEST(PageData, ErrorsSumToTheMeasuresNumbers) {
   const Recording recording = synthetic::MakeRecording(6);
   const Oracle oracle = synthetic::MakeOracle();
   const Measures measures = Measure(recording, oracle);
@@ -139,7 +139,7 @@ TEST(PageData, NumbersOfAnySizeComeBack) {
   EXPECT_TRUE(reader.AtEnd());
 }
 
-TEST(PageData, ThePageHasItsDataCompressedAndTheSameAgain) {
+TEST(PageData, ThePagesCompressedDataIsReproducible) {
   const Playback playback(synthetic::MakeRecording(6), synthetic::MakeScene(),
                           synthetic::MakeOracle());
   const std::vector<PageRun> runs = {{"run", &playback, ""}};
@@ -160,7 +160,7 @@ TEST(PageData, ThePageHasItsDataCompressedAndTheSameAgain) {
 
 using PageFlags = RenderLog;
 
-TEST_F(PageFlags, APageIsWrittenOrAMistakeIsNamedAndNothingIs) {
+TEST_F(PageFlags, WritesAPageOrNamesAMistakeAndWritesNothing) {
   const auto run = [&](std::vector<std::string> words) {
     std::vector<const char*> arguments = {"seam-render", "--page"};
     for (const std::string& word : words) arguments.push_back(word.c_str());

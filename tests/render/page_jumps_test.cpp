@@ -1,4 +1,4 @@
-/// Marks of corrections that are seen, on recordings whose jumps are known.
+/// Marks of visible corrections, on recordings with known jumps.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// What a panel's corner says: the view's age, the network's jitter, the corrections so far.
+/// The note in a panel's corner: the view's age, the network's jitter, the corrections so far.
 #include "render/panel_note.h"
 
 #include <gtest/gtest.h>
@@ -33,21 +33,21 @@ TEST(PanelNote, CountsTheCorrectionsOfItsViewUpToItsMoment) {
   }
 }
 
-TEST(PanelNote, KnowsNoCorrectionsWithoutATruth) {
+TEST(PanelNote, HasNoCorrectionsWithoutAnOracle) {
   const Playback playback(StepAtTick20(), MakeScene(), std::nullopt);
   Page page = MakePage(playback, 2);
   FindCorrections(&page);
   EXPECT_FALSE(NoteOf(page.panels.front(), 1).corrections);
 }
 
-TEST(PanelNote, SaysWhatIsKnown) {
+TEST(PanelNote, PrintsOnlyKnownValues) {
   EXPECT_EQ(TextOf({}), "");
   EXPECT_EQ(TextOf({std::nullopt, 9.2, std::nullopt}), "jitter 9 ms");
   EXPECT_EQ(TextOf({43.4, 9.2, 1}), "view age 43 ms  ·  jitter 9 ms  ·  1 correction");
   EXPECT_EQ(TextOf({0.0, std::nullopt, 2}), "view age 0 ms  ·  2 corrections");
 }
 
-TEST(PeerReport, IsTheLastByTheMomentAndTheServersTheWorst) {
+TEST(PeerReport, IsTheLatestByTheMomentAndTheWorstForTheServer) {
   Recording recording = MakeRecording(0);
   for (const auto& [peer, list] : recording.stats) ASSERT_EQ(list.size(), 1u) << peer;
   Stats later = recording.stats.at(1).front();

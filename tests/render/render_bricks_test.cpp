@@ -1,4 +1,4 @@
-/// Bricks in pictures: what is drawn is what is solid.
+/// Bricks in pictures: exactly the solid area is drawn.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(DrawBricks, BlocksCoverEachBrickOnceAndAreFew) {
   EXPECT_LT(blocks * 6, bricks);
 }
 
-TEST(DrawBricks, PixelsAreFilledWhereBricksAreAndNowhereElse) {
+TEST(DrawBricks, FillsExactlyThePixelsOfBricks) {
   const FeatherStore store = SmallCity();
   DrawList list(TestFont());
   list.Begin(800, 600);

@@ -1,4 +1,4 @@
-/// The camera shows what happens: measured on sessions of the scenes.
+/// The camera shows the action: measured on sessions of the scenes.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Seen OnPanel(const Viewport& viewport, const WorldBox& box) {
   return {a, b};
 }
 
-/// Of the panel, what moving bodies fill, each by its own outlines.
+/// Share of the panel filled by moving bodies, each by its own outlines.
 double FilledShare(const Playback& playback, int peer, const Viewport& viewport,
                    const std::set<PartId>& moving, double s) {
   const Moment moment = playback.MomentAt(peer, playback.TickAt(s));
@@ -63,7 +63,7 @@ double FilledShare(const Playback& playback, int peer, const Viewport& viewport,
 
 class CameraOnScene : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(CameraOnScene, ShowsTheContactWholeAndWhatMovesLarge) {
+TEST_P(CameraOnScene, ShowsTheWholeContactAndMovingBodiesLarge) {
   const std::vector<Playback> playbacks = PlaybacksOf(GetParam(), "rollback");
   const auto contact = ContactMoment(playbacks);
   ASSERT_TRUE(contact.has_value());
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, CameraOnScene,
                                            "harbour"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-TEST(CameraWishes, AFixedPlaceAFollowedPartAndAZoomAreWhatTheySay) {
+TEST(CameraWishes, AFixedPlaceAFollowedPartAndAZoomAreObeyed) {
   std::vector<Playback> playbacks;
   playbacks.push_back(MakePlayback(0));
   Page page = MakePage(playbacks.front(), 1);

@@ -55,7 +55,7 @@ TEST(Canvas, AClipKeepsEverythingInside) {
     }
 }
 
-TEST(Canvas, LargeAreasLieOverWhatWasDrawnThereBefore) {
+TEST(Canvas, LargeAreasCoverEarlierDrawings) {
   DrawList list(TestFont());
   list.Begin(200, 200);
   const Colour red{200, 0, 0, 255}, blue{0, 0, 200, 255}, black{0, 0, 0, 255};
@@ -74,7 +74,7 @@ TEST(Canvas, LargeAreasLieOverWhatWasDrawnThereBefore) {
   EXPECT_TRUE(PixelAt(image, Vec2(20, 20)) == red);
 }
 
-TEST(Canvas, WhatLiesUnderAllElseHidesNothingThatWasDrawnBefore) {
+TEST(Canvas, AnUnderlayHidesNoEarlierDrawing) {
   DrawList list(TestFont());
   list.Begin(200, 100);
   const Colour red{200, 0, 0, 255}, blue{0, 0, 200, 255}, black{0, 0, 0, 255};
@@ -126,7 +126,7 @@ TEST(Canvas, PagesOfDifferentSizesFollowEachOther) {
   EXPECT_EQ(first.rgba, again.rgba);
 }
 
-TEST(RenderFont, SaysInOneLineWhichFontIsMissing) {
+TEST(RenderFont, NamesTheMissingFontInOneLine) {
   try {
     const Font font(1, "", "/nowhere");
     FAIL() << "a font from nowhere";
@@ -138,7 +138,7 @@ TEST(RenderFont, SaysInOneLineWhichFontIsMissing) {
   }
 }
 
-TEST(RenderFont, ReadsUtf8AndSurvivesWhatIsNot) {
+TEST(RenderFont, ReadsUtf8AndSurvivesInvalidBytes) {
   EXPECT_EQ(Codepoints("aµ→"), (std::vector<std::uint32_t>{'a', 0xb5, 0x2192}));
   EXPECT_EQ(Codepoints("\xff"
                        "a\xc2"),

@@ -1,4 +1,4 @@
-/// Pictures of worlds whose bodies change: each view by its own topology, large ones by their rim.
+/// Pictures of worlds with changing bodies: each view by its own topology, large ones by their rim.
 
 #include <gtest/gtest.h>
 

@@ -67,7 +67,7 @@ TEST(PlayerColour, IsTheScenesOrThePalettesOrThePeers) {
   EXPECT_TRUE(ColourOf(Late(0), 1) == PeerColour(1));
 }
 
-TEST(PlayerColour, OfASceneIsHexOrANumberOfThePaletteAndNothingElse) {
+TEST(PlayerColour, InASceneIsHexOrAPaletteNumberOnly) {
   const auto of = [](const std::string& line) {
     return PlayerColours(ParseScene(WithColour(line), "s.toml")).at(0);
   };

@@ -1,4 +1,4 @@
-/// How characters look: inside of what the engine collides, near and far limbs apart.
+/// How characters look: inside the colliding shapes, near and far limbs distinct.
 
 #include <gtest/gtest.h>
 

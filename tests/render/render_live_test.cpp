@@ -46,7 +46,7 @@ class RenderLive : public ::testing::Test {
   std::int32_t sequence_ = 0;
 };
 
-TEST_F(RenderLive, DrawsEachFrameAsSoonAsItsViewIsThere) {
+TEST_F(RenderLive, DrawsEachFrameAsSoonAsItsViewArrives) {
   LiveRenderer live(options_);
   live.DrawDue();
   EXPECT_FALSE(std::filesystem::exists(options_.out));  // nothing heard, nothing written
@@ -76,7 +76,7 @@ TEST_F(RenderLive, MeasuresErrorsTickByTickWhenItIsGivenAnOracle) {
   EXPECT_GT(Differences(without, with, 20, 235, 460, 262), 40);  // the strip has a curve
 }
 
-TEST_F(RenderLive, SkipsFramesThatAreTooFarBehindAndSaysHowMany) {
+TEST_F(RenderLive, SkipsFramesTooFarBehindAndCountsThem) {
   LiveRenderer live(options_);
   SendRoom(&live);
   SendView(&live, 0, 0);
@@ -116,7 +116,7 @@ TEST_F(RenderLive, FollowsASessionThatBeginsAnew) {
   EXPECT_LE(live.frames(), before + 17);
 }
 
-TEST_F(RenderLog, LiveDrawsWhatTheStockPlayerSends) {
+TEST_F(RenderLog, LiveDrawsTheMessagesOfTheStockPlayer) {
   const char* const bin = std::getenv("SEAM_BIN");
   ChildProcess probe({"sh", "-c", "unshare -rn true && command -v lcm-logplayer"});
   if (bin == nullptr || !probe.Wait(10) || probe.exit_status() != 0)

@@ -21,7 +21,7 @@ TEST(Page, IsNotBlank) {
   for (const auto& [colour, count] : colours) EXPECT_LT(count, pixels * 6 / 10) << colour;
 }
 
-TEST(Page, TheHeaderSaysWhatItIsTold) {
+TEST(Page, TheHeaderShowsTheTitle) {
   const Playback playback = MakePlayback();
   Page page = MakePage(playback, 0);
   const Image before = RenderedPage(page, 1);
@@ -39,7 +39,7 @@ TEST(Page, TheClockAndThePlayheadMoveWithTime) {
   EXPECT_GT(Differences(a, b, 0, 620, 1280, 700), 100);  // strip
 }
 
-TEST(Page, WhatMovesOverAPictureOfTheRestIsTheWholePage) {
+TEST(Page, TheMovingPartsOverAStillPictureMakeTheWholePage) {
   const Playback playback = MakePlayback();
   for (const int peer : {0, kViewAll}) {
     const Page page = MakePage(playback, peer);
@@ -113,7 +113,7 @@ TEST(Strobe, FindsTheWatchedCollision) {
   EXPECT_NEAR(CollisionTime(runs), synthetic::kHitTick / 60.0, 1.01 / 60);
 }
 
-TEST(Strobe, FindsAStrongImpactWhereNothingIsWatched) {
+TEST(Strobe, FindsAStrongImpactIfNothingIsWatched) {
   Scene scene = synthetic::MakeScene();
   scene.watch.clear();
   std::vector<Playback> runs;
@@ -121,7 +121,7 @@ TEST(Strobe, FindsAStrongImpactWhereNothingIsWatched) {
   EXPECT_DOUBLE_EQ(CollisionTime(runs), synthetic::kHitTick / 60.0);
 }
 
-TEST(Strobe, FindsTheWorstMomentWhereNothingCollides) {
+TEST(Strobe, FindsTheWorstMomentIfNothingCollides) {
   Scene scene = synthetic::MakeScene();
   scene.watch.clear();
   Recording recording = synthetic::MakeRecording(0);

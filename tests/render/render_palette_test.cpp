@@ -1,4 +1,4 @@
-/// Colours that mean different things can be told apart, by the colour-blind too.
+/// Colours of different meaning are distinguishable, also to the colour-blind.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ double Linear(std::uint8_t channel) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-/// CIE 1976 L*a*b* of what an eye of that kind sees, white point D65.
+/// CIE 1976 L*a*b* of a colour as seen by an eye of that kind, white point D65.
 Triple Lab(Colour colour, const Matrix& sight) {
   const Triple linear{Linear(colour.r), Linear(colour.g), Linear(colour.b)};
   Triple seen{};
@@ -53,7 +53,7 @@ Triple Lab(Colour colour, const Matrix& sight) {
 
 using Named = std::vector<std::pair<std::string, Colour>>;
 
-/// What stands in every picture.
+/// Colours present in every picture.
 Named Everywhere() {
   const Colour water = Mix(Mix(kPanel, kWater, 0.22f), kWater, 0.16f);
   return {{"server", PeerColour(0)},
@@ -79,7 +79,7 @@ void ExpectApart(const Named& colours) {
   }
 }
 
-TEST(Palette, TenPlayersCanBeToldApartByEveryEye) {
+TEST(Palette, TenPlayersAreDistinguishableToEveryEye) {
   Named colours = Everywhere();
   for (int peer = 1; peer <= kPeerHues; ++peer) {
     colours.emplace_back("peer " + std::to_string(peer), PeerColour(peer));
@@ -87,7 +87,7 @@ TEST(Palette, TenPlayersCanBeToldApartByEveryEye) {
   ExpectApart(colours);
 }
 
-TEST(Palette, TenRunsCanBeToldApartByEveryEye) {
+TEST(Palette, TenRunsAreDistinguishableToEveryEye) {
   Named colours = Everywhere();
   for (int run = 0; run < kPeerHues; ++run) {
     colours.emplace_back("run " + std::to_string(run), RunColour(run));

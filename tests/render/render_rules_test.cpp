@@ -1,4 +1,4 @@
-/// What the server decides, in pictures: triggers until taken, health as it is left, scores.
+/// The server's decisions in pictures: triggers until taken, health, scores.
 
 #include "common/scene/part_rules.h"
 #include "tests/support/render_fixture.h"
@@ -63,7 +63,7 @@ TEST(DrawRules, ATriggerIsDrawnUntilItIsTaken) {
       Differences(Drawn(taken, scene, kTick, &viewport), Drawn(taken, bare, kTick, &viewport)), 0);
 }
 
-TEST(DrawRules, ScoresAreSaidFromWhenTheyAreKnown) {
+TEST(DrawRules, ScoresAppearOnceTheyAreKnown) {
   const Scene scene = synthetic::MakeScene();
   const Recording scored = WithMeta(kMetaPlayer, 0, kMetaScore, 7);
   const Recording none = synthetic::MakeRecording(0);

@@ -14,7 +14,7 @@ namespace render_test {
 
 namespace fs = std::filesystem;
 
-/// Runs seam-render; what it says on stderr goes to `said`.
+/// Runs seam-render; its stderr goes to `said`.
 int SeamRender(const std::vector<std::string>& arguments, std::string* said = nullptr) {
   std::vector<const char*> argv{"seam-render"};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
@@ -179,7 +179,7 @@ TEST_F(RenderLog, TheManifestNamesTheLogAndEachFramesMomentAndBox) {
   EXPECT_NE(manifest.find("{\"file\": \"frame_00001.png\", \"time_s\": 0.500000, \"tick\": 30.000"),
             std::string::npos)
       << manifest;
-  // What the page says of its view, by frame.
+  // The page's notes on its view, by frame.
   for (const char* key : {"\"panels\": [{\"error_m\": 0, \"round_trip_ms\": null,",
                           "\"jitter_ms\": null,", "\"loss_percent\": null,", "\"view_age_ms\": ",
                           "\"corrections\": 0}"})
@@ -189,7 +189,7 @@ TEST_F(RenderLog, TheManifestNamesTheLogAndEachFramesMomentAndBox) {
   EXPECT_NE(frame.find("log.lcm fnv1a-64:"), std::string::npos);
 }
 
-TEST_F(RenderLog, AViewIsNamedByItsPlayerAndAWrongNameSaysWhichThereAre) {
+TEST_F(RenderLog, AViewIsNamedByItsPlayerAndAWrongNameListsThem) {
   std::string said;
   const std::vector<std::string> common{log_,     "--oracle", oracle_, "--size",
                                         "320x240", "--fps",    "1",     "-o"};
@@ -286,7 +286,7 @@ TEST_F(RenderLog, AViewThatClaimsTheEndOfTimeIsLeftOut) {
   EXPECT_EQ(Frames(folder_ / "out").size(), 16u);
 }
 
-TEST_F(RenderLog, MistakesInWhatIsAskedOfALogWriteNothing) {
+TEST_F(RenderLog, MistakesInTheRequestWriteNothing) {
   const std::string out = folder_ / "out";
   const std::vector<std::vector<std::string>> mistakes{
       {log_, "-o", out, "--view", "7"},

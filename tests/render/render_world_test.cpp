@@ -8,7 +8,7 @@
 namespace seam {
 namespace render_world_test {
 
-TEST(DrawWorld, ABoxColoursThePixelsWhereItIsInTheWorld) {
+TEST(DrawWorld, ABoxColoursThePixelsAtItsPlace) {
   const Playback playback = MakePlayback();
   Viewport viewport;
   const double tick = 30;
@@ -50,7 +50,7 @@ TEST(DrawWorld, RolesLookDifferentAndSoDoPeers) {
   EXPECT_TRUE(LookOf(PeerColour(1), kRoleRemote).hatched);
 }
 
-TEST(DrawWorld, TheGhostAppearsOnlyWhereViewAndTruthPart) {
+TEST(DrawWorld, TheGhostAppearsOnlyIfViewAndOracleDiffer) {
   Viewport viewport;
   const double tick = 40;
   const auto ink = [&](const Playback& playback) {
@@ -81,7 +81,7 @@ TEST(DrawWorld, CullingChangesNoPixel) {
   }
 }
 
-TEST(DrawWorld, CullingLeavesOutWhatIsFarAway) {
+TEST(DrawWorld, CullingOmitsDistantBodies) {
   const Playback playback = MakePlayback();
   DrawList list(TestFont());
   const auto triangles = [&](bool cull) {
@@ -160,7 +160,7 @@ TEST(Playback, HoldsTheLastViewOverAHoleAndBridgesALostOne) {
   EXPECT_FLOAT_EQ(x_at(100), synthetic::Truth(1, 100).position.x());
 }
 
-TEST(Playback, KnowsWhoDrivesWhat) {
+TEST(Playback, KnowsTheDriverOfEachBody) {
   const Playback playback = MakePlayback();
   EXPECT_EQ(playback.PlayerOf(0), -1);
   EXPECT_EQ(playback.PlayerOf(1), 0);

@@ -1,4 +1,4 @@
-/// What a scene may not say of connectors, bonds between copies, faces and grouping.
+/// Mistakes in a scene's connectors, bonds between copies, faces and grouping.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Who is welded and joined to whom, and the masses that come of it.
+/// Welded assemblies and jointed mechanisms, and their masses.
 
 #include "common/scene/assembly.h"
 
@@ -79,7 +79,7 @@ TEST(Assembly, MechanismBelongsToTheOwnerOfAnyOfItsParts) {
   EXPECT_EQ(c.mechanisms[1].owner, -1);
 }
 
-TEST(Assembly, HashTellsCompositionsApart) {
+TEST(Assembly, HashDistinguishesCompositions) {
   const std::string base = Box("a", 1, 1, 0, 0) + Box("b", 1, 1, 2, 0) + Box("c", 1, 1, 4, 0);
   const std::uint64_t loose = Compose(Parse(base)).hash;
   EXPECT_EQ(Compose(Parse(base)).hash, loose);

@@ -1,4 +1,4 @@
-/// What a [[character]] is made of, and passive ones.
+/// The parts of a [[character]], and passive characters.
 
 #include <gtest/gtest.h>
 

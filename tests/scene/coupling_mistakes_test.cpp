@@ -1,4 +1,4 @@
-/// What a scene may not say of gears and pulleys.
+/// Mistakes in a scene's gears and pulleys.
 
 #include <gtest/gtest.h>
 

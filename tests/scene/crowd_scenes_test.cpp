@@ -1,4 +1,4 @@
-/// Scenes with many bodies on a seam: what their titles promise happens in a world alone.
+/// Scenes with many bodies on a seam: each matches its title in a single world.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace seam {
 namespace crowd_scenes_test {
 
-TEST(Gas, AloneItKeepsItsEnergyForAMinuteAndBlowsCrossTheSeam) {
+TEST(Gas, KeepsItsEnergyForAMinuteAndImpactsCrossTheSeam) {
   ScriptedWorld run("gas");
   ASSERT_EQ(run.world.body_count(), 200);
   const double at_first = KineticEnergy(run.world);

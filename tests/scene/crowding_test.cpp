@@ -1,4 +1,5 @@
-/// Scenes in which too much begins in one place are refused, by name and number; others are not.
+/// Scenes with too many overlapping parts in one place are refused by place and number; others are
+/// not.
 
 #include "common/scene/crowding.h"
 
@@ -48,7 +49,7 @@ TEST(Crowding, APileAtOnePointIsRefusedByPlaceAndNumber) {
             std::string::npos);
 }
 
-TEST(Crowding, TheNumberIsThatOfThePairs) {
+TEST(Crowding, CountsPairsOfOverlappingShapes) {
   EXPECT_EQ(CrowdingIn(Boxes(100, 1, 0)).pairs, 4950);
   EXPECT_EQ(CrowdingIn(Boxes(7, 7, 0.25)).pairs, 2 * 42 + 2 * 36) << "the eight next to each";
   EXPECT_EQ(CrowdingIn(Boxes(20, 20, 0.5)).pairs, 0) << "they touch";
@@ -57,7 +58,7 @@ TEST(Crowding, TheNumberIsThatOfThePairs) {
   EXPECT_EQ(CrowdingIn(Boxes(40, 1, 0, "anchored = true\n")).pairs, 0) << "nothing moves";
 }
 
-TEST(Crowding, WhatIsWeldedOrOnAJointDoesNotCount) {
+TEST(Crowding, WeldedAndJointedPairsDoNotCount) {
   std::string welded = Boxes(40, 1, 0);
   welded.insert(welded.rfind('}'), ", weld = true");
   EXPECT_EQ(CrowdingIn(welded).pairs, 0);
@@ -68,7 +69,7 @@ TEST(Crowding, WhatIsWeldedOrOnAJointDoesNotCount) {
   EXPECT_EQ(CrowdingIn(Boxes(40, 1, 0) + joint + "collide = true\n").pairs, 780);
 }
 
-TEST(Crowding, WhatTheEngineGetsInPiecesCountsAsPieces) {
+TEST(Crowding, AShapeOfSeveralFixturesCountsEachFixture) {
   const auto many = [](const std::string& shape) {
     return "[[part]]\nname = \"a\"\n" + shape + "\nrepeat = {count = 10, step = [0, 0]}\n";
   };
@@ -107,7 +108,7 @@ TEST(Crowding, AStepAtTheLimitEndsAndLeavesEveryBodyFinite) {
   }
 }
 
-TEST(Crowding, WhatIsInsertedIsHeldToTheSameLimits) {
+TEST(Crowding, InsertedPartsObeyTheSameLimits) {
   Scene scene = ParseScene(Boxes(20, 20, 0.5), "s.toml");
   const std::string one = "[[part]]\nname = \"late\"\nbox = [0.5, 0.5]\nposition = [-9, 5]\n";
   const std::string pile = one + "repeat = {count = 400, step = [0, 0]}\n";

@@ -1,5 +1,5 @@
-/// Scenes in which players push each other, or one thing together: what their titles promise
-/// happens, by script in a world alone, and where it must with bots as well.
+/// Scenes in which players push each other, or one body together: each matches its title with
+/// scripts in a single world, and with bots where required.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace seam {
 namespace duel_scenes_test {
 
-/// Whether two bodies have touched at any end of a tick so far; Note after each step.
+/// Records which two bodies have touched at the end of a tick; call Note after each step.
 class Meetings {
  public:
   void Note(const World& world) {
@@ -52,7 +52,7 @@ TEST(Headon, TheScriptsMeetOnTheSeamAtSpeedAndAreEachOthersMirrorImage) {
   EXPECT_LT(run.Read("car-a").position.x(), -4) << "they back off";
 }
 
-TEST(Headon, BotsMeetWhateverTheyDo) {
+TEST(Headon, BotsMeetUnderEverySeed) {
   for (int seed = 1; seed <= 60; ++seed) {
     ScriptedWorld run("headon");
     const int a = run.Body("car-a"), b = run.Body("car-b");
@@ -77,7 +77,7 @@ int QuarterOf(const Vec2& at) {
   return at.x() < 0 ? 2 : 3;
 }
 
-TEST(Scrum, AllFourPressOnTheBallAtOnceAndItIsInEveryQuarter) {
+TEST(Scrum, AllFourPressTheBallAtOnceAndItVisitsEveryQuarter) {
   ScriptedWorld run("scrum");
   const int ball = run.Body("ball");
   const std::array<const char*, 4> rams = {"ram-a", "ram-b", "ram-c", "ram-d"};
@@ -144,7 +144,7 @@ TEST(Seesaw, EachHopTipsThePlankUnderTheOther) {
   EXPECT_GT(most, 0.15);
 }
 
-TEST(Seesaw, WhatOnePlayerDoesMovesTheOther) {
+TEST(Seesaw, OnePlayersHopMovesTheOther) {
   ScriptedWorld run("seesaw"), without("seesaw");
   const int bob = run.Body("cart-b");
   float largest = 0;

@@ -1,4 +1,4 @@
-/// [[player]] with `repeat`: who the copies are, and what each of them has.
+/// [[player]] with `repeat`: the copies and the contents of each.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace seam {
 namespace player_repeat_test {
 
-/// What is said of a scene; "" if nothing is wrong.
+/// Returns the error of a scene; "" if it is valid.
 std::string WhatIsWrong(const std::string& text) {
   try {
     ParseScene(text, "x.toml");
@@ -112,7 +112,7 @@ permissions = {push = ["p-*"], drive = ["p-2-1"]}
   EXPECT_FALSE(Allows(rules.push, -1)) << "all of the players are not everybody";
 }
 
-TEST(PlayerRepeat, AVehicleThatIsNoCopyAndAStepThatIsNotSaidStay) {
+TEST(PlayerRepeat, KeepsAVehicleThatIsNoCopyAndAnOmittedStep) {
   const Scene scene = ParseScene(R"(
 [[player]]
 name = "p"
@@ -137,7 +137,7 @@ std::string Complaint(const std::string& from, const std::string& to) {
   return WhatIsWrong(text);
 }
 
-TEST(PlayerRepeat, MistakesAreToldWithTheirLine) {
+TEST(PlayerRepeat, MistakesNameTheirLine) {
   const std::string repeat = "repeat = {count = 3, step = [10, 0]}";
   const auto says = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -180,7 +180,7 @@ Scene Row(int players, int apart_m, const std::string& top) {
                     "x.toml");
 }
 
-TEST(PlayerRepeat, ARoomOfManyPlayersFarFromEachOtherIsFollowedWholeIfItHasFewBodies) {
+TEST(PlayerRepeat, ARoomOfDistantPlayersIsFollowedWholeIfItHasFewBodies) {
   EXPECT_EQ(Row(16, 50, "").follow_bodies, 256);
   EXPECT_EQ(Row(32, 7, "").follow_bodies, 256) << "217 m";
   EXPECT_EQ(Row(32, 8, "").follow_bodies, 128) << "248 m";

@@ -26,7 +26,7 @@ std::string Example() {
   return page.substr(start, page.find("```", start) - start);
 }
 
-TEST(SceneDocs, TheWorkedExampleDoesWhatItsTitleSays) {
+TEST(SceneDocs, TheWorkedExampleMatchesItsTitle) {
   ScriptedWorld run(ParseScene(Example(), "seesaw.toml"));
   EXPECT_EQ(run.world.scene().title, "Seesaw: ann drops a weight, bob's crates fly");
   EXPECT_EQ(run.world.body_count(), 5);

@@ -102,7 +102,7 @@ std::string RandomPoint(Random* random) {
   return Pair(random->Uniform(-2, 2), random->Chance(0.2) ? 0 : random->Uniform(-2, 2));
 }
 
-/// A shape at the limits of what is allowed: thin, small, of many points that nearly meet.
+/// A shape at the allowed limits: thin, small, of many points that nearly meet.
 std::string RandomShape(Random* random) {
   const double width = RandomSize(random), height = RandomSize(random);
   if (random->Chance(0.3)) return "box = " + Pair(width, height) + "\n";

@@ -1,4 +1,4 @@
-/// Every mistake in a scene is one line "file:line: what".
+/// Every mistake in a scene is one line "file:line: reason".
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace seam {
 namespace scene_mistakes_test {
 
-/// What ParseScene complains about; "" when it does not.
+/// Returns the error of ParseScene; "" if none.
 std::string Complaint(const std::string& text) {
   try {
     ParseScene(text, "s.toml");
@@ -41,7 +41,7 @@ struct Mistake {
   const char* says;  ///< part of the complaint
 };
 
-/// A part from line 12 whose line 14 is the mistake.
+/// A part from line 12 with a mistake in line 14.
 #define PART(line_14) "[[part]]\nname = \"p\"\n" line_14 "\n"
 /// A joint from line 12 between the ground and the crate; line 16 is the mistake.
 #define JOINT(kind, line_16) \

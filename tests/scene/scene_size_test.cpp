@@ -1,4 +1,4 @@
-/// The largest scenes that there can be, and one more.
+/// The largest valid scenes, and scenes one larger.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace seam {
 namespace scene_size_test {
 
-/// What is said of a scene; "" if nothing is wrong.
+/// Returns the error of a scene; "" if it is valid.
 std::string WhatIsWrong(const std::string& text) {
   try {
     ParseScene(text, "x.toml");

@@ -1,4 +1,4 @@
-/// Scenes as text: what is read.
+/// Reads scenes from text.
 
 #include "common/scene/scene.h"
 
@@ -182,7 +182,7 @@ follow = "car"
   EXPECT_EQ(s.camera.follow, 0);
 }
 
-TEST(Scene, RefusesTextsThatNoMessageOrStackCouldHold) {
+TEST(Scene, RefusesTextsThatNoMessageOrStackCanHold) {
   const auto says = [](const std::string& text, const char* phrase) {
     try {
       ParseScene(text, "s.toml");

@@ -53,13 +53,13 @@ region = [[0, -100], [100, 100]]
   AuthorityManager::PlannerInputs situation_;
 };
 
-TEST_F(AuthorityManagerTest, AtFirstTheServerHasAndFollowsEverything) {
+TEST_F(AuthorityManagerTest, AtFirstTheServerHoldsAndFollowsEverything) {
   EXPECT_TRUE(manager_.Has(0, 0));
   EXPECT_TRUE(Ball().secondaries.Has(0));
   EXPECT_EQ(Ball().epoch, 0);
 }
 
-TEST_F(AuthorityManagerTest, TheServerGivesAtOnceAndSaysItOnce) {
+TEST_F(AuthorityManagerTest, TheServerGrantsAtOnceAndAnnouncesItOnce) {
   const std::vector<Grants> grants = Update();
   ASSERT_EQ(grants.size(), 1u);
   EXPECT_EQ(grants[0].authority.at(0), kAnn);
@@ -105,7 +105,7 @@ TEST_F(AuthorityManagerTest, AReleaseCountsOnlyForTheGrantThatAskedForIt) {
   EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kStale) << "said again";
 }
 
-TEST_F(AuthorityManagerTest, WhoDoesNotAnswerIsNamedWhenPatienceEndsAndLosesItTwoEpochsOn) {
+TEST_F(AuthorityManagerTest, AnOverdueHolderIsNamedAndLosesItTwoEpochsLater) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
@@ -123,7 +123,7 @@ TEST_F(AuthorityManagerTest, WhoDoesNotAnswerIsNamedWhenPatienceEndsAndLosesItTw
   EXPECT_EQ(manager_.AcceptRelease(kAnn, kBall, 2), Right::kStale) << "too late";
 }
 
-TEST_F(AuthorityManagerTest, AHolderThatDoesNotAnswerKeepsItAnEpochOnAndIsAskedAgain) {
+TEST_F(AuthorityManagerTest, AnUnansweredRevocationIsWithdrawnAndRepeatedLater) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
@@ -151,7 +151,7 @@ TEST_F(AuthorityManagerTest, AHolderThatDoesNotAnswerKeepsItAnEpochOnAndIsAskedA
   EXPECT_EQ(manager_.OverdueHolders(10 * kReleasePatienceUs), PeerSet());
 }
 
-TEST_F(AuthorityManagerTest, WhoIsSilentIsNotAskedAgainBeforeItIsHeard) {
+TEST_F(AuthorityManagerTest, ASilentHolderIsNotAskedAgainBeforeItIsHeard) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
@@ -188,7 +188,7 @@ TEST_F(AuthorityManagerTest, WithdrawalsDoNotLengthenThePatience) {
   EXPECT_EQ(manager_.OverdueHolders(kReleasePatienceUs + 20000), ann);
 }
 
-TEST_F(AuthorityManagerTest, WhoseLeaseEndsGivesUpWhatItHasAndNothingElse) {
+TEST_F(AuthorityManagerTest, AnEndedLeaseCoversOnlyTheHoldersOwnMechanismAndEpoch) {
   Update();
   EXPECT_TRUE(manager_.HoldsInEpoch(kAnn, kBall, 1));
   EXPECT_FALSE(manager_.HoldsInEpoch(kAnn, kBall, 2)) << "nobody has it in that epoch";
@@ -197,7 +197,7 @@ TEST_F(AuthorityManagerTest, WhoseLeaseEndsGivesUpWhatItHasAndNothingElse) {
   EXPECT_FALSE(manager_.HoldsInEpoch(kAnn, kBall + 1, 1)) << "no such mechanism";
 }
 
-TEST_F(AuthorityManagerTest, WhoAnsweredInTimeIsNotAccusedBeforeTheNextPlan) {
+TEST_F(AuthorityManagerTest, ATimelyReleaseIsNotOverdueBeforeTheNextPlan) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
@@ -205,7 +205,7 @@ TEST_F(AuthorityManagerTest, WhoAnsweredInTimeIsNotAccusedBeforeTheNextPlan) {
   EXPECT_EQ(manager_.OverdueHolders(2 * kReleasePatienceUs), PeerSet());
 }
 
-TEST_F(AuthorityManagerTest, WhoJoinsDuringARevocationIsToldWhatTheOthersWere) {
+TEST_F(AuthorityManagerTest, ALatecomerDuringARevocationGetsTheSameRecordAsTheOthers) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
@@ -235,7 +235,7 @@ TEST_F(AuthorityManagerTest, EpochsGoOnPastSixteenBits) {
   EXPECT_GT(Ball().epoch, 1 << 16);
 }
 
-TEST_F(AuthorityManagerTest, WhatWasTakenBackHasAnEpochThatNobodyWasPromised) {
+TEST_F(AuthorityManagerTest, ATakenBackMechanismHasAnUnpromisedEpoch) {
   Update();
   const int given = Ball().epoch;
   ASSERT_EQ(manager_.TakeBack(2, kAnn).size(), 1u);
@@ -264,7 +264,7 @@ TEST_F(AuthorityManagerTest, OnlyTheHolderMayMoveABodyAndOnlyInItsEpoch) {
   EXPECT_EQ(manager_.RightToMove(kBob, 0, epoch - 1), Right::kStale);
 }
 
-TEST_F(AuthorityManagerTest, AfterARemapWhatIsNewIsNotBeingRevoked) {
+TEST_F(AuthorityManagerTest, ARemapKeepsRevocationsOfOldMechanismsOnly) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
@@ -275,7 +275,7 @@ TEST_F(AuthorityManagerTest, AfterARemapWhatIsNewIsNotBeingRevoked) {
   EXPECT_TRUE(manager_.InOneHand({0}));
 }
 
-TEST_F(AuthorityManagerTest, WhoMayNotPushAPartDoesNotGetIt) {
+TEST_F(AuthorityManagerTest, APlayerWithoutPushPermissionDoesNotGetThePart) {
   Scene scene = ParseScene(R"(
 [[part]]
 name = "ball"
@@ -295,8 +295,8 @@ name = "bob"
   EXPECT_TRUE(manager.Has(0, 0));
 }
 
-/// What bounces touches something for a tick or two, and flies on as it did.
-TEST(AuthorityManager, WhoFollowsWhatFallsIsPlannedByItsWayForAMomentMore) {
+/// A bouncing body touches something for a tick or two, and flies on.
+TEST(AuthorityManager, AFallingMechanismKeepsItsFlightPlanThroughABounce) {
   const Scene scene = ParseScene(
       "follow = 0\nbuffer = 1\n"
       "[[part]]\nname = \"hers\"\ncircle = 0.5\nposition = [-1.6, 90]\n"

@@ -1,4 +1,4 @@
-/// What a client's machine can step, from how busy it says it is.
+/// The number of bodies that a client's machine can step, from its reported load.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ struct Machine {
   }
 };
 
-TEST(CapacityWatch, AMachineThatIsTooBusyGetsWhatItCanStepWithinFiveSeconds) {
+TEST(CapacityWatch, ABusyMachineReachesItsCapacityWithinFiveSeconds) {
   for (const float times : {1.2f, 2.0f, 4.0f, 8.0f}) {
     Machine machine{times / 200, 200};
     const float load = static_cast<float>(machine.After(5000000)) * machine.each;
@@ -44,11 +44,11 @@ TEST(CapacityWatch, AMachineThatIsTooBusyGetsWhatItCanStepWithinFiveSeconds) {
   }
 }
 
-TEST(CapacityWatch, WhoIsNeverTooBusyIsNeverLimited) {
+TEST(CapacityWatch, AMachineThatKeepsUpIsNeverLimited) {
   EXPECT_EQ((Machine{0.95f / 200, 200}).After(5000000), 200);
 }
 
-TEST(CapacityWatch, WhoHasRoomAgainGetsMoreAndIsAtLastNotLimited) {
+TEST(CapacityWatch, ARelievedMachineGetsMoreUntilItIsUnlimited) {
   CapacityWatch watch;
   const auto steps = [] { return 50; };
   EXPECT_EQ(watch.Look(0, 1000000, kPeer, 2, steps), 20);
@@ -62,7 +62,7 @@ TEST(CapacityWatch, WhoHasRoomAgainGetsMoreAndIsAtLastNotLimited) {
   EXPECT_EQ(capacity, PlayerView::kUnlimited);
 }
 
-TEST(CapacityWatch, ItIsOfAPeerAndNotOfAPlace) {
+TEST(CapacityWatch, BelongsToAPeerAndNotToAPlace) {
   CapacityWatch watch;
   const auto steps = [] { return 50; };
   ASSERT_LT(watch.Look(1, 1000000, kPeer, 2, steps), 50);
@@ -70,7 +70,7 @@ TEST(CapacityWatch, ItIsOfAPeerAndNotOfAPlace) {
   EXPECT_EQ(watch.Look(0, 1100000, kPeer, -1, steps), PlayerView::kUnlimited);
 }
 
-TEST(LoadMeter, SaysTheShareOfTheTimeThatTicksNeed) {
+TEST(LoadMeter, MeasuresTheShareOfTimeThatTicksNeed) {
   LoadMeter meter;
   EXPECT_EQ(meter.permille(), -1);
   std::int64_t cpu = 1;
@@ -81,7 +81,7 @@ TEST(LoadMeter, SaysTheShareOfTheTimeThatTicksNeed) {
   EXPECT_NEAR(meter.permille(), 300, 15);
 }
 
-TEST(LoadMeter, OfAMachineThatCannotKeepUpItSaysByHowMuch) {
+TEST(LoadMeter, MeasuresTheExcessOfAMachineThatCannotKeepUp) {
   LoadMeter meter;
   std::int64_t cpu = 1;
   for (std::int64_t now = 0; now <= 2000000; now += 50000) {  // all of it for a tick of 16.7 ms
@@ -91,8 +91,8 @@ TEST(LoadMeter, OfAMachineThatCannotKeepUpItSaysByHowMuch) {
   EXPECT_NEAR(meter.permille(), 3000, 150);
 }
 
-/// What the meter says after two seconds of calls that are late as `late_us` (of the time) says and
-/// cost next to nothing.
+/// The meter's load after two seconds of calls with lateness `late_us` (of the time) and almost no
+/// cost.
 std::int16_t LoadOfLate(const std::function<std::int64_t(std::int64_t)>& late_us) {
   LoadMeter meter;
   std::int64_t cpu = 1;
@@ -102,19 +102,19 @@ std::int16_t LoadOfLate(const std::function<std::int64_t(std::int64_t)>& late_us
   return meter.permille();
 }
 
-TEST(LoadMeter, WhoseTicksGetLaterIsTooBusyWhateverItsCpuTimeSays) {
+TEST(LoadMeter, GrowingLatenessIsOverloadAtAnyCpuTime) {
   EXPECT_EQ(LoadOfLate([](std::int64_t now) { return 20000 + now / 10; }), LoadMeter::kLateLoad);
   EXPECT_EQ(LoadOfLate([](std::int64_t) { return 80000; }), LoadMeter::kLateLoad)
       << "and whose are very late";
 }
 
-TEST(LoadMeter, WhoKeepsUpThoughLateOrCatchesUpHasTheTime) {
+TEST(LoadMeter, ConstantOrShrinkingLatenessIsNoOverload) {
   EXPECT_LT(LoadOfLate([](std::int64_t) { return 25000; }), 10);
   EXPECT_LT(LoadOfLate([](std::int64_t now) { return 280000 - now / 10; }), 10);
   EXPECT_LT(LoadOfLate([](std::int64_t now) { return now / 200; }), 10) << "not by a tick yet";
 }
 
-TEST(LoadMeter, WhoHardlyComesToItsTicksIsTooBusy) {
+TEST(LoadMeter, RareTicksAreOverload) {
   LoadMeter meter;
   std::int64_t cpu = 1;
   for (std::int64_t now = 0; now <= 4000000; now += 400000) {
@@ -132,7 +132,7 @@ TEST(LoadMeter, ForgetsThatItWasLate) {
   EXPECT_LT(meter.permille(), 10);
 }
 
-TEST(LoadMeter, WithoutCpuTimeItIsNotKnown) {
+TEST(LoadMeter, IsUnknownWithoutCpuTime) {
   LoadMeter meter;
   for (std::int64_t now = 0; now <= 2000000; now += 16667) meter.Note(now, 0, 1, 20000, 16667);
   EXPECT_EQ(meter.permille(), -1);

@@ -1,4 +1,4 @@
-/// Charges: when and where they go off, and which a scene may have.
+/// Charges: the time and place of each explosion, and which charges a scene may have.
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ struct Room {
 const std::string kBall =
     "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [-3, 0]\nvelocity = [6, 0]\n";
 
-TEST(Charges, GoOffOnceAtTheirTimeWhereTheirPartIs) {
+TEST(Charges, ExplodeOnceAtTheirTimeAtTheirPart) {
   Room room(kBall +
             "[[charges]]\nname = \"one\"\nposition = [4, 5]\nradius = 3\nimpulse = 7\nat = 0.5\n"
             "[[charges]]\nname = \"two\"\npart = \"ball\"\nposition = [0, 1]\nradius = 2\n"
@@ -86,7 +86,7 @@ TEST(Charges, GoOffOnceAtTheirTimeWhereTheirPartIs) {
   EXPECT_NEAR(two.centre.y(), 1, 0.01);
 }
 
-TEST(Charges, GoOffWhenSomethingEntersTheirTriggerAndTheirDelayIsOver) {
+TEST(Charges, ExplodeADelayAfterSomethingEntersTheirTrigger) {
   Room room(kBall +
             "[[trigger]]\nname = \"mine\"\nbox = [2, 2]\nposition = [1, 0]\nfor = \"ball\"\n"
             "[[charges]]\nname = \"c\"\nposition = [1, 0]\nradius = 3\nimpulse = 7\n"
@@ -97,7 +97,7 @@ TEST(Charges, GoOffWhenSomethingEntersTheirTriggerAndTheirDelayIsOver) {
   EXPECT_NEAR(static_cast<double>(room.commands.went[0].tick), 30 + 15, 1);
 }
 
-TEST(Charges, OneThatCannotGoOffWarnsOnceAndIsOver) {
+TEST(Charges, AChargeThatCannotExplodeWarnsOnceAndEnds) {
   Room room(
       "[[part]]\nname = \"ball\"\ncircle = 0.5\n"
       "[[charges]]\nname = \"c\"\nposition = [4, 5]\nradius = 3\nimpulse = 7\nat = 0.5\n");

@@ -1,5 +1,4 @@
-/// What the server's operator reads: who is here, the percentile of its ticks, what each client's
-/// sessions came to.
+/// Texts for the operator of a server: players in the room, and the account of each client.
 
 #include "server/console.h"
 
@@ -14,28 +13,6 @@ namespace console_test {
 
 using Lines = std::vector<std::string>;
 
-TEST(TickTimes, APercentileIsTheTimeThatSoManyTicksDidNotExceed) {
-  TickTimes times;
-  EXPECT_EQ(times.Percentile(99), 0);
-  for (int us = 0; us < 10000; us += 10) times.Note(us, 1);
-  EXPECT_EQ(times.Percentile(50), 5000);
-  EXPECT_EQ(times.Percentile(99), 9900);
-  EXPECT_EQ(times.Percentile(100), 10000);
-}
-
-TEST(TickTimes, TicksDoneTogetherTookTheirShareEach) {
-  TickTimes times;
-  times.Note(8000, 8);
-  times.Note(100, 0);
-  EXPECT_EQ(times.Percentile(100), 1000 + TickTimes::kBinUs);
-}
-
-TEST(TickTimes, NoTickIsLongerThanTheLastBin) {
-  TickTimes times;
-  times.Note(100000000, 1);
-  EXPECT_EQ(times.Percentile(99), 100000);
-}
-
 TEST(AccountBook, ManyNamesShareTheLastAccountAndCostNoMoreMemory) {
   AccountBook book;
   for (int i = 0; i < 3000; ++i) ++book.Of("name" + std::to_string(i)).sessions;
@@ -44,7 +21,7 @@ TEST(AccountBook, ManyNamesShareTheLastAccountAndCostNoMoreMemory) {
   EXPECT_EQ(book.Of("others").sessions, 3000 - static_cast<int>(AccountBook::kAccountsMax) + 1);
 }
 
-TEST(AccountBook, ARoundTripThatIsNotKnownIsNoReading) {
+TEST(AccountBook, AnUnknownRoundTripIsNoReading) {
   ClientAccount account;
   EXPECT_EQ(account.rtt_us(), -1);
   account.Read(-1, 0);
@@ -75,9 +52,9 @@ class ServerConsole : public ::testing::Test {
   Lines news_;
 };
 
-TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
+TEST_F(ServerConsole, ReportsJoinsLeavesAndMissingPlayers) {
   EXPECT_EQ(MissingPlayers(cluster_.server()), "ann, bob");
-  EXPECT_EQ(ServerProgress(cluster_.server(), 360, TickTimes()),
+  EXPECT_EQ(ServerProgress(cluster_.server(), 360, DurationHistogram()),
             "waiting: 0 of 2 players (ann, bob missing); Ctrl-C stops");
   cluster_.RunToTick(60);
   cluster_.Kill(1);
@@ -89,15 +66,15 @@ TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
       << ::testing::PrintToString(news_);
   EXPECT_EQ(MissingPlayers(cluster_.server()), "bob");
   EXPECT_EQ(cluster_.server().TakeReports(), Lines{}) << "taken";
-  TickTimes times;
-  times.Note(1500, 1);
+  DurationHistogram times;
+  times.Add(1500);
   const std::string line = ServerProgress(cluster_.server(), 1800, times);
   EXPECT_EQ(line.rfind("7 of 30 s, 1 of 2 players (bob missing), rtt ", 0), 0u) << line;
-  EXPECT_NE(line.find("tick p99 1.52 ms"), std::string::npos) << line;
+  EXPECT_NE(line.find("tick p99 1.50 ms"), std::string::npos) << line;
   EXPECT_LT(line.size(), 110u) << line;
 }
 
-TEST_F(ServerConsole, TheSummaryIsOfEachClientAlsoOfThoseWhoAreGone) {
+TEST_F(ServerConsole, TheSummaryIncludesClientsThatLeft) {
   cluster_.RunToTick(60);
   cluster_.Kill(1);
   cluster_.RunToTick(400);

@@ -1,4 +1,4 @@
-/// What a refused client is told: the names that are free, as many as fit a message.
+/// The refusal of a client lists the free names, as many as fit a message.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ Scene SceneOf(const std::vector<std::string>& players) {
   return ParseScene(text, "test.toml");
 }
 
-TEST(FreeNames, AreThoseOfPlayersWhosePlacesMayBeClaimed) {
+TEST(FreeNames, ListPlayersWithAFreePlace) {
   const Scene scene = SceneOf({"ann", "bob"});
   SeededEntropy entropy(1);
   PlaceTable places(scene, entropy);
@@ -36,7 +36,7 @@ TEST(FreeNames, AreThoseOfPlayersWhosePlacesMayBeClaimed) {
   EXPECT_EQ(places.FreeNames(1000 + PlaceTable::kNameHeldUs), "free are ann, bob");
 }
 
-TEST(FreeNames, AreCountedWhereTheyDoNotFitAMessage) {
+TEST(FreeNames, AreCountedIfTheyDoNotFitAMessage) {
   std::vector<std::string> names;
   for (int i = 10; i < 40; ++i) names.push_back("a-player-with-a-long-name-" + std::to_string(i));
   const Scene scene = SceneOf(names);

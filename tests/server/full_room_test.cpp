@@ -1,4 +1,4 @@
-/// A room with as many as there may be: spectators never take what players need.
+/// A room at its limit: spectators never take the players' places.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ class Counting : public Entropy {
   std::uint64_t number_ = 0;
 };
 
-TEST(FullRoom, TakesAllItsPlayersAfterSpectatorsHaveTakenWhatTheyMay) {
+TEST(FullRoom, AdmitsAllPlayersAfterSpectatorsFilledTheirPlaces) {
   const Scene scene = ParseScene(R"(
 [[player]]
 name = "p"

@@ -1,4 +1,4 @@
-/// Gather: how often a server is woken by what comes, played with made-up arrivals.
+/// Gather: how often arrivals wake a server, with made-up arrivals.
 
 #include "server/hub/gather.h"
 
@@ -73,7 +73,7 @@ TEST(Gather, HundredsAreServedForTenWakesATickAndNoneWaitsForMoreThanTwoMillisec
   }
 }
 
-TEST(Gather, WhereNobodySpeaksAnyMoreItIsNotWokenToGather) {
+TEST(Gather, StopsGatheringWhenTrafficStops) {
   Gather gather;
   for (int i = 1; i <= 5; ++i) {
     gather.NotePolled(i * 1000);

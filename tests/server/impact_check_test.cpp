@@ -1,4 +1,4 @@
-/// Which impacts can have happened, by what is known of the two bodies.
+/// Which impacts are plausible, given the known states of the two bodies.
 
 #include "server/rules/impact_check.h"
 
@@ -7,7 +7,7 @@
 namespace seam {
 namespace impact_check_test {
 
-/// Body 0 at x = 0 and body 1, four times as heavy, at x = 1, both of 1 m; what is known of them is
+/// Body 0 at x = 0 and body 1, four times as heavy, at x = 1, both of 1 m; their known states are
 /// of tick 10.
 class ImpactCheckTest : public ::testing::Test {
  protected:
@@ -42,13 +42,13 @@ position = [1, 0]
   StateTrail trail_{2};
 };
 
-TEST_F(ImpactCheckTest, NoMoreThanTheMomentumThatCame) {
+TEST_F(ImpactCheckTest, AnImpactIsBoundedByTheIncomingMomentum) {
   EXPECT_TRUE(Can(3));
   EXPECT_TRUE(Can(12)) << "held from behind, the lighter takes all of the heavier's momentum";
   EXPECT_FALSE(Can(13.5f));
 }
 
-TEST_F(ImpactCheckTest, WhatHardlyMovesStrikesNobody) {
+TEST_F(ImpactCheckTest, ASlowBodyCannotStrikeHard) {
   Know(0, {0, 0});
   StateTrail slow(2);
   BodyState state = world_.Read(0);
@@ -60,18 +60,18 @@ TEST_F(ImpactCheckTest, WhatHardlyMovesStrikesNobody) {
   EXPECT_TRUE(Possible(world_, slow, {0, 1, 2, {0.5f, 0}}, 11));
 }
 
-TEST_F(ImpactCheckTest, ThePointIsAtBothBodies) {
+TEST_F(ImpactCheckTest, ThePointLiesOnBothBodies) {
   EXPECT_TRUE(Can(3, {0.5f, 0.3f}));
   EXPECT_FALSE(Can(3, {0.5f, 5}));
   EXPECT_FALSE(Can(3, {-3, 0}));
 }
 
-TEST_F(ImpactCheckTest, OnlyWhatWasKnownByThenExplainsIt) {
+TEST_F(ImpactCheckTest, OnlyStatesUpToThatTickExplainAnImpact) {
   EXPECT_FALSE(Can(3, {0.5f, 0}, 5)) << "of tick 5 nothing is known";
   EXPECT_TRUE(Can(3, {0.5f, 0}, 60)) << "what rests is told seldom: the last before it counts";
 }
 
-TEST_F(ImpactCheckTest, WhatWasToldLongBeforeMayHaveComeThereOnItsWay) {
+TEST_F(ImpactCheckTest, AnOldStateExplainsAnImpactOnItsPath) {
   StateTrail old(2);
   old.Add(0, 10, world_.Read(0));
   BodyState far = world_.Read(1);
@@ -83,7 +83,7 @@ TEST_F(ImpactCheckTest, WhatWasToldLongBeforeMayHaveComeThereOnItsWay) {
   EXPECT_FALSE(Possible(world_, old, {0, 1, 3, {0.5f, 0}}, 90)) << "long past";
 }
 
-TEST_F(ImpactCheckTest, WhatStandsStillDoesNotStrikeTheGround) {
+TEST_F(ImpactCheckTest, AStandingBodyDoesNotStrikeTheGround) {
   EXPECT_FALSE(Can(3, {0.5f, 0}, 11, -1));
   StateTrail falling(2);
   BodyState state = world_.Read(0);

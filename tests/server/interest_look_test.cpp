@@ -1,4 +1,4 @@
-/// Who is near what, in a room too large for all to be close to everyone.
+/// Which bodies are near which peer, in a room too large for all to be close to everyone.
 
 #include <gtest/gtest.h>
 
@@ -44,15 +44,15 @@ class InterestLook : public ::testing::Test {
   std::unique_ptr<Interest> interest_;
 };
 
-TEST_F(InterestLook, InASmallRoomAllIsCloseToEveryone) {
+TEST_F(InterestLook, EverythingIsCloseToEveryoneInASmallRoom) {
   Begin({0, 500}, 2);
   GiveAnn(0);
   EXPECT_TRUE(Look().empty());
   EXPECT_EQ(interest_->Of(kAnn, 1), Relevance::kClose);
 }
 
-TEST_F(InterestLook, WhatIsWithinReachOfAnyThingThatAPeerHoldsIsNear) {
-  // Ann holds a row of discs, one in each cell; beside its ends lies something just within reach.
+TEST_F(InterestLook, ABodyWithinReachOfAnyHeldBodyIsNear) {
+  // Ann holds a row of discs, one in each cell; another disc is just within reach of each end.
   const float reach = Interest::kNearReach;
   std::vector<float> places;
   for (int i = 0; i < 6; ++i) places.push_back(reach * (static_cast<float>(i) + 0.5f));
@@ -67,7 +67,7 @@ TEST_F(InterestLook, WhatIsWithinReachOfAnyThingThatAPeerHoldsIsNear) {
   EXPECT_EQ(interest_->Of(kWatcher, 8), Relevance::kNear) << "who only watches is near all";
 }
 
-TEST_F(InterestLook, WhatComesNearIsToldOnce) {
+TEST_F(InterestLook, ReportsAnApproachingBodyOnce) {
   Begin({0, 10, 80, 50});
   GiveAnn(0);
   Look();
@@ -81,7 +81,7 @@ TEST_F(InterestLook, WhatComesNearIsToldOnce) {
   EXPECT_TRUE(Look().empty());
 }
 
-TEST_F(InterestLook, WhoCameAfterTheLastLookIsNearAll) {
+TEST_F(InterestLook, APeerThatJoinedAfterTheLastUpdateIsNearEverything) {
   Begin({0, 500});
   Look();
   EXPECT_EQ(interest_->Of(7, 1), Relevance::kNear);

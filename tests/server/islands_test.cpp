@@ -42,7 +42,7 @@ b = "right"
 length = 3
 )";
 
-TEST(Islands, WhatTouchesOrIsJoinedIsOneAndWhatSleepsIsNone) {
+TEST(Islands, TouchingOrJoinedBodiesAreOneIslandAndSleepersAreNone) {
   World world(ParseScene(kFive, "five"));
   for (int i = 0; i < 10; ++i) world.Step();
   EXPECT_EQ(CountIslands(world), 3) << "the stack, the crate apart, the joined pair";

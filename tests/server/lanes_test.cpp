@@ -15,7 +15,7 @@ namespace lanes_test {
 
 constexpr std::int64_t kPeriodUs = 16667;
 
-/// A room whose tick takes `busy_us`, asleep or at work, and that notes how late it is run.
+/// A room with ticks of `busy_us`, asleep or at work; records the lateness of its runs.
 class Metronome : public Runnable {
  public:
   explicit Metronome(std::int64_t busy_us = 0, bool spins = false)
@@ -56,7 +56,7 @@ void WaitForTicks(const Metronome& room, int ticks) {
   for (int i = 0; i < 3000 && room.ticks() < ticks; ++i) usleep(10000);
 }
 
-TEST(Lanes, ARoomThatSleepsInItsTickDelaysNoOtherByMoreThanATick) {
+TEST(Lanes, ARoomThatBlocksDelaysNoOtherByMoreThanATick) {
   for (const int workers : {1, 2}) {
     Metronome sleepy(150000), a, b, c;
     {
@@ -75,7 +75,7 @@ TEST(Lanes, ARoomThatSleepsInItsTickDelaysNoOtherByMoreThanATick) {
   }
 }
 
-TEST(Lanes, ARoomThatIsCalmAgainSharesAThreadAgain) {
+TEST(Lanes, ARoomThatIsCalmAgainSharesAThread) {
   Metronome sleepy(50000), a;
   Lanes lanes({&sleepy, &a}, 1);
   WaitForTicks(sleepy, 3);
@@ -96,7 +96,7 @@ class Sleeper : public Runnable {
   std::atomic<int> runs{0};
 };
 
-TEST(Lanes, ARoomIsRunWhenItIsWoken) {
+TEST(Lanes, AWokenRoomRuns) {
   Sleeper room, other;
   Lanes lanes({&room, &other}, 2);
   usleep(20000);

@@ -1,4 +1,4 @@
-/// Of what a receiver is told: only what it would not have guessed from what it was told last.
+/// Sends a receiver only those states that its dead reckoning would miss.
 
 #include "server/interest/newest_states.h"
 
@@ -38,7 +38,7 @@ class NewestStatesTest : public ::testing::Test {
   NewestStates newest_;
 };
 
-TEST_F(NewestStatesTest, WhatIsHeardOfFirstIsNewsToAllAndWhatGoesOnAsToldToNobody) {
+TEST_F(NewestStatesTest, TheFirstStateGoesToAllAndAnExpectedOneToNobody) {
   EXPECT_FALSE(newest_.has(0));
   EXPECT_EQ(Tell(0, 0, 2), News::kAll);
   EXPECT_TRUE(newest_.has(0));
@@ -48,7 +48,7 @@ TEST_F(NewestStatesTest, WhatIsHeardOfFirstIsNewsToAllAndWhatGoesOnAsToldToNobod
   EXPECT_EQ(newest_.at(0).tick, 26);
 }
 
-TEST_F(NewestStatesTest, ATurnIsNewsToTheNearAtOnceAndToTheFarAfterAWhile) {
+TEST_F(NewestStatesTest, ATurnGoesToNearClientsAtOnceAndToFarOnesLater) {
   Tell(0, 0, 2);
   EXPECT_EQ(Tell(2, 0.07, 0), News::kNobody) << "3 mm off";
   EXPECT_EQ(Tell(6, 0.07, 0), News::kNear) << "13 cm off";
@@ -56,14 +56,14 @@ TEST_F(NewestStatesTest, ATurnIsNewsToTheNearAtOnceAndToTheFarAfterAWhile) {
   EXPECT_EQ(Tell(31, 0.07, 0), News::kAll) << "half a second has passed";
 }
 
-TEST_F(NewestStatesTest, ItIsToldAgainNowAndThenAndWhenSomebodyElseSimulatesIt) {
+TEST_F(NewestStatesTest, RepeatsAStatePeriodicallyAndAfterAChangeOfHolder) {
   Tell(0, 0, 2);
   EXPECT_EQ(Tell(kHz / 2, 1, 2), News::kAll) << "one may be lost";
   EXPECT_EQ(Tell(kHz / 2 + 2, 1 + 2 * 2.0 / kHz, 2), News::kNobody);
   EXPECT_EQ(Tell(kHz / 2 + 4, 1 + 2 * 4.0 / kHz, 2, 2), News::kAll) << "another epoch";
 }
 
-TEST_F(NewestStatesTest, WhatIsSaidForASilentHolderIsToldAllTwiceAsOften) {
+TEST_F(NewestStatesTest, StatesForASilentHolderGoToAllTwiceAsOften) {
   Tell(0, 0, 2);
   const int quarter = kHz / 4;
   EXPECT_EQ(Tell(quarter - 1, 2.0 * (quarter - 1) / kHz, 2, 1, kStateRepeatSilentS), News::kNobody);
@@ -71,9 +71,9 @@ TEST_F(NewestStatesTest, WhatIsSaidForASilentHolderIsToldAllTwiceAsOften) {
   EXPECT_EQ(Tell(2 * quarter, 1, 2), News::kNobody) << "its holder is heard again";
 }
 
-/// What a ball does that is thrown is guessed from the state in which it left, so that it is told
-/// of again twice a second and where it bounces.
-TEST(NewestStates, OfWhatFallsItsBouncesAreNews) {
+/// A thrown ball is reckoned from the state of its release, so that its states are repeated twice a
+/// second and sent where it bounces.
+TEST(NewestStates, BouncesOfAFallingBodyAreRelevant) {
   World world(
       ParseScene("[[part]]\nname = \"ground\"\nbox = [40, 2]\nposition = [0, -1]\nanchored = "
                  "true\n[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 6]\n"

@@ -1,4 +1,4 @@
-/// Crowds whose owners do not agree become the server's, as a pure function of what planning sees:
+/// Crowds whose owners disagree become the server's, as a pure function of the planner's view:
 /// ann's region is left of x = 0, bob's right of it.
 
 #include "server/authority/plan_contested.h"
@@ -19,8 +19,8 @@ class PlanContested : public ::testing::Test {
     view_.players.push_back({kBob, 0.05f, true, {0, -100}, {100, 100}});
   }
 
-  /// Half a metre wide, awake, its region's player's for long; its holder's word was far off
-  /// so often.
+  /// Adds a box half a metre wide, awake, held by its region's player for long, with the value of
+  /// MechanismView::contested.
   std::size_t Add(float x, float contested) {
     MechanismView mechanism;
     mechanism.position = {x, 0};
@@ -58,30 +58,30 @@ TEST_F(PlanContested, ACrowdOfTwoOwnersBecomesTheServers) {
   EXPECT_EQ(Decided(), 12);
 }
 
-TEST_F(PlanContested, NotWhereTheyAgree) {
+TEST_F(PlanContested, AgreedBodiesKeepTheirOwners) {
   AddRow(12, kContestedSum / 13);
   EXPECT_EQ(Decided(), 0) << "a surprise now and then";
 }
 
-TEST_F(PlanContested, NotWhereSomebodyDrives) {
+TEST_F(PlanContested, DrivenBodiesKeepTheirOwners) {
   AddRow(12, kContestedSum);
   view_.exact = false;
   EXPECT_EQ(Decided(), 0);
 }
 
-TEST_F(PlanContested, WhatOneHasAloneIsItsOwnHoweverTheServerErrs) {
+TEST_F(PlanContested, BodiesOfOneOwnerStayItsOwnDespiteTheServersError) {
   for (int i = 0; i < 6; ++i) Add(-20 + 0.6f * static_cast<float>(i), kContestedSum);
   Add(20, kContestedSum);
   EXPECT_EQ(Decided(), 0) << "the seventh is far away";
 }
 
-TEST_F(PlanContested, WhatSleepsIsLeftAlone) {
+TEST_F(PlanContested, SleepingBodiesAreIgnored) {
   AddRow(12, kContestedSum);
   view_.mechanisms[3].asleep = true;
   EXPECT_EQ(Decided(), 11);
 }
 
-TEST_F(PlanContested, ItStaysTheServersUntilItIsAloneOrSleeps) {
+TEST_F(PlanContested, StaysTheServersUntilItIsAloneOrSleeps) {
   AddRow(12, 0);
   for (MechanismView& mechanism : view_.mechanisms) {
     mechanism.decided = true;

@@ -31,7 +31,8 @@ int Differences(const AuthorityView& view) {
   return differ;
 }
 
-/// With gravity downwards, to the right and nowhere, in turn; two of three things fall freely.
+/// Differences of the plans with gravity downwards, to the right and zero, in turn; two of three
+/// mechanisms fall freely.
 int DifferencesOver(PlanWorld world, int seeds) {
   int differ = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
@@ -69,7 +70,7 @@ AuthorityView VehiclesAmongSleepers(std::uint64_t seed) {
   return view;
 }
 
-/// Whose vehicle touches it first of those that the planner looks ahead for; -1: nobody's.
+/// The player with the vehicle that touches it first within the planner's horizon; -1: none.
 int FirstToTouch(const AuthorityView& view, const MovingBox& box) {
   int first = -1;
   float soonest = FLT_MAX;
@@ -87,7 +88,7 @@ int FirstToTouch(const AuthorityView& view, const MovingBox& box) {
   return first;
 }
 
-TEST(PlanEqual, WhatSleepsGoesToWhomItMeetsFirst) {
+TEST(PlanEqual, ASleeperGoesToThePlayerThatTouchesItFirst) {
   int differ = 0, met = 0, nobody = 0;
   for (int seed = 1; seed <= 30; ++seed) {
     const AuthorityView view = VehiclesAmongSleepers(static_cast<std::uint64_t>(seed));
@@ -119,7 +120,7 @@ void DealOut(std::vector<MovingBox>* boxes) {
   for (std::size_t i = 0; i < dealt.size(); ++i) (*boxes)[i] = dealt[i].second;
 }
 
-TEST(PlanEqual, WhetherBoxesAreTakenTogetherOrOneByOne) {
+TEST(PlanEqual, BoxesAreEqualTogetherOrOneByOne) {
   int differ = 0, held = 0;
   for (int seed = 1; seed <= 60; ++seed) {
     PlanWorld world;
@@ -147,12 +148,12 @@ TEST(PlanEqual, WhetherBoxesAreTakenTogetherOrOneByOne) {
   EXPECT_GT(held, 2000);
 }
 
-TEST(PlanEqual, InSmallRoomsThatAreFollowedWhole) {
+TEST(PlanEqual, IsEqualInSmallRoomsThatAreFollowedWhole) {
   PlanWorld world;
   EXPECT_EQ(DifferencesOver(world, 40), 0);
 }
 
-TEST(PlanEqual, InLargeRoomsThatAreNot) {
+TEST(PlanEqual, IsEqualInLargeRoomsThatAreNot) {
   PlanWorld world;
   world.players = 12;
   world.mechanisms = 400;
@@ -162,7 +163,7 @@ TEST(PlanEqual, InLargeRoomsThatAreNot) {
   EXPECT_EQ(DifferencesOver(world, 25), 0);
 }
 
-TEST(PlanEqual, InCrowdsAndInTallRooms) {
+TEST(PlanEqual, IsEqualInCrowdsAndInTallRooms) {
   PlanWorld crowd;
   crowd.players = 10;
   crowd.mechanisms = 300;
@@ -175,7 +176,7 @@ TEST(PlanEqual, InCrowdsAndInTallRooms) {
   EXPECT_EQ(DifferencesOver(tower, 15), 0);
 }
 
-TEST(PlanEqual, WithThingsFarOutsideTheRest) {
+TEST(PlanEqual, IsEqualWithBodiesFarOutsideTheRest) {
   PlanWorld world;
   world.players = 6;
   world.mechanisms = 200;
@@ -190,7 +191,7 @@ TEST(PlanEqual, WithThingsFarOutsideTheRest) {
   }
 }
 
-TEST(PlanEqual, NobodyAndNothing) {
+TEST(PlanEqual, IsEqualWithoutPlayersOrBodies) {
   PlanWorld empty;
   empty.players = 1;
   empty.mechanisms = 0;

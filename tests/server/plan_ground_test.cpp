@@ -11,7 +11,7 @@ MovingBox Box(const Vec2& min, const Vec2& max, int group) {
   return {min, max, Vec2(5, 0), 0, group};
 }
 
-/// By group, the lowest of those on which it presses, found by comparing all with all.
+/// By group, the lowest group on which it presses, found by comparing all pairs.
 std::vector<int> PressingSlowly(const std::vector<MovingBox>& boxes, std::size_t groups) {
   std::vector<std::pair<int, int>> pairs;
   for (const MovingBox& a : boxes) {
@@ -22,7 +22,7 @@ std::vector<int> PressingSlowly(const std::vector<MovingBox>& boxes, std::size_t
   return Components(static_cast<int>(groups), pairs);
 }
 
-TEST(PlanGround, WhatTouchesIsFoundAmongAllPairs) {
+TEST(PlanGround, FindsTouchingBodiesAsAllPairsDo) {
   Random random(3);
   std::size_t pressed = 0, alone = 0;
   for (int round = 0; round < 50; ++round) {
@@ -46,7 +46,7 @@ std::vector<int> Lowest(const std::vector<MovingBox>& boxes, std::size_t groups)
   return FindTouching(boxes, BoxClusters(boxes), groups).lowest;
 }
 
-TEST(PlanGround, TouchesWhatIsFiveCentimetresAway) {
+TEST(PlanGround, BodiesFiveCentimetresApartTouch) {
   EXPECT_EQ(Lowest({Box({0, 0}, {1, 1}, 0), Box({1.06f, 0}, {2, 1}, 1)}, 2),
             (std::vector<int>{0, 1}));
   EXPECT_EQ(Lowest({Box({0, 0}, {1, 1}, 0), Box({1.04f, 0}, {2, 1}, 1)}, 2),

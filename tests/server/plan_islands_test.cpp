@@ -60,7 +60,7 @@ class PlanIslandsTest : public ::testing::Test {
   AuthorityView view_;
 };
 
-TEST_F(PlanIslandsTest, WhatIsAwakeGoesToTheNearestWithinAcquire) {
+TEST_F(PlanIslandsTest, AnAwakeBodyGoesToTheNearestPlayerWithinAcquire) {
   const std::size_t near_ann = Add(-30 + 20), near_bob = Add(30 - 20), between = Add(0);
   EXPECT_EQ(Of(near_ann), kAnn);
   EXPECT_EQ(Of(near_bob), kBob);
@@ -69,7 +69,7 @@ TEST_F(PlanIslandsTest, WhatIsAwakeGoesToTheNearestWithinAcquire) {
   EXPECT_NE(Of(between), kServer);
 }
 
-TEST_F(PlanIslandsTest, WhatSleepsBecomesHisWhoseThingsWillHitIt) {
+TEST_F(PlanIslandsTest, ASleeperGoesToThePlayerWithABodyAboutToHitIt) {
   const std::size_t thrown = Add(-15), asleep = Add(-12);
   Give(thrown, kAnn);
   Sleep(asleep);
@@ -86,7 +86,7 @@ TEST_F(PlanIslandsTest, WhatSleepsBecomesHisWhoseThingsWillHitIt) {
   EXPECT_EQ(Of(asleep), kServer) << "nobody's thing";
 }
 
-TEST_F(PlanIslandsTest, WhoHasItKeepsItUntilItIsFartherThanKeep) {
+TEST_F(PlanIslandsTest, TheHolderKeepsItUntilItIsFartherThanKeep) {
   const std::size_t crate = Add(0);
   Give(crate, kAnn);
   EXPECT_EQ(Of(crate), kAnn) << "29 m";
@@ -106,7 +106,7 @@ TEST_F(PlanIslandsTest, AnAuthorityLastsForTheDwell) {
   EXPECT_EQ(Of(crate), kBob);
 }
 
-TEST_F(PlanIslandsTest, WhatSleepsIsTheServers) {
+TEST_F(PlanIslandsTest, ASleeperIsTheServers) {
   const std::size_t crate = Add(-25), other = Add(-24);
   Give(crate, kAnn);
   Give(other, kAnn);
@@ -117,7 +117,7 @@ TEST_F(PlanIslandsTest, WhatSleepsIsTheServers) {
   EXPECT_EQ(Of(other), kServer);
 }
 
-TEST_F(PlanIslandsTest, WhatAVehicleWillTouchIsItsDriversBeforeItDoes) {
+TEST_F(PlanIslandsTest, ADriverGetsABodyBeforeItsVehicleTouchesIt) {
   const std::size_t crate = Add(-20);
   Sleep(crate);
   const float gap = 9 - kTouchGap;
@@ -133,7 +133,7 @@ TEST_F(PlanIslandsTest, WhatAVehicleWillTouchIsItsDriversBeforeItDoes) {
   EXPECT_EQ(Of(crate), kAnn) << "a longer way is looked ahead farther";
 }
 
-TEST_F(PlanIslandsTest, TheWholeIslandGoesToWhoTouchesOneOfIt) {
+TEST_F(PlanIslandsTest, TouchingOneBodyGivesTheWholeIsland) {
   const std::size_t first = Add(-28.98f), second = Add(-27.96f), apart = Add(-20);
   for (const std::size_t m : {first, second, apart}) Sleep(m);
   EXPECT_EQ(Of(first), kAnn);
@@ -141,7 +141,7 @@ TEST_F(PlanIslandsTest, TheWholeIslandGoesToWhoTouchesOneOfIt) {
   EXPECT_EQ(Of(apart), kServer);
 }
 
-TEST_F(PlanIslandsTest, WhatSleepsBesideAVehicleThatStandsDoesNotSwingWithTheRoundTrip) {
+TEST_F(PlanIslandsTest, ASleeperBesideAParkedVehicleDoesNotAlternateWithTheRoundTrip) {
   view_.boxes[0].acceleration = kDrivenAcceleration;
   const std::size_t crate = Add(-28.4f);  // .6 m from her car
   Sleep(crate);
@@ -158,7 +158,7 @@ TEST_F(PlanIslandsTest, WhatSleepsBesideAVehicleThatStandsDoesNotSwingWithTheRou
   EXPECT_EQ(Of(crate), kServer) << "his vehicle is far away";
 }
 
-TEST_F(PlanIslandsTest, AnotherPlayersVehicleTakesWhatItTouches) {
+TEST_F(PlanIslandsTest, AnotherPlayersVehicleTakesABodyItTouches) {
   const std::size_t crate = Add(5);
   Give(crate, kAnn);
   Move(0, -20);
@@ -167,7 +167,7 @@ TEST_F(PlanIslandsTest, AnotherPlayersVehicleTakesWhatItTouches) {
   EXPECT_EQ(Of(crate), kBob);
 }
 
-TEST_F(PlanIslandsTest, OfTwoWhoWillTouchItWhoHasItKeepsIt) {
+TEST_F(PlanIslandsTest, TheHolderKeepsABodyThatTwoWillTouch) {
   const std::size_t crate = Add(0);
   Move(0, -4);
   Move(1, 3);
@@ -195,7 +195,7 @@ TEST_F(PlanIslandsTest, BetweenTwoVehiclesEachIsItsDriversAndTheRestStaysUntilIt
   EXPECT_EQ(Of(1), kBob) << "a vehicle stays its driver's";
 }
 
-TEST_F(PlanIslandsTest, ADensePileBetweenTwoIsOnePlayersWhoHasMostOfIt) {
+TEST_F(PlanIslandsTest, ADensePileBetweenTwoGoesToThePlayerWithMostOfIt) {
   Move(0, -1.02f);
   Move(1, 3.06f);
   std::vector<std::size_t> pile;
@@ -217,14 +217,14 @@ TEST_F(PlanIslandsTest, WithoutItsDriverAVehicleIsLikeEverythingElse) {
   EXPECT_EQ(Of(0), kBob);
 }
 
-TEST_F(PlanIslandsTest, WhoIsSilentGetsNothingNew) {
+TEST_F(PlanIslandsTest, ASilentPlayerGetsNothingNew) {
   const std::size_t crate = Add(-20);
   view_.players[0].silent = true;
   EXPECT_EQ(Of(crate), kServer);
   EXPECT_EQ(Of(0), kAnn) << "what is its own it has until its lease ends";
 }
 
-TEST_F(PlanIslandsTest, WhatSleepsStaysWithWhoIsSilentUntilAnotherWillTouchIt) {
+TEST_F(PlanIslandsTest, ASleeperStaysWithASilentPlayerUntilAnotherWillTouchIt) {
   const std::size_t crate = Add(-28.98f);
   Sleep(crate);
   Give(crate, kAnn);
@@ -237,7 +237,7 @@ TEST_F(PlanIslandsTest, WhatSleepsStaysWithWhoIsSilentUntilAnotherWillTouchIt) {
   EXPECT_EQ(Of(crate), kBob);
 }
 
-TEST_F(PlanIslandsTest, WhatAPlayerMayNotHaveIsTheServers) {
+TEST_F(PlanIslandsTest, AForbiddenBodyIsTheServers) {
   const std::size_t crate = Add(-20);
   PlayerMask only_bob;
   only_bob.Add(1);
@@ -265,7 +265,7 @@ TEST_F(PlanIslandsTest, NewIslandsAreOnlyGivenBelowTheCapacity) {
   }
 }
 
-TEST_F(PlanIslandsTest, WhoIsAtItsCapacityFollowsNoMoreThanThat) {
+TEST_F(PlanIslandsTest, AClientFollowsNoMoreThanItsCapacity) {
   for (int n = 0; n < 9; ++n) Add(-28 + 2 * static_cast<float>(n));
   view_.players[0].capacity = 5;
   int steps = 0;
@@ -275,7 +275,7 @@ TEST_F(PlanIslandsTest, WhoIsAtItsCapacityFollowsNoMoreThanThat) {
   EXPECT_EQ(steps, 5);
 }
 
-TEST_F(PlanIslandsTest, WhoIsAtItsCapacityFollowsAllThatItMayMeet) {
+TEST_F(PlanIslandsTest, AClientAtItsCapacityFollowsEverythingItMayMeet) {
   view_.players[0].capacity = 3;
   std::vector<std::size_t> coming;
   for (int n = 0; n < 6; ++n) {

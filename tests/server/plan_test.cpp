@@ -51,26 +51,26 @@ int HolderAt(float x, int now, std::int64_t held_ticks) {
   return PlanAuthority(view)[0].authority;
 }
 
-TEST(PlanAuthority, ThePeerInWhoseRegionItIsGetsIt) {
+TEST(PlanAuthority, ThePeerOfItsRegionGetsIt) {
   const AuthorityPlan plan = PlanAuthority(TwoSides({-50, 50, 500}));
   EXPECT_EQ(plan[0].authority, kAnn);
   EXPECT_EQ(plan[1].authority, kBob);
   EXPECT_EQ(plan[2].authority, 0) << "in nobody's region";
 }
 
-TEST(PlanAuthority, TheRegionOfAPlayerWhoIsNotHereIsTheServers) {
+TEST(PlanAuthority, TheRegionOfAnAbsentPlayerIsTheServers) {
   AuthorityView view = TwoSides({-50});
   view.players[0].peer = -1;
   EXPECT_EQ(PlanAuthority(view)[0].authority, 0);
 }
 
-TEST(PlanAuthority, WhoHasItKeepsItALittleBeyondTheBorder) {
+TEST(PlanAuthority, TheHolderKeepsItALittleBeyondTheBorder) {
   EXPECT_EQ(HolderAt(kHysteresis - 0.1f, kAnn, kLong), kAnn);
   EXPECT_EQ(HolderAt(kHysteresis + 0.1f, kAnn, kLong), kBob);
   EXPECT_EQ(HolderAt(kHysteresis - 0.1f, 0, kLong), kBob) << "the server has no hysteresis";
 }
 
-TEST(PlanAuthority, APeerThatGotItKeepsItForTheDwell) {
+TEST(PlanAuthority, ANewHolderKeepsItForTheDwell) {
   const auto dwell = static_cast<std::int64_t>(PlannerRules{}.dwell_s * 60);
   EXPECT_EQ(HolderAt(50, kAnn, dwell - 1), kAnn);
   EXPECT_EQ(HolderAt(50, kAnn, dwell), kBob);
@@ -96,7 +96,7 @@ TEST(PlanAuthority, PeersNearARegionOrAMechanismFollow) {
   EXPECT_FALSE(plan[3].secondaries.Has(kBob)) << "he has it";
 }
 
-TEST(PlanAuthority, WhoFollowsGoesOnALittleFurther) {
+TEST(PlanAuthority, AFollowerKeepsFollowingALittleFurther) {
   AuthorityView view = TwoSides({5});
   EXPECT_FALSE(Follows(view, 0, kAnn));
   view.mechanisms[0].now.secondaries.Add(kAnn);
@@ -114,7 +114,7 @@ TEST(PlanAuthority, TheBufferReachesToTheNearestBoxAndNotToTheRoot) {
   EXPECT_FALSE(Follows(view, 0, kAnn));
 }
 
-/// What ann has at -30 and bob at 30, coming together at `speed` m/s.
+/// Ann's body at -30 and bob's at 30, approaching at `speed` m/s.
 AuthorityView Approach(float speed, float one_way_s) {
   AuthorityView view = TwoSides({-30, 30});
   view.boxes[0].velocity = {speed / 2, 0};
@@ -123,7 +123,7 @@ AuthorityView Approach(float speed, float one_way_s) {
   return view;
 }
 
-TEST(PlanAuthority, AZoneIsAsWideAsTheTwoComeTogetherInTheirLatency) {
+TEST(PlanAuthority, AZoneIsAsWideAsTheApproachWithinTheLatency) {
   const float gap = 59.5f - kZoneSlack;
   const float meets = gap / ZoneSeconds(0.1f, 0.1f);
   EXPECT_TRUE(Follows(Approach(meets + 1, 0.1f), 0, kBob));
@@ -133,13 +133,13 @@ TEST(PlanAuthority, AZoneIsAsWideAsTheTwoComeTogetherInTheirLatency) {
   EXPECT_TRUE(Follows(Approach(meets - 1, 0.15f), 0, kBob)) << "heard of later";
 }
 
-TEST(PlanAuthority, TwoThatMoveAlikeDoNotMeetHoweverFast) {
+TEST(PlanAuthority, BodiesOfEqualVelocityDoNotMeetAtAnySpeed) {
   AuthorityView view = Approach(0, 0.1f);
   for (MovingBox& box : view.boxes) box.velocity = {200, 0};
   EXPECT_FALSE(Follows(view, 0, kBob));
 }
 
-TEST(PlanAuthority, WhoFollowsWhatMayBeMetGoesOnForAWhile) {
+TEST(PlanAuthority, AFollowerOfAnApproachingBodyKeepsFollowingForAWhile) {
   const float gap = 59.5f - kZoneSlack;
   AuthorityView view = Approach(gap / (ZoneSeconds(0.1f, 0.1f) + kZoneKeep / 2), 0.1f);
   EXPECT_FALSE(Follows(view, 0, kBob));
@@ -168,7 +168,7 @@ AuthorityView Row(int players, float step) {
   return view;
 }
 
-TEST(PlanAuthority, OfACrowdOnlyWhatIsNearIsMetThroughOthers) {
+TEST(PlanAuthority, InACrowdOnlyNearbyBodiesAreMetThroughOthers) {
   EXPECT_TRUE(Follows(Row(6, 1), 299, 1)) << "of six players' things everything";
   AuthorityView crowd = Row(10, 1);  // the first has those before 30
   EXPECT_FALSE(Follows(crowd, 299, 1));
@@ -184,16 +184,15 @@ TEST(PlanAuthority, OfACrowdOnlyWhatIsNearIsMetThroughOthers) {
   EXPECT_TRUE(Follows(Row(10, 0.5f), 299, 1)) << "a push goes through all of a heap";
 }
 
-/// Balls that bounce in a row lay at .2 m from each other, were taken for a heap, and everyone
-/// followed all of them.
-TEST(PlanAuthority, WhatFliesSideBySideIsNoHeap) {
+/// Bouncing balls in a row, .2 m apart, were taken for a heap, and every peer followed all of them.
+TEST(PlanAuthority, BodiesSideBySideAreNoHeap) {
   EXPECT_FALSE(Follows(Row(10, 0.5f + 0.2f), 299, 1));
   EXPECT_TRUE(Follows(Row(10, 0.5f + 0.2f), 29 + 20, 1)) << "14 m away";
   EXPECT_TRUE(Follows(Row(10, 0.5f + 0.02f), 299, 1)) << "stacks have gaps";
 }
 
 /// Balls that bounce beside each other fall and rise, but do not come nearer.
-TEST(PlanAuthority, InALargeRoomWhatFallsIsFollowedIfItMayBeMetOnItsWay) {
+TEST(PlanAuthority, InALargeRoomAFallingBodyIsFollowedIfItsPathMayBeMet) {
   AuthorityView view = TwoSides({-50, 20, 21.2f, 22.4f});
   for (std::size_t m = 1; m < 4; ++m) {
     view.boxes[m].velocity = {0, m % 2 == 0 ? 8.0f : -8.0f};
@@ -220,7 +219,7 @@ TEST(PlanAuthority, InALargeRoomWhatFallsIsFollowedIfItMayBeMetOnItsWay) {
   EXPECT_TRUE(Follows(view, 2, kAnn)) << "a room that is followed whole";
 }
 
-TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
+TEST(PlanAuthority, ABodyMetThroughOthersIsFollowedToo) {
   AuthorityView view = TwoSides({-50, 20, 20.6f, 21.2f, 30});
   view.mechanisms[1].owner = 0;  // ann's, among a row of bob's that touch
   view.buffer_m = 0;
@@ -240,7 +239,7 @@ TEST(PlanAuthority, ARoomOfAtMostFollowBodiesIsFollowedWholeAndALargerOneNearby)
   }
 }
 
-TEST(PlanAuthority, TheServerFollowsASmallRoomAndOfALargeOneWhatMayMeetItsOwn) {
+TEST(PlanAuthority, TheServerFollowsASmallRoomAndInALargeOneItsSurroundings) {
   AuthorityView view = TwoSides({-50, 50, 200.6f, 201.2f});
   view.mechanisms[3].owner = 1;  // bob's, beside one in nobody's region
   constexpr int kServer = 0;
@@ -277,7 +276,7 @@ TEST(PlanAuthority, OnlyModeBufferHasFollowersAndOnlyBufferAndStrictHavePeers) {
   }
 }
 
-TEST(PlanAuthority, WhatIsToBeJoinedGoesToTheFirstsAndTheOtherFollows) {
+TEST(PlanAuthority, MechanismsToBeJoinedGoToTheFirstsHolderAndTheOtherFollows) {
   AuthorityView view = TwoSides({-50, 50, 60});
   view.together = {{0, 1}};
   const AuthorityPlan plan = PlanAuthority(view);
@@ -288,7 +287,7 @@ TEST(PlanAuthority, WhatIsToBeJoinedGoesToTheFirstsAndTheOtherFollows) {
   EXPECT_EQ(plan[2].authority, kBob) << "not concerned";
 }
 
-TEST(PlanAuthority, WhatIsToBeJoinedToAVehicleGoesToItsOwner) {
+TEST(PlanAuthority, AMechanismToBeJoinedToAVehicleGoesToItsOwner) {
   AuthorityView view = TwoSides({-50, 50});
   view.mechanisms[1].owner = 1;
   view.together = {{0, 1}};
@@ -301,7 +300,7 @@ PlayerMask OnlyBob() {
   return mask;
 }
 
-TEST(PlanAuthority, WhatAPlayerMayNotHaveIsTheServers) {
+TEST(PlanAuthority, AForbiddenBodyIsTheServers) {
   AuthorityView view = TwoSides({-50, 50});
   view.mechanisms[0].may_have = OnlyBob();
   view.mechanisms[1].may_have = OnlyBob();
@@ -310,7 +309,7 @@ TEST(PlanAuthority, WhatAPlayerMayNotHaveIsTheServers) {
   EXPECT_EQ(plan[1].authority, kBob);
 }
 
-TEST(PlanAuthority, ComingTogetherDoesNotGiveWhatIsForbidden) {
+TEST(PlanAuthority, JoiningDoesNotGrantAForbiddenBody) {
   AuthorityView view = TwoSides({-50, 50});
   view.mechanisms[1].may_have = OnlyBob();
   view.together = {{0, 1}};

@@ -12,7 +12,7 @@ namespace room_clock_test {
 constexpr int kHz = 60;
 constexpr std::int64_t kPeriodUs = 1000000 / kHz;
 
-/// A server in virtual time whose ticks take `cost_us`.
+/// A server in virtual time with ticks of `cost_us`.
 struct BusyServer {
   RoomClock clock{kHz};
   std::int64_t now_us = 5000000;
@@ -25,7 +25,7 @@ struct BusyServer {
     for (const std::int64_t end_us = now_us + us; now_us < end_us;) {
       now_us = std::max(now_us, clock.DueUs(tick + 1));
       worst_late_us = std::max(worst_late_us, now_us - clock.DueUs(tick + 1));
-      // As Server::Tick: several that are due in one call.
+      // Like Server::Tick: several due ticks in one call.
       std::int64_t steps = 0;
       while (steps < 2 && clock.DueUs(tick + 1) <= now_us) ++tick, ++steps;
       if (clock.Note(now_us, tick)) ++said;
@@ -34,7 +34,7 @@ struct BusyServer {
   }
 };
 
-TEST(RoomClock, WhileTheServerKeepsUpTicksAreDueWhereTheyAlwaysWere) {
+TEST(RoomClock, TicksKeepTheirScheduleWhileTheServerKeepsUp) {
   BusyServer server;
   server.RunFor(20000000, kPeriodUs / 2);
   EXPECT_EQ(server.clock.speed_ppm(), kFullSpeedPpm);
@@ -60,7 +60,7 @@ TEST(RoomClock, ATickOfTwicePeriodHalvesTheSpeedAndBoundsTheLateness) {
   EXPECT_LE(server.said, 3) << "people are told, but not each second";
 }
 
-TEST(RoomClock, WhenTheLoadIsGoneTheSpeedIsRealTimeAgain) {
+TEST(RoomClock, TheSpeedReturnsToRealTimeAfterTheLoad) {
   BusyServer server;
   server.RunFor(10000000, 2 * kPeriodUs);
   ASSERT_LT(server.clock.speed_ppm(), 600000);
@@ -72,7 +72,7 @@ TEST(RoomClock, WhenTheLoadIsGoneTheSpeedIsRealTimeAgain) {
               static_cast<double>(server.now_us - begin_us) * 1e-6 * kHz, 1.5);
 }
 
-TEST(RoomClock, OneStallIsMadeUpForAndSlowsNothing) {
+TEST(RoomClock, OneStallIsCaughtUpWithoutSlowing) {
   BusyServer server;
   server.RunFor(3000000, kPeriodUs / 4);
   server.now_us += 2000000;  // suspended
@@ -82,7 +82,7 @@ TEST(RoomClock, OneStallIsMadeUpForAndSlowsNothing) {
   EXPECT_EQ(server.tick, (server.now_us - 5000000) * kHz / 1000000);
 }
 
-TEST(RoomClock, HoweverSlowTheServerTheSpeedHasABoundAndTheClockNeverRunsBackwards) {
+TEST(RoomClock, TheSpeedHasABoundAndTheClockNeverRunsBackwards) {
   BusyServer server;
   std::int64_t room_us = -1;
   for (int i = 0; i < 200; ++i) {

@@ -1,4 +1,4 @@
-/// Which room a datagram is for, and that strangers cannot make it remember anything.
+/// Finds a datagram's room; strangers cannot make it allocate memory.
 
 #include "server/hub/room_finder.h"
 
@@ -56,7 +56,7 @@ TEST(RoomFinder, ASessionIsFoundByItsNumberAndItsAddressTogether) {
   EXPECT_EQ(finder.Find(0, kAnn, Within(6)), RoomFinder::kNone) << "another conversation";
 }
 
-TEST(RoomFinder, WhatIsNotHeardOfForLongIsForgotten) {
+TEST(RoomFinder, ForgetsSilentSessions) {
   RoomFinder finder({"red", "blue"});
   finder.Learn(0, 1, kAnn, 5);
   finder.Learn(0, 1, kBob, 6);
@@ -77,7 +77,7 @@ TEST(RoomFinder, TheOnlyRoomGetsEverythingButAJoinToAnother) {
   EXPECT_EQ(finder.Refusal(), "there is no such room here: the room is red");
 }
 
-TEST(RoomFinder, NonsenseIsForNobody) {
+TEST(RoomFinder, NonsenseBelongsToNoRoom) {
   RoomFinder finder({"red", "blue"});
   Bytes damaged = JoinOf(5, "blue");
   damaged.back() ^= 1;
@@ -86,7 +86,7 @@ TEST(RoomFinder, NonsenseIsForNobody) {
   }
 }
 
-TEST(RoomNet, WhoIsSentADatagramOfASessionIsFoundFromThenOn) {
+TEST(RoomNet, LearnsASessionFromItsFirstOutgoingDatagram) {
   MemoryNetwork network;
   const std::unique_ptr<Net> out = network.Attach({0x7f000001, 7777});
   RoomFinder finder({"red", "blue"});
@@ -98,7 +98,7 @@ TEST(RoomNet, WhoIsSentADatagramOfASessionIsFoundFromThenOn) {
   EXPECT_EQ(finder.Find(1000, kAnn, Within(5)), 1);
 }
 
-TEST(RoomNet, ARoomThatStandsStillLosesWhatIsTooMuchAndKeepsTheRest) {
+TEST(RoomNet, AStalledRoomDropsTheExcessAndKeepsTheRest) {
   MemoryNetwork network;
   const std::unique_ptr<Net> out = network.Attach({0x7f000001, 7777});
   RoomFinder finder({"red"});
@@ -114,7 +114,7 @@ TEST(RoomNet, ARoomThatStandsStillLosesWhatIsTooMuchAndKeepsTheRest) {
   EXPECT_FALSE(net.HasMail());
 }
 
-TEST(TrafficCount, BytesAreCountedByWhatTheyCarryAndNothingIsLost) {
+TEST(TrafficCount, CountsEveryByteByItsKindOfMessage) {
   TrafficCount traffic;
   const Bytes ping = Within(5), join = JoinOf(5, "red");
   traffic.Add(ping, true);

@@ -15,7 +15,7 @@ namespace rules_test {
 
 using Lines = std::vector<std::string>;
 
-/// Writes down what it is asked for.
+/// Records the requests.
 class FakeRoomCommands : public RoomCommands {
  public:
   Lines asked, said;
@@ -77,7 +77,7 @@ std::string Discs(float density, const std::string& more) {
          std::to_string(density) + "\nhealth = 100\n" + more;
 }
 
-TEST(Rules, ABlowHurtsByTheChangeOfEachBodysOwnVelocity) {
+TEST(Rules, AnImpactDamagesByTheChangeOfEachBodysOwnVelocity) {
   for (const float ratio : {1.0f, 4.0f, 0.25f}) {
     Game game(Discs(ratio, "damage = {above = 2, factor = 5}\n"));
     EXPECT_EQ(game.Value("a"), 100);
@@ -91,7 +91,7 @@ TEST(Rules, ABlowHurtsByTheChangeOfEachBodysOwnVelocity) {
   }
 }
 
-TEST(Rules, DeathBreaksTheJointsOfTheMechanismOnceAndPaysWhoStruck) {
+TEST(Rules, DeathBreaksTheMechanismsJointsOnceAndRewardsTheAttacker) {
   Game game(Discs(1, R"(damage = {above = 2, factor = 50}
 score = 30
 [[part]]
@@ -203,7 +203,7 @@ TEST(Rules, CheckpointsCountInTheirOrderAndMakeLaps) {
                                        "ann has done a lap", "ann passes c4"}));
 }
 
-TEST(Rules, APickupIsTakenOnceByTheFirstWhoMay) {
+TEST(Rules, APickupIsTakenOnceByTheFirstPermittedPlayer) {
   const std::string coin =
       "[[part]]\nname = \"coin\"\ncircle = 0.1\nposition = [6, 0.5]\nanchored = true\n"
       "permissions = {take = [\"bob\"]}\n"
@@ -283,7 +283,7 @@ end
                                            ": attempt to call a nil value (field 'remove_prat')");
 }
 
-TEST(Rules, APartOfABodyIsWhereItsRootHasCarriedIt) {
+TEST(Rules, APartMovesWithTheRootOfItsBody) {
   Game game(
       "[[part]]\nname = \"a\"\nbox = [2, 2]\nposition = [1, 2]\nangle = 0.5\nspin = 3\n"
       "velocity = [1, 0]\n[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [4, 2]\n"

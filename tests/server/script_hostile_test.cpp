@@ -1,4 +1,4 @@
-/// Scripts that want to hang the room, fill its memory, or get out of their sandbox.
+/// Scripts that try to hang the room, fill its memory, or leave their sandbox.
 
 #include <gtest/gtest.h>
 
@@ -195,7 +195,7 @@ TEST(ScriptHostile, AListThatSeemsEndlessIsNotMoved) {
   EXPECT_EQ(room.script.error(), "s.toml:10: more than 200000 instructions in a tick");
 }
 
-TEST(ScriptHostile, TheLimitsAreTheScenes) {
+TEST(ScriptHostile, TheSceneSetsTheLimits) {
   ScriptLimits limits;
   limits.instructions = 5000;
   const std::string code = "function on_tick() for i = 1, 2000 do local x = i end end";

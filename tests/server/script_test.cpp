@@ -1,4 +1,4 @@
-/// Scripts: callbacks, what they can do, and that an error names its line of the scene file.
+/// Scripts: callbacks, functions, and errors that name their line of the scene file.
 
 #include "server/script/script.h"
 
@@ -12,7 +12,7 @@ namespace script_test {
 
 using Lines = std::vector<std::string>;
 
-TEST(Script, IsCalledBackWithWhatHappened) {
+TEST(Script, ReceivesCallbacksForEvents) {
   FakeRoom room(R"(
     function on_tick(t) print("tick", t * 60) end
     function on_touch(a, b) world.say(a .. " touches " .. b) end
@@ -55,7 +55,7 @@ TEST(Script, PushesInNewtonSecondsAndForcesForATick) {
   EXPECT_EQ(room.host.asked, (Lines{"push ball 3 4 kick", "push ball 1 -2 force"}));
 }
 
-TEST(Script, MakesACharacterLimpForSecondsOrUntilItSaysOtherwise) {
+TEST(Script, MakesACharacterLimpForSecondsOrUntilItEndsIt) {
   FakeRoom room(R"(
     world.limp("hero", 2.5)
     world.limp("hero")
@@ -71,7 +71,7 @@ TEST(Script, MakesACharacterLimpForSecondsOrUntilItSaysOtherwise) {
   for (const std::string& said : room.host.said) EXPECT_EQ(said.rfind("false ", 0), 0u) << said;
 }
 
-TEST(Script, ABlastPushesOnlyWhenItSaysHowHardAndByANumber) {
+TEST(Script, ABlastPushesOnlyWithAFiniteImpulse) {
   FakeRoom room(R"(
     world.blast(1, 2, 3, 4)
     world.blast(1, 2, 3, 4, 50)
@@ -84,7 +84,7 @@ TEST(Script, ABlastPushesOnlyWhenItSaysHowHardAndByANumber) {
   for (const std::string& said : room.host.said) EXPECT_EQ(said.rfind("false ", 0), 0u) << said;
 }
 
-TEST(Script, MakesPartsAndJointsAsASceneWouldSayThem) {
+TEST(Script, MakesPartsAndJointsAsASceneDoes) {
   FakeRoom room(R"(
     world.add_part{name = "b2", box = {1, 0.5}, position = {2, 3}, bullet = true}
     world.add_joint{name = "j", kind = "wheel", a = "ball", b = "b2", motor = {speed = 3}}
@@ -119,7 +119,7 @@ TEST(Script, KeepsScoresAndHealth) {
   EXPECT_EQ(room.host.said, (Lines{"7.0 0.0", "50.0", "2.0"}));
 }
 
-/// What a script's error says; `code` begins on line 10.
+/// Returns a script's error; `code` begins on line 10.
 std::string ErrorOf(const std::string& code) {
   FakeRoom room(code);
   room.Step();
@@ -169,7 +169,7 @@ TEST(Script, CatchesItsOwnErrors) {
                    "false cannot resume dead coroutine", "7 8"}));
 }
 
-TEST(Script, AnswersWithWhatAFunctionReturns) {
+TEST(Script, AnswersWithTheValuesThatAFunctionReturns) {
   FakeRoom room(R"(
     function twice(t)
       return {ball = {x = 2 * t}}, "m"

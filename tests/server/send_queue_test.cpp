@@ -1,4 +1,5 @@
-/// What waits for one receiver: the most urgent first, never more than the budget, nothing lost.
+/// The send queue of one receiver: the most urgent body goes first, never beyond the budget, and
+/// nothing is lost.
 
 #include "server/interest/send_queue.h"
 
@@ -16,14 +17,14 @@ namespace send_queue_test {
 constexpr int kBodies = 200;
 constexpr std::int64_t kTickUs = 16667;
 
-/// As a States, which is what a budget counts with at first.
+/// Size as a States message, which a budget counts at first.
 std::size_t BytesOf(const SendQueue::Message& message) {
   return kStatesBytes.empty + kStatesBytes.each * message.size();
 }
 
-class OutboxTest : public ::testing::Test {
+class SendQueueTest : public ::testing::Test {
  protected:
-  OutboxTest()
+  SendQueueTest()
       : world_(ParseScene(R"(
 gravity = [0, 0]
 [[part]]
@@ -52,7 +53,7 @@ repeat = {count = [20, 10], step = [1, 1]}
   NewestStates newest_;
 };
 
-TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
+TEST_F(SendQueueTest, WithoutABudgetEverythingGoesAtOnceInMessagesThatFit) {
   SendQueue send_queue(0);
   for (int id = 0; id < kBodies; ++id) send_queue.Add(0, id, Urgency::kFar);
   std::set<int> told;
@@ -69,7 +70,7 @@ TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
   EXPECT_TRUE(send_queue.empty());
 }
 
-TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
+TEST_F(SendQueueTest, KeepsTheBudgetSendsUrgentBodiesFirstAndAllEventually) {
   constexpr double kBudget = 8000;  // bytes/s: about 330 bodies
   SendQueue send_queue(kBudget);
   send_queue.Spend(2 * static_cast<std::size_t>(kBudget));  // the room was just sent
@@ -101,13 +102,14 @@ TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
   ASSERT_EQ(told.size(), static_cast<std::size_t>(kBodies)) << "each once";
 }
 
-TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
+TEST_F(SendQueueTest, RaisingAPendingBodyRaisesThatBody) {
   SendQueue send_queue(2000);
   EXPECT_TRUE(send_queue.Compose(0, newest_).empty());
   send_queue.Spend(4000);  // the room
   for (int i = 0; i < kBodies; ++i) send_queue.Add(0, i * 77 % kBodies, Urgency::kFar);
   std::int64_t now_us = 0;
-  for (; now_us < 100'000; now_us += kTickUs) EXPECT_TRUE(send_queue.Compose(now_us, newest_).empty());
+  for (; now_us < 100'000; now_us += kTickUs)
+    EXPECT_TRUE(send_queue.Compose(now_us, newest_).empty());
   std::set<int> raised, told;
   for (int id = 7; id < kBodies; id += 20) raised.insert(id);
   for (const int id : raised) send_queue.Add(now_us, id, Urgency::kFollowed);

@@ -1,4 +1,4 @@
-/// Who is in the room, with raw links instead of clients: names, peer numbers, silence, places.
+/// Sessions of a room, with raw links instead of clients: names, peer numbers, silence, places.
 
 #include "server/sessions/session_table.h"
 
@@ -24,7 +24,7 @@ class SessionTableTest : public ::testing::Test {
  protected:
   using Kind = SessionEvent::Kind;
 
-  /// What the guests send arrives, and the table answers.
+  /// Delivers the guests' datagrams and lets the table answer.
   void Exchange() {
     Address from;
     Bytes datagram;
@@ -97,7 +97,7 @@ TEST_F(SessionTableTest, PlayerPIsPeerPPlusOneAndSpectatorsComeAfterThePlayers) 
   EXPECT_EQ(table_.Find(2)->player, 1);
 }
 
-TEST_F(SessionTableTest, JoiningLoadingAndGettingReadyAreSaidInThisOrder) {
+TEST_F(SessionTableTest, JoiningLoadingAndGettingReadyAreReportedInThisOrder) {
   Guest bob(&network_, 2, "bob");
   Enter(&bob);
   EXPECT_EQ(Kinds(), (std::vector<Kind>{Kind::kJoined, Kind::kLoading}));
@@ -108,7 +108,7 @@ TEST_F(SessionTableTest, JoiningLoadingAndGettingReadyAreSaidInThisOrder) {
   EXPECT_EQ(table_.PeerOfPlayer(), (std::vector<int>{-1, 2}));
 }
 
-TEST_F(SessionTableTest, AHelloBuildsNothingAndDrawsLessThanItself) {
+TEST_F(SessionTableTest, AHelloAllocatesNothingAndDrawsLessThanItself) {
   Guest bob(&network_, 2, "b");
   bob.SayHello();
   Exchange();
@@ -218,7 +218,7 @@ TEST_F(SessionTableTest, AJoinOfASessionThatIsOverDoesNotEndTheOneThatCameAfterI
   EXPECT_EQ(table_.Find(2)->id.number, again.number);
 }
 
-TEST_F(SessionTableTest, AnotherKeyIsNone) {
+TEST_F(SessionTableTest, AnotherKeyIsRefused) {
   Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
   GetReady(&bob);
   other.key = bob.key + 1;
@@ -227,7 +227,7 @@ TEST_F(SessionTableTest, AnotherKeyIsNone) {
   EXPECT_EQ(table_.Find(2)->id.number, bob.number);
 }
 
-TEST_F(SessionTableTest, WhoSaysGoodbyeOrNeverGotReadyHoldsNoName) {
+TEST_F(SessionTableTest, APlayerThatLeftOrWasNeverReadyHoldsNoName) {
   Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
   GetReady(&bob);
   table_.Find(2)->goodbye = true;
@@ -241,7 +241,7 @@ TEST_F(SessionTableTest, WhoSaysGoodbyeOrNeverGotReadyHoldsNoName) {
   EXPECT_TRUE(third.welcomed);
 }
 
-TEST_F(SessionTableTest, WhoIsSilentBeforeTheKeyIsKnownGivesTheNameToWhoSaysIt) {
+TEST_F(SessionTableTest, APlayerSilentBeforeItsKeyIsKnownLosesTheName) {
   Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
   Enter(&bob);
   now_us_ += PlaceTable::kKeylessUs - 1;
@@ -286,7 +286,7 @@ TEST_F(SessionTableTest, AnotherProtocolIsRefusedWithBothVersionsWithinTheByteCr
   EXPECT_TRUE(events_.empty());
 }
 
-TEST_F(SessionTableTest, WhoIsSilentLongerThanTheServersPatienceIsGone) {
+TEST_F(SessionTableTest, APlayerSilentLongerThanThePatienceIsRemoved) {
   Guest bob(&network_, 2, "bob");
   GetReady(&bob);
   now_us_ += kPatienceUs;
@@ -317,7 +317,7 @@ TEST_F(SessionTableTest, AHeldPlaceOfASpectatorGivesWayWhenTheRoomIsFull) {
   EXPECT_EQ(PeerOf("ann"), 1) << "players have places of their own";
 }
 
-TEST_F(SessionTableTest, WhatIsBeyondTheBudgetIsNotDeliveredAndWhoInsistsHasToLeave) {
+TEST_F(SessionTableTest, TrafficBeyondTheBudgetIsDroppedAndAFlooderIsRemoved) {
   Guest bob(&network_, 2, "bob");
   GetReady(&bob);
   const int before = delivered_;

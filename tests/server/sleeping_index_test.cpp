@@ -1,4 +1,4 @@
-/// Lying: the plan without what lies far from all else is, entry by entry, the plan of everything.
+/// SleepingIndex: a plan without distant sleepers equals the full plan, entry by entry.
 
 #include "server/authority/sleeping_index.h"
 
@@ -17,7 +17,7 @@
 namespace seam {
 namespace sleeping_index_test {
 
-/// Lays most of what nobody drives to sleep, the server's alone. By mechanism: whether it lies.
+/// Puts most undriven mechanisms to sleep as the server's. Returns, by mechanism, 1 for sleepers.
 std::vector<char> LayDown(std::uint64_t seed, AuthorityView* view) {
   Random random(seed);
   std::vector<char> lies;
@@ -81,8 +81,8 @@ struct Counts {
   int differ = 0, left_out = 0, given = 0;
 };
 
-/// Over random rooms: entries of the plans that differ, what was left out, and what lay and was
-/// given to somebody or followed.
+/// Over random rooms: differing entries of the plans, omitted sleepers, and sleepers that were
+/// granted or followed.
 Counts Compare(PlanWorld world, int seeds) {
   world.regions = false;
   Counts counts;
@@ -122,7 +122,7 @@ PlanWorld Room(int players, int mechanisms, float width, float height) {
   return world;
 }
 
-TEST(Lying, APlanWithoutWhatLiesFarIsThePlanOfEverything) {
+TEST(SleepingIndex, APlanWithoutDistantSleepersEqualsTheFullPlan) {
   for (const PlanWorld& world : {Room(3, 400, 3000, 60), Room(6, 500, 900, 900),
                                  Room(16, 600, 1500, 40), Room(1, 300, 400, 400)}) {
     SCOPED_TRACE(std::to_string(world.players) + " players");
@@ -133,7 +133,7 @@ TEST(Lying, APlanWithoutWhatLiesFarIsThePlanOfEverything) {
   }
 }
 
-TEST(Lying, InACrowdItSeesEveryoneAndInARoomOfSleepersNobody) {
+TEST(SleepingIndex, MatchesTheFullPlanInACrowdAndFindsNothingWithoutMovers) {
   const Counts crowd = Compare(Room(20, 400, 70, 70), 15);
   EXPECT_EQ(crowd.differ, 0);
   Lying lying;
@@ -153,8 +153,8 @@ TEST(Lying, InACrowdItSeesEveryoneAndInARoomOfSleepersNobody) {
   EXPECT_EQ(lying.Near({car}, {1, 0.2f}).size(), 500u) << "a blow goes through all of them";
 }
 
-/// Coming and going it finds what one does that looks at each.
-TEST(Lying, FindsTheSameHoweverItCameToLieThere) {
+/// Under insertions and removals it finds the same as an exhaustive search.
+TEST(SleepingIndex, FindsTheSameAfterAnyHistory) {
   Random random(7);
   Lying lying;
   constexpr int kCount = 600;

@@ -1,4 +1,4 @@
-/// What the rules look at of told states: each once, in the order of ticks, no body going back.
+/// The states that the rules check: each once, in the order of ticks, no body going back.
 
 #include "server/rules/state_trail.h"
 
@@ -16,7 +16,7 @@ BodyState At(float x) {
   return state;
 }
 
-TEST(StateTrail, TellsTheTicksOfAllBodiesEachOnceAndInOrder) {
+TEST(StateTrail, ReportsEachTickOnceAndInOrder) {
   StateTrail trail(2);
   trail.Add(1, 12, At(2));
   trail.Add(0, 10, At(0));
@@ -29,7 +29,7 @@ TEST(StateTrail, TellsTheTicksOfAllBodiesEachOnceAndInOrder) {
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13}));
 }
 
-TEST(StateTrail, ABodyThatWasLookedAtLaterDoesNotGoBackForOneThatIsToldLater) {
+TEST(StateTrail, ALateStateDoesNotReprocessBodiesAlreadyChecked) {
   StateTrail trail(2);
   trail.Add(0, 20, At(5));
   trail.Add(0, 21, At(6));
@@ -45,7 +45,7 @@ TEST(StateTrail, ABodyThatWasLookedAtLaterDoesNotGoBackForOneThatIsToldLater) {
   EXPECT_EQ(trail.TickOf(1, 10), -1);
 }
 
-TEST(StateTrail, WhatOthersBecameIsNewAndWhatStayedIsNot) {
+TEST(StateTrail, ARemapKeepsUnchangedBodiesProcessed) {
   StateTrail trail(2);
   trail.Add(0, 10, At(0));
   trail.Add(1, 10, At(0));
@@ -59,7 +59,7 @@ TEST(StateTrail, WhatOthersBecameIsNewAndWhatStayedIsNot) {
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{9}));
 }
 
-TEST(StateTrail, TheWayBetweenTwoStatesIsLookedAtTickByTick) {
+TEST(StateTrail, ThePathBetweenTwoStatesIsCheckedTickByTick) {
   StateTrail trail(1);
   trail.Add(0, 10, At(1));
   trail.MarkProcessed();
@@ -72,7 +72,7 @@ TEST(StateTrail, TheWayBetweenTwoStatesIsLookedAtTickByTick) {
   EXPECT_EQ(trail.TickOf(0, 99), 14);
 }
 
-TEST(StateTrail, WhatWasPutElsewhereOrWasLongSilentHasNoWayThere) {
+TEST(StateTrail, AJumpOrALongSilenceHasNoPath) {
   StateTrail trail(1);
   trail.Add(0, 10, At(0));
   trail.MarkProcessed();

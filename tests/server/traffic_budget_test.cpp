@@ -1,4 +1,4 @@
-/// Token buckets: how much, how fast again, and how long somebody has been beyond them.
+/// Token buckets: burst, refill rate, and the time spent over budget.
 
 #include "server/sessions/traffic_budget.h"
 
@@ -7,7 +7,7 @@
 namespace seam {
 namespace traffic_budget_test {
 
-TEST(TrafficBudget, AllowsFourTimesWhatAClientNeedsAsTheProtocolPageSays) {
+TEST(TrafficBudget, AllowsFourTimesAClientsNeedAsDocumented) {
   const TrafficRate honest = HonestTraffic(60, 30), allowed = AllowedTraffic(60, 30);
   EXPECT_EQ(honest.messages, 628);
   EXPECT_NEAR(honest.bytes, 160980, 100);
@@ -15,7 +15,7 @@ TEST(TrafficBudget, AllowsFourTimesWhatAClientNeedsAsTheProtocolPageSays) {
   EXPECT_EQ(allowed.bytes, 4 * honest.bytes);
 }
 
-TEST(TrafficBudget, GivesASecondAtOnceAndTheRateAfterwards) {
+TEST(TrafficBudget, AllowsABurstOfASecondAndTheRateAfterwards) {
   TrafficBudget budget({1000, 100});
   std::int64_t now_us = 5;
   int taken = 0;

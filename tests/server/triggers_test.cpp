@@ -1,4 +1,4 @@
-/// Triggers and the table of values, as functions of what they are told.
+/// Triggers and the metadata table, as functions of their inputs.
 
 #include "server/rules/triggers.h"
 
@@ -44,7 +44,7 @@ Trigger At(float x, float width) {
   return trigger;
 }
 
-TEST(Triggers, SayWhoEntersAndWhoLeavesOnce) {
+TEST(Triggers, ReportEachEntryAndEachExitOnce) {
   Triggers triggers({At(0, 2), At(1, 2)});
   Places places{{{0, -2}, {1, 5}, {2, 5}}};
   EXPECT_EQ(Text(places.Update(&triggers)), "");
@@ -75,7 +75,7 @@ TEST(Triggers, LookOnlyAtTheirPlayersParts) {
   EXPECT_EQ(Text(places.Update(&triggers)), "+0:0/0 +1:1/1 ");
 }
 
-TEST(Triggers, OfOneTimeAreOverAfterTheFirstWhoeverComesInTheSameTick) {
+TEST(Triggers, FireOnceEvenIfSeveralEnterInTheSameTick) {
   Trigger once = At(0, 10);
   once.once = true;
   Triggers triggers({once});
@@ -101,7 +101,7 @@ TEST(Triggers, MoveWithTheirPartAndEndWithIt) {
   EXPECT_EQ(Text(places.Update(&triggers)), "");
 }
 
-TEST(Metadata, TellsChangesOnceAndEverythingToLatecomers) {
+TEST(Metadata, SendsChangesOnceAndEverythingToLatecomers) {
   MetaTable server, early, late;
   for (std::int32_t id = 0; id < 300; ++id) {
     server.Set({kMetaPart, id, kMetaHealth}, static_cast<float>(id) + 0.5f);

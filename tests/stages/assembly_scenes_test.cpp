@@ -1,4 +1,4 @@
-/// scenes/titanic.toml and scenes/gluehouse.toml do what their titles say, in one world.
+/// scenes/titanic.toml and scenes/gluehouse.toml match their titles in one world.
 
 #include <gtest/gtest.h>
 

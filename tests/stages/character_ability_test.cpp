@@ -1,5 +1,5 @@
-/// What active characters must be able to do, on starts that no search has seen (those of searches
-/// are numbered from 1001): the bars of docs/lab.md.
+/// Required abilities of active characters, on starts that no search has seen (searches number
+/// theirs from 1001): the bars of docs/lab.md.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace seam {
 namespace character_ability_test {
 
-/// Of the trials whose group begins with one of these words.
+/// Counts the trials with a group that begins with one of these words.
 struct Tally {
   int good = 0, count = 0;
   std::vector<double> figures;  // of the good ones
@@ -68,9 +68,9 @@ TEST(CharacterAbility, ClimbsAndDescendsStairsOfFifteenAndTwentyCentimetres) {
   EXPECT_GE(high.good, 9) << high.failed;
 }
 
-/// Where the knee of the leg that bears yields, its ankle must not turn the foot over the edge: at
-/// 20 cm it fell in 16 of 60. And its heel must not come down on the edge of the stair that it
-/// leaves: it fell in 7 to 19 of 60.
+/// When the knee of the bearing leg yields, its ankle must not turn the foot over the edge: at 20
+/// cm it fell in 16 of 60. And the heel must not come down on the edge of the stair that it leaves:
+/// it fell in 7 to 19 of 60.
 TEST(CharacterAbility, DescendsOtherFlightsOfTwelveToTwentyCentimetres) {
   std::map<std::string, Tally> flights;
   for (int start = 20001; start <= 20240; ++start) {
@@ -160,7 +160,7 @@ TEST(CharacterAbility, ClimbsOutOfWaterOverALedge) {
   EXPECT_GE(climbs.good, 20) << climbs.failed;
 }
 
-TEST(CharacterAbility, GetsUpAgainAfterItWentLimpByItsPlayerACommandOrABlow) {
+TEST(CharacterAbility, GetsUpAfterItWentLimpByItsPlayerACommandOrAnImpact) {
   const Tally up = TryFrom(7001, "limp", 7032);
   ASSERT_EQ(up.count, 32);
   EXPECT_GE(up.good, 30) << up.failed;

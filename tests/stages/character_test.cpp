@@ -1,4 +1,4 @@
-/// Active characters: what they can do, each with a bound on torque and without hidden forces.
+/// Active characters: their abilities, each with bounded torque and without hidden forces.
 
 #include <gtest/gtest.h>
 

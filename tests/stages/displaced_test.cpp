@@ -40,14 +40,14 @@ void ExpectSame(const AreaMoments& a, const AreaMoments& b, double tolerance) {
 
 const std::vector<Vec2d> kSquare = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
 
-TEST(Displaced, OfAnUprightBoxIsItsWidthTimesTheDraught) {
+TEST(Displaced, AnUprightBoxDisplacesItsWidthTimesTheDraught) {
   const AreaMoments wet = Within({{-2, -1}, {2, -1}, {2, 1}, {-2, 1}}, Below(-0.4));
   EXPECT_NEAR(wet.area, 4 * 0.6, 1e-12);
   EXPECT_NEAR(wet.centre.y(), -0.7, 1e-12);
   EXPECT_NEAR(wet.second, 2.4 * (16 + 0.36) / 12, 1e-12);
 }
 
-TEST(Displaced, OfASquareOnItsCornerIsTheDepthSquared) {
+TEST(Displaced, ASquareOnItsCornerDisplacesTheDepthSquared) {
   const std::vector<Vec2d> diamond = Turned(kSquare, 0.78539816339744831, {0, 0});
   const double low = -std::sqrt(0.5);
   const AreaMoments wet = Within(diamond, Below(low + 0.3));
@@ -55,7 +55,7 @@ TEST(Displaced, OfASquareOnItsCornerIsTheDepthSquared) {
   EXPECT_NEAR(wet.centre.y(), low + 0.2, 1e-12);
 }
 
-TEST(Displaced, PartsInAndOutOfTheWaterMakeTheWhole) {
+TEST(Displaced, WetAndDryPartsAddUpToTheWhole) {
   Random random(7);
   for (int i = 0; i < 200; ++i) {
     const std::vector<Vec2d> points =

@@ -1,4 +1,5 @@
-/// Featherweight bricks in a world: what moves on them and against them, beside ordinary ground.
+/// Featherweight bricks in a world: bodies that move on them and against them, beside ordinary
+/// ground.
 
 #include <gtest/gtest.h>
 
@@ -69,7 +70,7 @@ TEST(Feather, ABoxSlidesOverAThousandBricksAsOverOnePlane) {
   }
 }
 
-TEST(Feather, ABoxBrakedByFrictionStopsWhereItStopsOnOnePlane) {
+TEST(Feather, ABoxBrakedByFrictionStopsAsOnOnePlane) {
   // v0^2 / (2 mu g), mu the root of 0.5 * 0.5: 90 m.
   const std::string box =
       "[[part]]\nname = \"box\"\nbox = [1, 0.4]\nposition = [0, 0.21]\n"
@@ -146,7 +147,7 @@ TEST(Feather, NothingFallsThroughAtTheHighestSpeed) {
   }
 }
 
-TEST(Feather, WhatIsPutElsewhereFindsItsGround) {
+TEST(Feather, AMovedBodyFindsItsGround) {
   const auto world = SmallWorld(Pavement(true, "0.5") +
                                 "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
                                 "position = [0, 0.5]\n");

@@ -27,7 +27,7 @@ Input Of(int drive, int lift, int buttons = 0) {
           static_cast<std::int16_t>(buttons)};
 }
 
-TEST(Conveyor, DragsWithMuGUntilThingsMoveAsItDoes) {
+TEST(Conveyor, DragsWithMuGUntilItsLoadMovesWithIt) {
   // mu = sqrt(0.4 0.4) = 0.4: 4 m/s^2 to 3 m/s, in 45 ticks.
   for (const char* order : {"belt first", "crate first"}) {
     const bool first = order[0] == 'b';
@@ -43,7 +43,7 @@ TEST(Conveyor, DragsWithMuGUntilThingsMoveAsItDoes) {
 }
 
 TEST(Conveyor, RunsClockwiseAround) {
-  // What hangs below from a rope, pressed against the underside, is dragged to the left.
+  // A load on a rope, pressed against the underside, is dragged to the left.
   const auto world = SmallWorld(
       "[[part]]\nname = \"belt\"\nbox = [40, 1]\nposition = [0, 0]\nconveyor = 2\n"
       "anchored = true\n"
@@ -53,7 +53,7 @@ TEST(Conveyor, RunsClockwiseAround) {
   EXPECT_NEAR(world->Read(0).velocity.x(), -2, 0.02);
 }
 
-TEST(Conveyor, FollowsItsPlayerAndWakesWhatSleepsOnIt) {
+TEST(Conveyor, FollowsItsPlayerAndWakesItsLoad) {
   const Scene scene = ParseScene(
       std::string(kAnn) + Belt("{player = \"ann\", axis = \"lift\", speed = 2}") + Crate(),
       "s.toml");
@@ -71,7 +71,7 @@ TEST(Conveyor, FollowsItsPlayerAndWakesWhatSleepsOnIt) {
   EXPECT_NEAR(world.Read(0).velocity.x(), 0, 0.02);
 }
 
-TEST(Conveyor, ThatMovesIsPushedBackByWhatItDrags) {
+TEST(Conveyor, AFreeBeltIsPushedBackByItsLoad) {
   // A free belt on ice and a crate of the same mass on it: their momentum stays 0.
   const auto world =
       SmallWorld("[[part]]\nname = \"ice\"\nchain = [[-50, -1.015], [50, -1.015]]\nfriction = 0\n" +
@@ -95,7 +95,7 @@ TEST(Thrust, GivesFTOverMAndSpinByItsOffset) {
   EXPECT_NEAR(world->Read(0).velocity.norm(), 3 / 6.0 * 0.2, 1e-3);
 }
 
-TEST(Thrust, TurnsWithItsPartAndGoesBySharesOfTheAxis) {
+TEST(Thrust, TurnsWithItsPartAndScalesWithTheAxis) {
   const auto world = SmallWorld(
       std::string(kAnn) +
           "[[part]]\nname = \"ship\"\nbox = [1, 1]\nangle = 1.57079633\n"
@@ -131,7 +131,7 @@ TEST(Thrust, PushesWhileItsButtonIsPressedAndWakesItsBody) {
   EXPECT_NEAR(world.Read(0).velocity.y(), 0, 0.05);
 }
 
-TEST(Thrust, OfAWeldedPartPushesTheWholeAssembly) {
+TEST(Thrust, OnAWeldedPartPushesTheWholeAssembly) {
   const auto world = SmallWorld(
       "[[part]]\nname = \"hull\"\nbox = [4, 1]\ndensity = 2\n"
       "[[part]]\nname = \"engine\"\nbox = [1, 1]\nposition = [0, 2]\nangle = 1.57079633\n"

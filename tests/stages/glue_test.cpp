@@ -25,7 +25,7 @@ BondNet NetWith(int nodes, const std::vector<std::pair<int, int>>& bonds) {
   return net;
 }
 
-TEST(Glue, AHangingChainBearsWhatIsBelow) {
+TEST(Glue, EachBondOfAHangingChainBearsTheWeightBelow) {
   std::vector<std::pair<int, int>> links;
   for (int i = 0; i + 1 < 50; ++i) links.push_back({i, i + 1});
   const std::vector<double> loads = BondLoads(NetWith(50, links), Hung(50, 3));
@@ -34,7 +34,7 @@ TEST(Glue, AHangingChainBearsWhatIsBelow) {
   }
 }
 
-TEST(Glue, ParallelBondsShareAlikeAndALongWayRoundBearsLess) {
+TEST(Glue, ParallelBondsShareEquallyAndALongerPathBearsLess) {
   const std::vector<Eigen::Vector2d> pulled = {{30, 40}, {-30, -40}};
   for (const double load : BondLoads(NetWith(2, {{0, 1}, {0, 1}, {0, 1}, {0, 1}}), pulled)) {
     EXPECT_NEAR(load, 50.0 / 4, 1e-9);
@@ -48,7 +48,7 @@ TEST(Glue, ParallelBondsShareAlikeAndALongWayRoundBearsLess) {
   for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR(loads[i], 2, 1e-9);
 }
 
-TEST(Glue, AnAnchorTakesWhatTheOthersDoNotBalance) {
+TEST(Glue, AnAnchorTakesTheUnbalancedForce) {
   BondNet net = NetWith(4, {{0, 1}, {1, 2}, {2, 3}});
   net.anchor = 0;
   const std::vector<double> loads = BondLoads(net, {{0, -1}, {0, -2}, {0, -3}, {0, -4}});
@@ -99,7 +99,7 @@ TEST(Glue, ACantileverOnAWallBreaksAtTheWall) {
   EXPECT_LT(breaks->Read(0).position.y(), -3);
 }
 
-TEST(Glue, WhatSpinsIsTornApartByMassTimesSpinSquaredTimesRadius) {
+TEST(Glue, ASpinningPairBreaksAtMassTimesSpinSquaredTimesRadius) {
   const auto two = [](double strength) {
     return "[[part]]\nname = \"box\"\nbox = [1, 1]\nspin = 10\n"
            "repeat = {count = 2, step = [1, 0], glue = " +
@@ -113,7 +113,7 @@ TEST(Glue, WhatSpinsIsTornApartByMassTimesSpinSquaredTimesRadius) {
   EXPECT_EQ(breaks->body_count(), 2);
 }
 
-TEST(Glue, ABlowStrainsABondByTheShareOfMassBehindIt) {
+TEST(Glue, AnImpactStrainsABondByTheShareOfMassBehindIt) {
   // 1 kg at 10 m/s stops against 1 + 1 kg: 6.667 N s, half of it through the bond: 200 N at 60 Hz.
   const auto blow = [](double strength) {
     return "[[part]]\nname = \"ram\"\nbox = [1, 1]\nposition = [-3, 0]\nvelocity = [10, 0]\n"

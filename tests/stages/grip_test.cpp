@@ -1,4 +1,4 @@
-/// Grips: a hand that holds what it touches, as a bond that is an edit.
+/// Grips: a hand holds a touched body by a bond, which is an edit.
 
 #include "common/topology/grip.h"
 
@@ -50,7 +50,7 @@ Vec2 TipOf(const World& world, PartId hand) {
   return arm.position + Turned(FingertipOf(world.scene(), hand).value(), arm.angle);
 }
 
-/// m between the fingertip and what it holds, the most of all grips.
+/// Largest distance between a fingertip and its held body over all grips, m.
 float Apart(const World& world) {
   float apart = 0;
   for (const int index : GripsOf(world.scene())) {
@@ -86,8 +86,8 @@ TEST(Grip, ASwimmerHoldsTheWallThatItComesToByItsFingertip) {
   }
 }
 
-TEST(Grip, OfManyAnchoredTilesItHoldsTheOneThatItTouches) {
-  // They are so many that they share a body, which lies elsewhere than each of them.
+TEST(Grip, HoldsTheTouchedTileAmongManyAnchoredOnes) {
+  // Many anchored tiles share a body, placed elsewhere than each of them.
   ScriptedWorld run(CharacterScene(
       "position = [-1.3, -1.45]\nangle = -0.3\ndensity = 0.92\ngrip = true\n",
       "[[0, {drive = 1.0}]]",
@@ -140,7 +140,7 @@ BondEdit CrateGrip(const Scene& scene) {
   return bond;
 }
 
-TEST(Grip, OnlyAHandOfACharacterWithGripsMayAndOnlyOneThingAtATime) {
+TEST(Grip, OnlyAHandWithGripMayHoldAndOnlyOneBodyAtATime) {
   const Scene scene = PoolScene();
   const BondEdit good = CrateGrip(scene);
   ASSERT_EQ(scene.parts[1].name, "crate");
@@ -169,7 +169,7 @@ TEST(Grip, OnlyAHandOfACharacterWithGripsMayAndOnlyOneThingAtATime) {
             now.assembly_of_part[static_cast<std::size_t>(good.b)]);
 }
 
-TEST(Grip, GoesOverTheWireAndIntoWhatALatePeerGets) {
+TEST(Grip, IsSentAndIsPartOfALatecomersTopology) {
   const Scene scene = PoolScene();
   const BondEdit grip = CrateGrip(scene);
   const Edit back = ToEdit(ToOrder(Edit(grip)));

@@ -1,4 +1,4 @@
-/// Grouping of what rests against each other while all of it moves.
+/// Grouping of bodies at rest against each other while all of them move.
 
 #include <gtest/gtest.h>
 
@@ -98,7 +98,7 @@ std::string Raft(float spin) {
          FloatDigits(static_cast<double>(spin)) + "\nrepeat = {count = 3, step = [1, 0]}\n";
 }
 
-TEST(MovingGroup, MomentumIsKeptWhenTheyBecomeOneAndWhenTheyBecomeSingleAgain) {
+TEST(MovingGroup, GroupingAndUngroupingKeepMomentum) {
   World world(ParseScene(Raft(0), "raft.toml"));
   std::vector<Edit> edits;
   while (edits.empty() && world.tick() < 200) {
@@ -242,7 +242,7 @@ TEST(MovingGroup, CargoIsOneBodyOnASlopeToo) {
   }
 }
 
-TEST(MovingGroup, WhatIsJammedAndPressedInIsNotGrouped) {
+TEST(MovingGroup, JammedBoxesAreNotGrouped) {
   // Twelve boxes of 1 m in 11.9 m: they cannot come to rest.
   auto world = SmallWorld(
       "[grouping]\nafter = 0.5\n[[part]]\nname = \"floor\"\nchain = [[-20, 0], [20, 0]]\n"

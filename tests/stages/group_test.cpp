@@ -1,4 +1,4 @@
-/// Grouping of what rests.
+/// Grouping of bodies at rest.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(Group, AStackAtRestBecomesOneBody) {
   EXPECT_NEAR((world->Read(0).position - before).norm(), 0, 2e-3);
 }
 
-TEST(Group, WhatComesFlyingMeetsSingleBodiesAgain) {
+TEST(Group, AnImpactMeetsSingleBodies) {
   const std::string ball =
       "[[part]]\nname = \"ball\"\ncircle = 0.3\nposition = [-20, 2.5]\n"
       "velocity = [9.5, 10]\ndensity = 4\n";
@@ -55,7 +55,7 @@ TEST(Group, WhatComesFlyingMeetsSingleBodiesAgain) {
   EXPECT_GT(single->Read(single->BodyOfId(3)).position.x(), 0.5f) << "it was hit";
 }
 
-TEST(Group, MechanismsAndAnchoredThingsStayAsTheyAre) {
+TEST(Group, MechanismsAndAnchoredBodiesAreNotGrouped) {
   const std::string hinged =
       "[[part]]\nname = \"arm\"\nbox = [1, 1]\nposition = [4, 0.515]\n"
       "[[part]]\nname = \"hand\"\nbox = [1, 1]\nposition = [5.02, 0.515]\n"

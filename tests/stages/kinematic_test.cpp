@@ -1,5 +1,4 @@
-/// Kinematic parts: exactly where their path says, whoever looks and whenever they joined, and what
-/// lies on them rides.
+/// Kinematic parts follow their path exactly, for every peer and latecomer, and carry their load.
 
 #include "common/stages/kinematic.h"
 
@@ -58,7 +57,7 @@ TEST(Kinematic, TurningIsAboutTheAnchor) {
   EXPECT_NEAR(state.velocity.norm(), 0.5, 1e-6);
 }
 
-TEST(Kinematic, ItCarriesWhatLiesOnIt) {
+TEST(Kinematic, CarriesItsLoad) {
   for (const char* solver : {"", "substeps = 3"}) {
     const auto world =
         SmallWorld(Platform("path = [[0, 0], [40, 0]]\nperiod = 40") +
@@ -93,8 +92,8 @@ std::string Ride() {
          "anchor_a = [-1, 2]\nlength = 3\n";
 }
 
-TEST(Kinematic, ItIsExactlyWhereThePathSaysAtEveryTick) {
-  // Seen through what is hung from it by a rigid rod: the rod's length is the proof.
+TEST(Kinematic, FollowsItsPathExactlyAtEveryTick) {
+  // Observed through a body hung from it by a rigid rod: the rod's length is the proof.
   const Scene scene = ParseScene("[solver]\nsleep = false\n" + Ride(), "s.toml");
   World world(scene);
   const JointMeter meter(scene, Compose(scene));
@@ -107,7 +106,7 @@ TEST(Kinematic, ItIsExactlyWhereThePathSaysAtEveryTick) {
   }
 }
 
-TEST(Kinematic, WhoJoinsLaterHasItAtTheSamePlace) {
+TEST(Kinematic, ALatecomerHasItAtTheSamePlace) {
   // Contact tells where it is: a box put on it at tick 500 rides as one in a world from the start.
   const Scene scene = ParseScene(Ride(), "s.toml");
   World from_start(scene), late(scene);

@@ -1,4 +1,4 @@
-/// Limp and back, and limbs that are severed.
+/// Limp characters and their recovery, and severed limbs.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(Limp, AHardPushMakesItLimpForAMomentAndALightOneDoesNot) {
   }
 }
 
-/// By a command, as scripts give it.
+/// Makes it limp by a script's command.
 void GoLimp(ScriptedWorld* run, float seconds) {
   const PartId torso = run->world.scene().characters[0].parts[kTorso];
   run->world.Apply({Edit(PushEdit{torso, Vec2(0, 0), 0, seconds}, EditCause::kOutside)});
@@ -104,7 +104,7 @@ TEST(Limp, ABarrierReplaysItBitForBit) {
   }
 }
 
-/// Whether it stands 8 s after a joint of it was severed while it stood.
+/// True if it stands 8 s after one of its joints was severed.
 bool StandsWithout(CharacterJoint joint) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n"));
   run.StepTo(60);
@@ -113,14 +113,14 @@ bool StandsWithout(CharacterJoint joint) {
   return std::abs(Look(run).lean) < 0.6f && run.Read("hero.torso").position.y() > 1;
 }
 
-TEST(Severed, WithoutAnArmOrAForearmItStandsOnAndWithoutALegItFalls) {
+TEST(Severed, StandsWithoutAnArmOrAForearmAndFallsWithoutALeg) {
   EXPECT_TRUE(StandsWithout(kShoulderLeft));
   EXPECT_TRUE(StandsWithout(kElbowRight));
   EXPECT_FALSE(StandsWithout(kHipLeft));
   EXPECT_FALSE(StandsWithout(kKneeRight));
 }
 
-TEST(Severed, OneArmedItRunsOnAndLimbByLimbNothingBreaksDown) {
+TEST(Severed, ACharacterWithOneArmRunsOnAndLosingEveryLimbIsSafe) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n", "[[0.5, {drive = 0.6}]]"));
   run.StepTo(60);
   const auto joints = run.world.scene().characters[0].joints;

@@ -1,4 +1,4 @@
-/// Propellers and paddle wheels push by the water alone, and by its law.
+/// Propellers and paddle wheels push only by the water, and by its law.
 
 #include <gtest/gtest.h>
 
@@ -186,7 +186,7 @@ TEST(PaddleWheel, PushesNothingInTheAirAndLessWhereLessIsWet) {
 }
 
 TEST(PaddleWheel, TurnsItsHullTheOtherWay) {
-  // In the air what the wheel has of angular momentum the hull has of the opposite.
+  // In the air the wheel's angular momentum is the opposite of the hull's.
   const auto world = SmallWorld(Wheel(2, 2, 1), "substeps = 4", kBench);
   Steps(world.get(), 60);
   const double hull = 2000.0 * (40.0 * 40 + 0.5 * 0.5) / 12;

@@ -1,4 +1,4 @@
-/// Taking a seat: who gets in goes there in one piece and in its time, and disturbs nobody.
+/// Taking a seat: the character arrives in one piece and in time, and disturbs nobody.
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ void BondToSeat(World* world) {
   world->Apply({Edit(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside)});
 }
 
-/// How far the torso is from its place in the seat, m.
+/// Distance of the torso from its place in the seat, m.
 float ToSeat(const World& world) {
   const Seat& seat = world.scene().seats[0];
   const BodyState there = PartPose(world, seat.part);
@@ -103,7 +103,7 @@ double Torn(const World& world) {
 /// 3 % of the shortest limb of a hand's length: nobody sees it.
 constexpr double kClosed = 0.03 * 0.44;
 
-TEST(Seat, WhoTakesItComesThereWithAllLimbsInTheTimeThatIsSaid) {
+TEST(Seat, ACharacterReachesItWithAllLimbsInTheStatedTime) {
   const auto world = WithCharacter();
   const PartId torso = Named(*world, "hero.torso");
   ASSERT_GT(ToSeat(*world), 2.5f);
@@ -129,7 +129,7 @@ TEST(Seat, WhoTakesItComesThereWithAllLimbsInTheTimeThatIsSaid) {
   }
 }
 
-TEST(Seat, WhoIsThereIsHeldUntilTheBondComes) {
+TEST(Seat, ASittingCharacterIsHeldUntilTheBondComes) {
   const auto world = WithCharacter();
   Take(world.get());
   Steps(world.get(), SeatTicks(60) + 20);
@@ -139,7 +139,7 @@ TEST(Seat, WhoIsThereIsHeldUntilTheBondComes) {
   EXPECT_GT(ToSeat(*world), 0.1f) << "who gets out is let go";
 }
 
-TEST(Seat, OnTheWayNothingIsTouched) {
+TEST(Seat, NothingCollidesOnTheWay) {
   const auto alone = WithCharacter();
   Take(alone.get());
   const Vec2 was = PartPose(*alone, Named(*alone, "buggy")).position;
@@ -147,7 +147,7 @@ TEST(Seat, OnTheWayNothingIsTouched) {
   EXPECT_LT((PartPose(*alone, Named(*alone, "buggy")).position - was).norm(), 0.01f);
 }
 
-TEST(Seat, AWorldThatGoesBackToTheMiddleOfTheWayDoesAllAgainBitForBit) {
+TEST(Seat, AReplayFromMidwayIsBitExact) {
   for (const int tick : {3, SeatWaitTicks(60), SeatWaitTicks(60) + 4, SeatTicks(60) + 2}) {
     const auto world = WithCharacter();
     Take(world.get());
@@ -161,7 +161,7 @@ TEST(Seat, AWorldThatGoesBackToTheMiddleOfTheWayDoesAllAgainBitForBit) {
   }
 }
 
-TEST(Seat, TheVehicleGetsTheMomentumThatCame) {
+TEST(Seat, TheVehicleReceivesTheCharactersMomentum) {
   const auto world = SmallWorld(R"(
 [[player]]
 name = "ann"
@@ -200,7 +200,7 @@ button = 5
   EXPECT_LT((momentum() - before).norm(), 0.01f * before.norm());
 }
 
-TEST(Seat, WhoLeavesIsDrawnOutThroughTheVehicleWhichFeelsIt) {
+TEST(Seat, ALeavingCharacterIsDrawnOutAndTheVehicleFeelsIt) {
   const auto world = WithCharacter();
   const PartId torso = Named(*world, "hero.torso");
   Take(world.get());

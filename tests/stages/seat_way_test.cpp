@@ -1,4 +1,4 @@
-/// Whoever comes in while somebody is on the way to a seat finds how far that one is.
+/// A latecomer finds the progress of a character on its way to a seat.
 
 #include "common/stages/seat_way.h"
 
@@ -13,7 +13,7 @@ namespace seat_way_test {
 
 using Eigen::Vector2d;
 
-/// Where who set out at `from` is by the law of the way, so many ticks after the seat was taken.
+/// Place on the way, `ticks` after the seat was taken, of a character that started at `from`.
 Transform2 PlaceAt(const Seat& seat, const Transform2& from, double ticks, int tick_hz) {
   const double share = ShareOfWay(ticks, tick_hz);
   const double turn = WrapAngle(static_cast<double>(seat.angle) - from.angle);
@@ -44,8 +44,8 @@ TEST(SeatWay, IsFoundFromPlaceAndSpeed) {
           const bool ends = ticks > wait + 0.9 * (all - wait);
           EXPECT_LE(std::abs(way.ticks - ticks), ends ? 1 + tick_hz / 30 : 1)
               << ticks << " at " << tick_hz << " Hz, " << substeps;
-          // By what it then goes on: where it is to be in the next ticks. Half a tick is 10 cm of
-          // the way at 30 Hz.
+          // By its further way: its places in the next ticks. Half a tick is 10 cm of the way at 30
+          // Hz.
           for (int next = 1; next <= 3; ++next) {
             const Vector2d off = PlaceAt(seat, way.from, way.ticks + next, tick_hz).shift -
                                  PlaceAt(seat, from, ticks + next, tick_hz).shift;
@@ -60,7 +60,7 @@ TEST(SeatWay, IsFoundFromPlaceAndSpeed) {
   }
 }
 
-TEST(SeatWay, WhoStandsFarFromTheSeatHasNotSetOutAndWhoIsThereStays) {
+TEST(SeatWay, ADistantCharacterHasNotStartedAndASeatedOneStays) {
   Seat seat;
   const Solver solver;
   SeatWay way{3, {{9, 9}, 1}};

@@ -1,4 +1,4 @@
-/// How things move in water, against the equations of motion.
+/// How bodies move in water, against the equations of motion.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(WaterMotion, BobbingWithoutDragKeepsItsHeight) {
   EXPECT_NEAR(highest, 0.1, 0.003);
 }
 
-TEST(WaterMotion, EnergyWithTheWatersIsKeptWhileThingsBobAndRock) {
+TEST(WaterMotion, EnergyWithTheWatersIsKeptWhileBodiesBobAndRock) {
   const auto world = SmallWorld(
       Floater("p",
               "polygon = [[-1, -0.4], [0.8, -0.6], [1.2, 0.2], [0, 0.8]]\ndensity = 0.6\n"
@@ -133,7 +133,7 @@ TEST(WaterMotion, ASpinningDiscIsSlowedByFrictionAlone) {
 }
 
 TEST(WaterMotion, ASpinningPlankIsSlowedByItsLeadingHalves) {
-  // Of each long side one half leads: the torque is 2 rho/2 C w^2 a^4/4 with a half the length. The
+  // One half of each long side leads: the torque is 2 rho/2 C w^2 a^4/4 with a half the length. The
   // short sides add a little (a thickness of 1/40 to the fourth).
   const auto world =
       SmallWorld(Floater("p", "box = [4, 0.1]\ndensity = 1\nposition = [0, -9]\nspin = 3") +

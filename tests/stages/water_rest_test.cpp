@@ -1,5 +1,4 @@
-/// How things lie in water when they have come to rest, against Archimedes and the known stability
-/// of floating bodies.
+/// How bodies rest in water, against Archimedes and the known stability of floating bodies.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ std::string Square(double density, double angle) {
   return "box = [1, 1]\ndensity = " + FloatDigits(density) + "\nangle = " + FloatDigits(angle);
 }
 
-/// How far a settled square leans from upright, 0..45 degrees.
+/// Lean of a settled square from upright, 0..45 degrees.
 double Lean(double density, double start_angle, double seconds = 40) {
   const double angle = double{Settled(Square(density, start_angle), seconds).angle};
   return std::fabs(std::remainder(angle, M_PI / 2)) / kDegree;
@@ -41,7 +40,7 @@ TEST(WaterRest, ABoxSinksByItsShareOfTheWatersDensity) {
   }
 }
 
-TEST(WaterRest, TheWatersDensityDividesTheThings) {
+TEST(WaterRest, DraughtIsTheRatioOfDensities) {
   const BodyState rest = Settled("box = [3, 1]\ndensity = 6", 120, "density = 10");
   EXPECT_NEAR(rest.position.y(), 0.5 - 0.6, 1e-4);
 }
@@ -70,7 +69,7 @@ TEST(WaterRest, ASquareOfMiddlingDensityFloatsOnItsCorner) {
   for (const double s : {0.3, 0.5, 0.7}) EXPECT_NEAR(Lean(s, 0.2), 45, 0.1) << s;
 }
 
-TEST(WaterRest, BetweenASquareLeansByTheKnownAngle) {
+TEST(WaterRest, ASquareOfADensityBetweenLeansByTheKnownAngle) {
   // tan^2 = 12 s (1 - s) - 2 up to s = 1/4, then tan = t2/t1 with t^2 - 3/2 t + 2 s = 0.
   const auto known = [](double s) {
     if (s <= 0.25) return std::atan(std::sqrt(12 * s * (1 - s) - 2)) / kDegree;
@@ -103,7 +102,7 @@ TEST(WaterRest, AHeavyCornerGoesDown) {
   }
 }
 
-TEST(WaterRest, WhatIsHeavierSinksToTheBottomAndLiesThere) {
+TEST(WaterRest, AHeavierBodySinksToTheBottomAndRestsThere) {
   const auto world =
       SmallWorld(Floater("bed", "box = [20, 1]\nposition = [0, -5.5]\nanchored = true") +
                  Floater("stone", "box = [1, 1]\nposition = [0, -0.5]\ndensity = 1.5") + Sea());
@@ -112,7 +111,7 @@ TEST(WaterRest, WhatIsHeavierSinksToTheBottomAndLiesThere) {
   EXPECT_NEAR(world->Read(0).velocity.norm(), 0, 1e-3);
 }
 
-TEST(WaterRest, ARaftSinksByWhatIsPutOnIt) {
+TEST(WaterRest, ARaftSinksByItsLoad) {
   // Floaters touch floaters: a crate of 0.5 kg on 4 kg that are 8 m^2 large.
   const auto world =
       SmallWorld(Floater("raft", "box = [8, 1]\ndensity = 0.5") +

@@ -1,4 +1,4 @@
-/// scenes/regatta.toml and scenes/harbour.toml do what their titles say, in one world.
+/// scenes/regatta.toml and scenes/harbour.toml match their titles in one world.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ TEST(Regatta, TheThinBoatOutrunsTheThickOneOfTheSameDisplacement) {
   EXPECT_NEAR(race.Read("thin").angle, 0, 0.05) << "on an even keel";
 }
 
-TEST(Regatta, PaddlesWithNothingToPushAgainstMoveNothing) {
+TEST(Regatta, PaddlesWithoutDragMoveNothing) {
   // No cheating force: without drag the wheels turn and the boats stay.
   const std::string text =
       With(LoadScene("scenes/regatta.toml").text, "viscosity = 0.05\ndrag_tangent = 0.02",
@@ -49,7 +49,7 @@ TEST(Regatta, PaddlesWithNothingToPushAgainstMoveNothing) {
   }
 }
 
-TEST(Harbour, TheBoatCrossesTheSeamAndPushesWhatFloats) {
+TEST(Harbour, TheBoatCrossesTheSeamAndPushesFloaters) {
   ScriptedWorld harbour("harbour");
   const float crate = harbour.Read("crate.0").position.x();
   harbour.StepTo(10 * 60);
@@ -58,7 +58,7 @@ TEST(Harbour, TheBoatCrossesTheSeamAndPushesWhatFloats) {
   EXPECT_GT(harbour.Read("crate.0").position.x(), crate + 5);
   EXPECT_LT(harbour.Read("wreck").position.y(), -4.5);
   harbour.StepTo(780);
-  // By their densities: the more, the deeper.
+  // Denser bodies float deeper.
   for (const char* cork : {"cork.0", "cork.1"}) EXPECT_GT(harbour.Read(cork).position.y(), 0.1);
   for (const char* awash : {"awash.0", "awash.1"}) {
     EXPECT_LT(harbour.Read(awash).position.y(), 0);

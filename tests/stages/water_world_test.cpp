@@ -21,7 +21,7 @@ const char* kDryPile =
     "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 21]\nspin = 2\n"
     "[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [0.3, 22.5]\n";
 
-TEST(WaterWorld, WhatIsNotInItDoesTheSameBitsAsWithoutWater) {
+TEST(WaterWorld, DryBodiesHaveTheSameBitsAsWithoutWater) {
   World dry(SceneOf(kDryPile)), wet(SceneOf(kDryPile + Sea()));
   for (int i = 0; i < 300; ++i) {
     dry.Step();
@@ -45,7 +45,7 @@ TEST(WaterWorld, FloatersFallAsleepInStillWater) {
   EXPECT_EQ(world.Read(0).position, then.position);
 }
 
-TEST(WaterWorld, WhatNothingHoldsDoesNotSleepInAFlowHoweverSlow) {
+TEST(WaterWorld, AFreeFloaterDoesNotSleepInASlowFlow) {
   // 4 mm/s is below the speed at which the engine lets things fall asleep.
   World world(SceneOf(Floater("p", "box = [2, 1]\ndensity = 0.5") + Sea("flow = [0.004, 0]")));
   Steps(&world, 60 * 60);
@@ -56,7 +56,7 @@ TEST(WaterWorld, WhatNothingHoldsDoesNotSleepInAFlowHoweverSlow) {
   EXPECT_TRUE(world.awake(0)) << "and wakes up there";
 }
 
-TEST(WaterWorld, WhatIsMooredAgainstAFlowMaySleep) {
+TEST(WaterWorld, AMooredFloaterMaySleepInAFlow) {
   World world(
       SceneOf(Floater("p", "circle = 0.5\ndensity = 0.5") +
               Floater("wall", "box = [1, 4]\nposition = [1.2, 0]\nanchored = true\nfriction = 1") +
@@ -66,7 +66,7 @@ TEST(WaterWorld, WhatIsMooredAgainstAFlowMaySleep) {
   EXPECT_NEAR(world.Read(0).position.x(), 0.2, 0.02);
 }
 
-TEST(WaterWorld, WhatBecomesDynamicFloatsAtOnce) {
+TEST(WaterWorld, ABodyThatBecomesDynamicFloatsAtOnce) {
   World world(
       SceneOf(Floater("p", "box = [2, 1]\ndensity = 0.5") + Sea("viscosity = 2"), "sleep = false"));
   Steps(&world, 60 * 20);
@@ -165,7 +165,7 @@ TEST(WaterWorld, TwoWeldedBoxesMoveAsTheBigBoxDoes) {
   EXPECT_GT(b.position.x(), 0.5) << "they did move";
 }
 
-TEST(WaterWorld, WhatBreaksApartFloatsOrSinksEachForItself) {
+TEST(WaterWorld, BrokenPiecesFloatOrSinkIndividually) {
   World world(SceneOf(Welded("box = [2, 1]\ndensity = 0.2",
                              "box = [2, 0.5]\ndensity = 1.2\n"
                              "position = [0, -0.75]") +
@@ -182,7 +182,7 @@ TEST(WaterWorld, WhatBreaksApartFloatsOrSinksEachForItself) {
   EXPECT_LT(world.Read(1).position.y(), -3);
 }
 
-TEST(WaterWorld, WatersSideBySideDoWhatOneDoes) {
+TEST(WaterWorld, AdjacentWatersActAsOne) {
   const std::string ship = Floater("p", "box = [3, 1]\ndensity = 0.4\nvelocity = [2, 0]\nspin = 1");
   World one(SceneOf(ship + Sea()));
   World two(SceneOf(ship + "[[water]]\nname = \"l\"\nbox = [200, 50]\nposition = [-100, -25]\n"

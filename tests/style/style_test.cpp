@@ -1,10 +1,14 @@
-/// How files are written: columns, lengths, names, promises, units of messages.
+/// Checks how files are written: columns, lengths, names, promises, units of messages.
 
 #include <glob.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +54,63 @@ TEST(Style, NoFileIsLongerThan350Lines) {
   EXPECT_TRUE(offenders.empty()) << offenders;
 }
 
+/// Returns the names of the constants that a source defines: kName in a declaration that begins its
+/// line with constexpr or const, before its value.
+std::set<std::string> ConstantsIn(const Source& source) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < source.lines.size(); ++i) {
+    std::string text = source.lines[i].substr(0, source.lines[i].find("//"));
+    text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
+    for (const char* word : {"static ", "inline "}) {
+      if (text.rfind(word, 0) == 0) text.erase(0, std::string(word).size());
+    }
+    if (text.rfind("constexpr ", 0) != 0 && text.rfind("const ", 0) != 0) continue;
+    for (std::size_t j = i + 1; text.find(';') == std::string::npos && j < source.lines.size();
+         ++j) {
+      text += ' ' + source.lines[j].substr(0, source.lines[j].find("//"));
+    }
+    int depth = 0;
+    for (std::size_t at = 0; at < text.size() && text[at] != ';'; ++at) {
+      if (text[at] == '(' || text[at] == '{') ++depth;
+      if (text[at] == ')' || text[at] == '}') --depth;
+      const bool begins = at > 0 && (text[at - 1] == ' ' || text[at - 1] == '*');
+      if (depth > 0 || !begins || text[at] != 'k') continue;
+      std::size_t end = at;
+      while (end < text.size() && (std::isalnum(text[end]) != 0 || text[end] == '_')) ++end;
+      std::size_t next = end;
+      if (next < text.size() && text[next] == '[') next = text.find(']', next) + 1;
+      next = text.find_first_not_of(' ', next);
+      const bool value = next != std::string::npos && (text[next] == '=' || text[next] == '{') &&
+                         text.compare(next, 2, "==") != 0;
+      if (value) names.insert(text.substr(at, end - at));
+      at = end - 1;
+    }
+  }
+  return names;
+}
+
+TEST(Style, EachConstantHasOneHome) {
+  Source source;
+  source.lines = {"constexpr int kOne = 1, kTwo = kOne == 1 ? 2 : 3;  // kNot = 1",
+                  "  static const char* const kNames[] = {kThree, \"a\"};",
+                  "constexpr Largest kFour{1, 2};",
+                  "const bool same = kFive == 5;",
+                  "constexpr double kSix =",
+                  "    1, kSeven = 2;"};
+  EXPECT_EQ(ConstantsIn(source),
+            (std::set<std::string>{"kFour", "kNames", "kOne", "kSeven", "kSix", "kTwo"}));
+  std::map<std::string, std::string> homes;
+  std::string offenders;
+  for (const Source& product : Sources(kProduct, {".h", ".cpp"})) {
+    for (const std::string& name : ConstantsIn(product)) {
+      const auto [home, first] = homes.emplace(name, product.path);
+      if (!first) offenders += name + ": " + home->second + ", " + product.path + "\n";
+    }
+  }
+  EXPECT_GT(homes.size(), 900u);
+  EXPECT_EQ(offenders, "") << "share one of the same meaning, rename one of another";
+}
+
 TEST(Style, HeadersBeginWithAPromise) {
   std::string offenders;
   for (const Source& source : Sources(kCode, {".h"})) {
@@ -69,7 +130,7 @@ TEST(Style, NamesOfFilesAreSnakeCase) {
   EXPECT_TRUE(offenders.empty()) << offenders;
 }
 
-/// Lines of a page that are too wide, without tables, code, and what a program writes there.
+/// Lines of a page that are too wide, without tables, code and generated text.
 std::string WideLines(const Source& page, std::size_t columns) {
   std::string wide;
   bool code = false, written = false;
@@ -139,7 +200,7 @@ std::vector<std::string> PathsIn(const std::string& line) {
   return paths;
 }
 
-/// Whether a path from `folder` or from the root is there; "*", and NAME, stand for any letters.
+/// True if a path from `folder` or from the root exists; "*", and NAME, stand for any letters.
 bool Exists(const std::string& path, const fs::path& folder) {
   std::string pattern = path.substr(0, path.find('#'));
   for (std::size_t at; (at = pattern.find("NAME")) != std::string::npos;) {
@@ -168,14 +229,14 @@ std::pair<std::string, int> MissingPaths(const Source& page, bool tables_only) {
   return missing;
 }
 
-TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
+TEST(Docs, EveryPathInTheReadmesTablesContributingAndArchitectureExists) {
   for (const Source& page : Pages()) {
     const bool readme = page.path == "README.md";
     const bool all = page.path == "docs/contributing.md" || page.path == "docs/architecture.md";
     if (!readme && !all) continue;
     const auto [missing, count] = MissingPaths(page, readme);
     EXPECT_EQ(missing, "");
-    EXPECT_GT(count, 20) << page.path;
+    EXPECT_GT(count, readme ? 10 : 20) << page.path;
   }
   Source page;
   page.path = "docs/a.md";
@@ -186,11 +247,11 @@ TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
   EXPECT_EQ(MissingPaths(page, false).second, 5);
 }
 
-TEST(Docs, AQuestionOfTheReadmeThatAsksWhereIsAnsweredByAtMostTwoFiles) {
+TEST(Docs, EachRowOfTheTableOfPlacesNamesAtMostTwoFiles) {
   std::string offenders;
   bool below = false;
   int rows = 0;
-  for (const std::string& line : Lines(Root() / "README.md")) {
+  for (const std::string& line : Lines(Root() / "docs/architecture.md")) {
     if (line.rfind("## ", 0) == 0) below = line.rfind("## Where is", 0) == 0;
     if (!below || line.rfind('|', 0) != 0) continue;
     ++rows;
@@ -238,7 +299,7 @@ bool Hardens(const std::string& header) {
   return accepted > 0;
 }
 
-TEST(LcmTypes, TheHardeningRefusesWhatItDoesNotUnderstand) {
+TEST(LcmTypes, TheHardeningRefusesUnknownCode) {
   const std::string decoder = "int a_t::_decodeNoHash(const void *buf, int offset, int maxlen)\n";
   const std::string check = "    if(__s_len__ > maxlen - pos) return -1;\n";
   const std::string assign =

@@ -13,7 +13,7 @@ constexpr const char* kInside = "SEAM_TEST_SUITE_IN_NAMESPACE";
 /// Longest that a suite may take, s; normal 20, under sanitizers on a busy machine 60.
 constexpr double kSuiteSecondsMax = 300;
 
-/// What a suite's run inside has written, or why there was none.
+/// Output of a suite's run inside, or the reason that there was none.
 struct SuiteRun {
   std::string text;
   std::string skip_reason;

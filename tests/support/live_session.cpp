@@ -70,7 +70,7 @@ Program& LiveSession::Join(const std::string& name, const std::vector<std::strin
 bool LiveSession::Finish(double seconds) {
   bool ended = server_ != nullptr && server_->Wait(seconds);
   for (auto& [name, program] : clients_) ended = program->Wait(5) && ended;
-  // The logger writes in its own time, and what it has not written when it is stopped is gone.
+  // The logger writes with a delay, and loses unwritten messages when it is stopped.
   ended = Probe("END") && ended;
   logger_->Signal(SIGINT);
   return logger_->Wait(10) && ended;

@@ -1,5 +1,5 @@
-/// A peer that steps nothing that another does steps it as a world that never goes back would; one
-/// that shares something builds its world anew as the others do.
+/// A peer whose bodies no other peer simulates steps them without barriers; one that shares a body
+/// rebuilds its world at the same ticks as the others.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ repeat = {count = [8, 4], step = [1.3, 0.8]}
 )";
 constexpr int kTicks = 150;
 
-/// Of a client that has all.
+/// Hash of a client that holds everything.
 std::uint64_t HashOf(bool followed) {
   Replica client(ParseScene(kTumble, "tumble.toml"), MakeSyncConfig("buffer", "rollback"), 1, 0);
   AuthorityRecord record;
@@ -63,12 +63,12 @@ std::uint64_t HashOfWorld(bool barriers) {
   return world.Hash();
 }
 
-TEST(Alone, WhatNobodyElseStepsIsSteppedWithoutBarriers) {
+TEST(Alone, AMechanismSimulatedByOnePeerStepsWithoutBarriers) {
   ASSERT_NE(HashOfWorld(false), HashOfWorld(true)) << "or this shows nothing";
   EXPECT_EQ(HashOf(false), HashOfWorld(false));
 }
 
-TEST(Alone, WhatAnotherFollowsHasABarrierAtEverySendTick) {
+TEST(Alone, AFollowedMechanismHasABarrierAtEverySendTick) {
   EXPECT_EQ(HashOf(true), HashOfWorld(true));
 }
 

@@ -58,7 +58,7 @@ class BodyMemoryTest : public ::testing::Test {
   BodyMemory memory_{config_, *world_};
 };
 
-TEST_F(BodyMemoryTest, ARemapKeepsAllOfABodyThatIsStillTheSame) {
+TEST_F(BodyMemoryTest, ARemapKeepsTheMemoryOfUnchangedBodies) {
   const int before = world_->BodyOfId(kLoose);
   Apply(BreakTheGlue());
   ASSERT_NE(world_->BodyOfId(kLoose), before) << "its number has changed";
@@ -75,7 +75,7 @@ TEST_F(BodyMemoryTest, ARemapKeepsAllOfABodyThatIsStillTheSame) {
   EXPECT_EQ(track.pull.memory.share, 0.5f);
 }
 
-TEST_F(BodyMemoryTest, BothHalvesOfABodyRememberItsBlowsButAreNotComparedWithItsPast) {
+TEST_F(BodyMemoryTest, BothHalvesRememberImpactsButAreNotComparedWithThePast) {
   Apply(BreakTheGlue());
   for (const PartId half : {kLeft, kRight}) {
     const BodyTrack& track = TrackOf(half);
@@ -94,7 +94,7 @@ TEST_F(BodyMemoryTest, BothHalvesOfABodyRememberItsBlowsButAreNotComparedWithIts
   }
 }
 
-TEST_F(BodyMemoryTest, WhatWasAnchoredBeginsWithoutAMemoryAndIsPlacedWhereItIs) {
+TEST_F(BodyMemoryTest, AFreedBodyBeginsWithoutAHistoryAtItsPlace) {
   Apply(Free(kFixed));
   const BodyTrack& track = TrackOf(kFixed);
   EXPECT_EQ(track.last_impact_tick, kLongAgo);

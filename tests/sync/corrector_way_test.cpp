@@ -1,4 +1,4 @@
-/// What a copy is corrected by does not take it through what is anchored.
+/// Corrections do not take a copy through anchored bodies.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ const char* const kGround =
     "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
     "[[part]]\nname = \"ball\"\ncircle = 0.3\nposition = [0, 9]\nvelocity = [2, -8]\n";
 
-TEST(CorrectorWay, AFreeWayEndsAtWhatIsAnchoredAndCollides) {
+TEST(CorrectorWay, AFreePathEndsAtAnAnchoredCollider) {
   const World world(ParseScene(R"(
 [[part]]
 name = "wall"
@@ -73,9 +73,9 @@ TEST(CorrectorWay, ACopyIsNeverCarriedThroughTheGround) {
   }
 }
 
-/// Where the copy has bounced off a wall's edge to the other side, it stays there: its own way led
-/// there, although the straight one from the authority's word does not.
-TEST(CorrectorWay, WhoCameRoundACornerStaysThere) {
+/// A copy that has bounced off a wall's edge to the other side stays there: its own path led there,
+/// although the straight one from the authority's state does not.
+TEST(CorrectorWay, ACopyThatBouncedRoundACornerStaysThere) {
   FollowedCopy pair(
       "gravity = [0, 0]\n[[part]]\nname = \"wall\"\nbox = [0.2, 4]\nposition = [0, -2.4]\n"
       "anchored = true\n[[part]]\nname = \"pin\"\ncircle = 0.5\nposition = [3, 3]\n"

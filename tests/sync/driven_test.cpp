@@ -1,4 +1,4 @@
-/// What a player drives: each way in which inputs move a mechanism, and no other.
+/// Which mechanisms a player drives: each way in which inputs move one, and no other.
 
 #include "common/sync/reach/driven.h"
 
@@ -136,19 +136,19 @@ class DrivenTest : public testing::Test {
 
 using Names = std::set<std::string>;
 
-TEST_F(DrivenTest, WhatIsAPlayersOwnAndWhatTheAxesTurnOrPush) {
+TEST_F(DrivenTest, APlayerDrivesItsOwnPartsAndThoseItsAxesMove) {
   EXPECT_EQ(Driven(0), (Names{"kart", "flag", "arm", "hand", "rocket", "mast", "hero"}))
       << "vehicle, owned part, motor with all of its mechanism, thrust, motor against the ground";
   EXPECT_EQ(Driven(1), (Names{"bike", "hero"})) << "thrust, and the character that runs for bob";
 }
 
-TEST_F(DrivenTest, ButtonsCountWhenTheyAreAskedFor) {
+TEST_F(DrivenTest, ButtonsCountOnRequest) {
   EXPECT_EQ(Driven(0).count("drum"), 0u);
   EXPECT_EQ(Driven(0, true).count("drum"), 1u);
   EXPECT_EQ(Driven(1, true).count("drum"), 0u);
 }
 
-TEST_F(DrivenTest, WhoSitsDrivesWhatTheSeatDrives) {
+TEST_F(DrivenTest, ASeatedPlayerDrivesTheSeatsMotors) {
   for (const int player : {0, 1}) EXPECT_EQ(Driven(player).count("lorry"), 0u) << "nobody sits";
   yard.world.Apply({Edit(SeatEdit{0, 1})});
   EXPECT_EQ(Driven(1).count("wheel"), 1u);
@@ -157,7 +157,7 @@ TEST_F(DrivenTest, WhoSitsDrivesWhatTheSeatDrives) {
   EXPECT_EQ(Driven(1).count("wheel"), 0u);
 }
 
-TEST_F(DrivenTest, AMotorThatIsGoneDrivesNothing) {
+TEST_F(DrivenTest, ARemovedMotorDrivesNothing) {
   ASSERT_EQ(Driven(0).count("hand"), 1u);
   const std::vector<Joint>& joints = yard.world.scene().joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {

@@ -1,4 +1,4 @@
-/// What a holder says falls freely, and what becomes of a copy that is only shown from now on.
+/// The "falls freely" flag of a holder, and a copy that is only displayed from now on.
 
 #include <gtest/gtest.h>
 
@@ -13,12 +13,12 @@ namespace falls_freely_test {
 
 const char* const kGround = "[[part]]\nname = \"ground\"\nchain = [[-90, 0], [90, 0]]\n";
 
-/// How often parts were told of, from the 20th tick to the 200th, and how often as falling.
+/// Numbers of a part's states from the 20th tick to the 200th: all, and those flagged as falling.
 struct Told {
   int states = 0, falling = 0;
 };
 
-/// By part's index. A peer alone with the scene.
+/// Counts by the part's index, for a single peer.
 std::map<int, Told> ToldOf(const std::string& scene) {
   Replica peer(ParseScene(scene, "s.toml"), MakeSyncConfig("buffer", "retrospect"), 1, -1);
   AuthorityRecord own;
@@ -40,7 +40,7 @@ std::map<int, Told> ToldOf(const std::string& scene) {
   return told;
 }
 
-TEST(FallsFreely, IsWhatIsThrownAndWhatBounces) {
+TEST(FallsFreely, AppliesToThrownAndBouncingBodies) {
   std::map<int, Told> told = ToldOf(
       "[[part]]\nname = \"ground\"\nchain = [[-90, 0], [90, 0]]\nfriction = 0.5\n"
       "[[part]]\nname = \"thrown\"\nbox = [1, 0.5]\nposition = [-30, 300]\nvelocity = [4, 9]\n"
@@ -49,12 +49,12 @@ TEST(FallsFreely, IsWhatIsThrownAndWhatBounces) {
       "restitution = 0.9\n");
   ASSERT_GE(told[1].states, 80);
   EXPECT_EQ(told[1].falling, told[1].states);
-  // It bounces three times: in each of them for a tick at most nobody can say.
+  // It bounces three times: at each bounce the flag may be missing for one tick.
   ASSERT_GE(told[2].states, 80);
   EXPECT_GE(told[2].falling, told[2].states - 4);
 }
 
-TEST(FallsFreely, IsNothingThatLiesSlidesRollsHangsOrSwims) {
+TEST(FallsFreely, ExcludesBodiesThatRestSlideRollHangOrSwim) {
   std::map<int, Told> told = ToldOf(
       std::string("[solver]\nsleep = false\n") + kGround +
       "[[part]]\nname = \"lies\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
@@ -81,9 +81,9 @@ TEST(FallsFreely, IsNothingThatLiesSlidesRollsHangsOrSwims) {
   }
 }
 
-/// A copy of a ball that flies is struck, `silent` ticks after its holder was heard last, by a blow
-/// that the holder's is not, and no longer followed: how far what is shown of it is from the
-/// holder's half a second later, m.
+/// A copy of a flying ball is struck, `silent` ticks after the last state of its holder, by an
+/// impact that the holder's lacks, and is no longer followed. Returns the distance of its displayed
+/// pose from the holder's half a second later, m.
 float ApartAfterABlow(int silent) {
   FollowedCopy pair(
       "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 60]\nvelocity = [4, 0]\n",
@@ -103,7 +103,7 @@ float ApartAfterABlow(int silent) {
   return (pair.Shown(0) - pair.truth.Read(0).position).norm();
 }
 
-TEST(FallsFreely, WhatNobodyElseSawStruckGoesOnFromWhatWasHeardOfItALittleAgo) {
+TEST(FallsFreely, ABodyStruckOnlyHereContinuesFromARecentState) {
   EXPECT_LT(ApartAfterABlow(2), 1);
   EXPECT_GT(ApartAfterABlow(40), 2) << "of what was long ago the copy knows better";
 }

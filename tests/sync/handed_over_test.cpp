@@ -1,4 +1,4 @@
-/// rollback: what changes hands is told of as no input that is still to come can change it.
+/// rollback: a state sent at a hand-over cannot be changed by a later input.
 
 #include <gtest/gtest.h>
 
@@ -82,8 +82,8 @@ std::vector<std::vector<BodyState>> Truth(const Scene& scene) {
   }
 }
 
-/// The server gives the crate away at a tick, when all inputs up to `known` have come; everybody
-/// ends up with what the inputs make of it.
+/// The server grants the crate at a tick, when all inputs up to `known` have arrived; every peer
+/// ends with the pose that the inputs cause.
 void GiveCrate(std::int64_t given, std::int64_t known,
                const std::vector<std::vector<BodyState>>& truth, WiredReplicas* room) {
   room->StepTo(given);
@@ -110,9 +110,9 @@ void GiveCrate(std::int64_t given, std::int64_t known,
   }
 }
 
-/// A state that rests on what was assumed would be put in by all others as it is, and never become
-/// what the inputs make of it.
-TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) {
+/// Others would apply a state that depends on assumed inputs unchanged, and never reach the pose
+/// that the inputs cause.
+TEST(HandedOver, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
   const Scene scene = Squeezed();
   const std::vector<std::vector<BodyState>> truth = Truth(scene);
   for (const std::int64_t given : {63, 94, 136}) {  // inputs have just changed
@@ -122,9 +122,9 @@ TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) 
   }
 }
 
-/// Of a player who is not heard nothing is assumed for up to kDriverSilentUs: what changes hands
-/// then is told of as it was when it was last heard.
-TEST(HandedOver, WhatAPlayerMayReachWhoIsNotHeardIsToldOfAsItWasWhenHeWas) {
+/// Nothing is assumed about a silent player for up to kDriverSilentUs: a mechanism handed over then
+/// is sent as of the player's last input.
+TEST(HandedOver, SendsTheStateFromTheLastInputOfASilentPlayer) {
   const Scene scene = Squeezed();
   constexpr std::int64_t kCut = 60, kGiven = 107, kHeard = 115;
   WiredReplicas room = Room(scene);
@@ -136,7 +136,7 @@ TEST(HandedOver, WhatAPlayerMayReachWhoIsNotHeardIsToldOfAsItWasWhenHeWas) {
 }
 
 /// Right after an edit nobody has looked yet how far inputs reach.
-TEST(HandedOver, WhatAnEditHasJustMadeIsToldOfSinceItIsThere) {
+TEST(HandedOver, SendsANewPartNoEarlierThanItsEdit) {
   WiredReplicas room = Room(Squeezed());
   room.StepTo(120);
   InsertEdit insert;
@@ -159,7 +159,7 @@ TEST(HandedOver, WhatAnEditHasJustMadeIsToldOfSinceItIsThere) {
 /// While a client loads the room it may be given something and asked for it again: all of that can
 /// come in one datagram, before its first step. And the server plans in its first ticks, of which
 /// it looks at every second.
-TEST(HandedOver, WhatIsTakenBackBeforeTheFirstStepIsToldOfAsItIs) {
+TEST(HandedOver, SendsTheCurrentStateIfRevokedBeforeTheFirstStep) {
   Replica ann(Squeezed(), MakeSyncConfig("buffer", "rollback"), 1, 0);
   const int hers = ann.world().mechanism(0);
   const auto grant = [&](int peer, int epoch) {
@@ -180,7 +180,7 @@ TEST(HandedOver, WhatIsTakenBackBeforeTheFirstStepIsToldOfAsItIs) {
   EXPECT_EQ(told[0].y[0], 0.5f);
 }
 
-TEST(HandedOver, WhatTheServerGivesAwayInItsFirstTickIsToldOfAsItIs) {
+TEST(HandedOver, SendsTheCurrentStateInTheServersFirstTick) {
   Replica server(Squeezed(), MakeSyncConfig("buffer", "rollback"), 0, -1);
   server.Step();
   const std::vector<ExactStates> told = server.MakeExact({server.world().mechanism(0)}, 1);

@@ -1,4 +1,5 @@
-/// What rests where nothing can touch it is not there, and is there as soon as something can.
+/// Bodies at rest out of reach are absent from the world, and present as soon as something may
+/// reach them.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ density = 4
 }
 constexpr int kFirst = 0, kLast = 2, kDisc = 3;
 
-/// The server, that has all of it and plans as if whoever may touch a crate were given it.
+/// The server holds everything and plans as if a player that may touch a crate were granted it.
 class Room {
  public:
   explicit Room(const std::string& disc)
@@ -64,7 +65,7 @@ class Room {
 
 constexpr int kToRest = 90;  // ticks
 
-TEST(Idle, WhatRestsIsNotThereWhileADiscGoesByFiveMetresAway) {
+TEST(Idle, ARestingCrateIsAbsentWhileADiscPassesAtFiveMetres) {
   Room room("position = [-5, -4]\nvelocity = [0, 2]\n");
   room.Steps(kToRest);
   for (const int crate : {kFirst, 1, kLast}) EXPECT_FALSE(room.There(crate)) << crate;
@@ -74,7 +75,7 @@ TEST(Idle, WhatRestsIsNotThereWhileADiscGoesByFiveMetresAway) {
 }
 
 /// It does as it does where all are there all the time, to the bit.
-TEST(Idle, WhatIsFastFindsItThere) {
+TEST(Idle, AFastDiscFindsItPresent) {
   for (const float speed : {1.0f, 3.0f, 10.0f, 40.0f, 80.0f}) {
     const float away = std::max(8.0f, 2.5f * speed);
     const std::string disc = "position = [" + std::to_string(-away) + ", 0]\nvelocity = [" +
@@ -95,7 +96,7 @@ TEST(Idle, WhatIsFastFindsItThere) {
   }
 }
 
-TEST(Idle, WhoIsDoubtfulFindsItThereThoughItIsOnlyDisplayed) {
+TEST(Idle, AnUnreliablePeersDiscFindsItPresent) {
   Room room("position = [-1.2, 0]\n");
   room.Give(kDisc, 1);
   room.replica.RolesChanged();
@@ -110,7 +111,7 @@ TEST(Idle, WhoIsDoubtfulFindsItThereThoughItIsOnlyDisplayed) {
   EXPECT_TRUE(room.There(kDisc));
 }
 
-TEST(Idle, RestsOnWhenItIsThereAgain) {
+TEST(Idle, StaysAtRestWhenItReturns) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
@@ -123,7 +124,7 @@ TEST(Idle, RestsOnWhenItIsThereAgain) {
   for (int body = 0; body <= kDisc; ++body) EXPECT_TRUE(room.replica.rest().Holds(body)) << body;
 }
 
-TEST(Idle, IsThereWhenAnEditActs) {
+TEST(Idle, IsPresentWhenAnEditActs) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
@@ -153,9 +154,9 @@ position = [0, 0.36]
 repeat = {count = 10, step = [0, 0.71]}
 )";
 
-/// Pushed by an edit, it does as it does where it has been there all the time, to the bit: its
-/// contacts begin with what they pressed with.
-TEST(Idle, ATowerThatIsThereAgainStandsAsItStood) {
+/// Pushed by an edit, it moves to the bit as a tower that was present all the time: its contacts
+/// begin with their old impulses.
+TEST(Idle, ATowerThatReturnsStandsAsBefore) {
   const auto push = [](Replica* replica) {
     PushEdit edit;
     edit.part = replica->world().id(9);
@@ -169,7 +170,7 @@ TEST(Idle, ATowerThatIsThereAgainStandsAsItStood) {
   const Scene scene = ParseScene(kTower, "tower.toml");
   Replica idle(scene, config, 0, -1), there(scene, config, 0, -1);
   for (Replica* replica : {&idle, &there}) {
-    // Somebody follows all of it: what is to come to the same bits is built anew at the same ticks.
+    // A client follows all of it: bodies that must agree to the bit are rebuilt at the same ticks.
     AuthorityRecord followed;
     followed.secondaries.Add(1);
     for (int m = 0; m < replica->authority().count(); ++m) replica->authority().Set(m, followed);
@@ -194,7 +195,7 @@ TEST(Idle, ATowerThatIsThereAgainStandsAsItStood) {
   EXPECT_TRUE(woken);
 }
 
-TEST(Idle, GoesOverToAClientAndComesBack) {
+TEST(Idle, IsHandedToAClientAndBack) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));

@@ -1,4 +1,4 @@
-/// What a replay finds out about impacts is told like what the first step found, and once.
+/// Impacts found by a replay are reported like those of the first step, and once.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ std::vector<ImpactReport> Reports(std::int64_t late) {
   return all;
 }
 
-TEST(ImpactsAgain, ABlowThatOnlyAReplayFindsIsToldOfAtItsTick) {
+TEST(ImpactsAgain, AnImpactFoundOnlyByAReplayIsReportedAtItsTick) {
   const std::vector<ImpactReport> at_once = Reports(0), late = Reports(9);
   ASSERT_EQ(at_once.size(), 1u);
   ASSERT_EQ(late.size(), 1u) << "found in a replay only: the blow was over when it was heard of";

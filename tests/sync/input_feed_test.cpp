@@ -7,9 +7,9 @@
 namespace seam {
 namespace input_feed_test {
 
-/// A player's inputs, and what is sent of them to a peer in each tick.
+/// A player's inputs, and the messages with them to a peer in each tick.
 struct InputFeedTest : ::testing::Test {
-  /// The next tick's input; what is sent then.
+  /// Records the next tick's input; returns the message sent then.
   std::optional<Inputs> Step(const Input& input, bool rides = false) {
     track.Note(++tick, input);
     const int count = feed.Take(track, acked, tick, rides);
@@ -31,7 +31,7 @@ TEST_F(InputFeedTest, SendsAChangeInEveryTickUntilItIsAcknowledged) {
   EXPECT_TRUE(Step(Drive(8))) << "the next change";
 }
 
-TEST_F(InputFeedTest, SendsWhatIsHeldAlongWithOtherMessages) {
+TEST_F(InputFeedTest, SendsHeldInputsAlongWithOtherMessages) {
   acked = 0;
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(Step({}, false));
   const std::optional<Inputs> inputs = Step({}, true);
@@ -50,7 +50,7 @@ TEST_F(InputFeedTest, SendsNoMoreThanIsUnacknowledgedButAFewTicks) {
   EXPECT_EQ(Step(Drive(3))->drive.size(), static_cast<std::size_t>(kInputsAtLeast));
 }
 
-TEST_F(InputFeedTest, AButtonIsNewsWhereItGoesDownAndUp) {
+TEST_F(InputFeedTest, AButtonIsAChangeWhenPressedAndReleased) {
   EXPECT_TRUE(Step({0, 0, 1}));
   acked = tick;
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(Step({0, 0, 1})) << "held, as everyone guesses";

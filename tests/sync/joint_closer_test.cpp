@@ -1,4 +1,4 @@
-/// Poses whose joints are closed, and what is left of them.
+/// Poses with closed joints, and their remaining error.
 
 #include "common/sync/show/joint_closer.h"
 
@@ -77,7 +77,7 @@ TEST(JointCloser, ClosesEveryKindOfJoint) {
   }
 }
 
-TEST(JointCloser, ClosesATableOfTwoSlidesWhoseCrossIsLight) {
+TEST(JointCloser, ClosesTwoSlidesWithALightCross) {
   // The second slide takes hold two metres from the centre of the cross, which is turned by it.
   const auto world = SmallWorld(
       "[[part]]\nname = \"post\"\nbox = [0.2, 0.2]\nposition = [0, 0]\nanchored = true\n"
@@ -120,7 +120,7 @@ TEST(JointCloser, AWeldKeepsItsAngleAndAHingeItsLimits) {
   EXPECT_GT(poses[1].angle - poses[0].angle, 0);
 }
 
-TEST(JointCloser, WholeTurnsComeOffWhereAHingeHasLimits) {
+TEST(JointCloser, RemovesWholeTurnsFromALimitedHinge) {
   std::string scene = Box("a", 0);
   for (int i = 0; i < 3; ++i) {
     const std::string before(1, static_cast<char>('a' + i)), next(1, static_cast<char>('b' + i));
@@ -144,7 +144,7 @@ TEST(JointCloser, WholeTurnsComeOffWhereAHingeHasLimits) {
   EXPECT_EQ(poses[3].angle, 40) << "it may turn freely";
 }
 
-TEST(JointCloser, TheCentreOfMassStaysAndTheLightGivesWay) {
+TEST(JointCloser, KeepsTheCentreOfMassAndMovesTheLightBody) {
   const auto world = SmallWorld(Box("a", 0) + Box("b", 1, "density = 5") +
                                 Between("a", "b", 0.5, "kind = \"revolute\""));
   std::vector<BodyState> poses = Torn(*world, 0);
@@ -161,7 +161,7 @@ TEST(JointCloser, TheCentreOfMassStaysAndTheLightGivesWay) {
             3 * (poses[1].position - torn[1].position).norm());
 }
 
-TEST(JointCloser, WhatIsClosedStaysBitForBit) {
+TEST(JointCloser, LeavesClosedJointsBitForBit) {
   for (const std::string& text : AllKinds()) {
     const auto world = SmallWorld(text);
     std::vector<BodyState> poses = Torn(*world, 0);
@@ -176,7 +176,7 @@ TEST(JointCloser, WhatIsClosedStaysBitForBit) {
 
 /// A hinge that stands open by 5 cm in the world stays so where it is simulated, and is closed
 /// where it is only displayed.
-TEST(JointCloser, LeavesOpenWhatTheEngineLeavesOpen) {
+TEST(JointCloser, LeavesOpenAJointThatTheEngineLeavesOpen) {
   const auto world =
       SmallWorld(Box("a", 0) + Box("b", 1) + Between("a", "b", 0.5, "kind = \"revolute\""));
   BodyState b = world->Read(1);

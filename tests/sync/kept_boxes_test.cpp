@@ -20,7 +20,7 @@ MovingBox BoxAt(Random* random, float wide, float side) {
   return box;
 }
 
-TEST(KeptBoxes, EachThatOverlapsIsFoundOnceAndNoOther) {
+TEST(KeptBoxes, FindsEachOverlappingBoxOnceAndNoOther) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Random random(seed);
     constexpr int kNumbers = 300;

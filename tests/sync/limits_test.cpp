@@ -1,4 +1,4 @@
-/// The sizes that limits.h reckons with are those of the encoder.
+/// The message sizes in limits.h equal those of the encoder.
 
 #include "common/sync/limits.h"
 
@@ -18,7 +18,7 @@ void ExpectBytes(const MessageBytes& bytes, std::size_t count) {
   EXPECT_EQ(Encode(message).size(), Largest(bytes, count)) << count << " elements";
 }
 
-TEST(Limits, MessagesAreAsLargeAsIsReckoned) {
+TEST(Limits, MessagesHaveTheComputedSize) {
   for (const std::size_t count : {1, 7}) {
     ExpectBytes<States>(kStatesBytes, count);
     ExpectBytes<Rest>(kRestBytes, count);
@@ -41,7 +41,7 @@ TEST(Limits, MessagesAreAsLargeAsIsReckoned) {
   EXPECT_EQ(Encode(room).size(), Largest(kRoomBytes, 11));
 }
 
-TEST(Limits, GrantsAndReleasesAreAsLargeAsIsReckoned) {
+TEST(Limits, GrantsAndReleasesHaveTheComputedSize) {
   Grants grants;
   grants.mechanism = {1, 2};
   grants.authority = {0, 1};

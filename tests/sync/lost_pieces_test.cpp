@@ -1,4 +1,4 @@
-/// What is blown up over a bad network stays in the world, at whoever has it.
+/// Blasted pieces stay in the world over a bad network, at every holder.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -50,8 +50,8 @@ int Lost(std::uint64_t seed, const char* rule) {
   return lost;
 }
 
-/// Corrections carried on by their velocity took pieces through the ground, where they fell for
-/// ever once who had them there got the authority: 5 of 60 seeds, these among them.
+/// Corrections extrapolated by their velocity took pieces through the ground, where they fell for
+/// ever once that peer got the authority: 5 of 60 seeds, these among them.
 TEST(LostPiecesCluster, NoCorrectionTakesAPieceThroughTheGround) {
   for (const std::uint64_t seed : {39u, 42u, 45u, 46u}) {
     EXPECT_EQ(Lost(seed, "retrospect"), 0) << "seed " << seed;

@@ -9,7 +9,7 @@ namespace method_test {
 
 SyncConfig Config(const std::string& method) { return MakeSyncConfig(SplitMethod(method)); }
 
-TEST(Method, StandsInOneWordOrTwo) {
+TEST(Method, IsWrittenInOneWordOrTwo) {
   EXPECT_EQ(Config("strict").policy, &StrictPolicy());
   EXPECT_EQ(Config("buffer/fade").reconcile_name, "fade");
   EXPECT_EQ(Config("central/own").policy, &CentralPolicy(false));
@@ -17,7 +17,7 @@ TEST(Method, StandsInOneWordOrTwo) {
   EXPECT_EQ(Config("central").policy, &CentralPolicy(true)) << "the default";
 }
 
-TEST(Method, HasItsNamesBackFromWhatItConfigured) {
+TEST(Method, RecoversItsNamesFromItsConfiguration) {
   for (const char* method : {"central/own", "central/all", "buffer/fade", "strict", "oracle"}) {
     const MethodNames names = NamesOf(Config(method));
     const std::string variant = VariantOf(names);
@@ -27,7 +27,7 @@ TEST(Method, HasItsNamesBackFromWhatItConfigured) {
   EXPECT_EQ(NamesOf(Config("buffer/fade")).predict, "") << "it belongs to central alone";
 }
 
-TEST(Method, ARoomsVariantIsItsRuleOrWhatItPredicts) {
+TEST(Method, ARoomsVariantIsItsRuleOrItsPrediction) {
   Room room;
   room.mode = "central";
   room.predict = "own";
@@ -38,7 +38,7 @@ TEST(Method, ARoomsVariantIsItsRuleOrWhatItPredicts) {
   EXPECT_EQ(VariantOf(room), "fade");
 }
 
-TEST(Method, RefusesWhatIsUnknownOrOfAnotherMode) {
+TEST(Method, RefusesUnknownNamesAndThoseOfAnotherMode) {
   const auto complaint = [](const MethodNames& names) -> std::string {
     try {
       MakeSyncConfig(names);

@@ -1,4 +1,4 @@
-/// Mode central: what a client simulates ahead of the server.
+/// Mode central: the bodies that a client simulates ahead of the server.
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ WiredReplicas Central(const std::string& predict, std::int16_t buttons) {
                        });
 }
 
-TEST(Predict, OwnIsWhatThePlayerDrivesAndAllIsEverything) {
+TEST(Predict, OwnPredictsTheDrivenBodiesAndAllPredictsEverything) {
   WiredReplicas own = Central("own", 0), all = Central("all", 0);
   for (const char* part : {"hers", "his", "crate"}) {
     const bool is_own = std::string(part) == "hers";
@@ -65,7 +65,7 @@ TEST(Predict, OwnIsWhatThePlayerDrivesAndAllIsEverything) {
   }
 }
 
-TEST(Predict, OwnButtonsActAtOnceOnWhatIsPredicted) {
+TEST(Predict, OwnButtonsActAtOnceOnPredictedBodies) {
   for (const char* const predict : {"own", "all"}) {
     WiredReplicas room = Central(predict, 1);
     room.StepTo(kPress);
@@ -77,7 +77,7 @@ TEST(Predict, OwnButtonsActAtOnceOnWhatIsPredicted) {
   }
 }
 
-TEST(Predict, OwnButtonsOnTheRestAreSeenAtOnceOnlyWhereAllIsPredicted) {
+TEST(Predict, OwnButtonsActAtOnceOnOtherBodiesOnlyIfAllArePredicted) {
   WiredReplicas all = Central("all", 2), own = Central("own", 2);
   all.StepTo(kPress);
   own.StepTo(kPress);
@@ -91,11 +91,11 @@ TEST(Predict, OwnButtonsOnTheRestAreSeenAtOnceOnlyWhereAllIsPredicted) {
   }
 }
 
-TEST(Predict, AllStepsOthersWithTheirInputsAsFarAsTheyAreKnown) {
+TEST(Predict, AllStepsOthersWithTheirKnownInputs) {
   WiredReplicas all = Central("all", 0);
   all.StepTo(kPress + 3 * kLate);
-  // The server acts on what it has heard, kLate ticks late; both clients go on from its state by
-  // what they know: so all three have bob's thrust of 6 m/s^2 for as many ticks.
+  // The server acts on received inputs, kLate ticks late; both clients extrapolate its state by
+  // their known inputs: so all three have bob's thrust of 6 m/s^2 for as many ticks.
   const float speed = 1 + 6.0f * (2 * kLate + 1) / 60;
   for (const int peer : {0, 1, 2}) {
     EXPECT_NEAR(all.Read(peer, "his").velocity.x(), speed, 0.02f) << "peer " << peer;

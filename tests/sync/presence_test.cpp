@@ -1,4 +1,4 @@
-/// Whom a peer's world has to have, and whose inputs concern it.
+/// Which bodies a peer's world must hold, and which players' inputs it needs.
 
 #include "common/sync/reach/presence.h"
 
@@ -83,7 +83,7 @@ class Line {
   Replica replica;
 };
 
-TEST(Presence, WhatIsBesideIsThereAndWhatIsFarIsNot) {
+TEST(Presence, ANeighbourIsPresentAndADistantBodyIsNot) {
   Line line;
   line.Steps(10);
   EXPECT_EQ(line.MotionOf(kOwn), Motion::kDynamic);
@@ -91,7 +91,7 @@ TEST(Presence, WhatIsBesideIsThereAndWhatIsFarIsNot) {
   EXPECT_EQ(line.MotionOf(kFar), Motion::kAbsent);
 }
 
-TEST(Presence, WhatSleepsUnwatchedNeedsNobodyNearIt) {
+TEST(Presence, AnUnwatchedSleeperNeedsNoNeighbours) {
   Line line;
   line.replica.LeaveUnwatched({1, 0, 0}, {});
   line.Steps(60);
@@ -101,7 +101,7 @@ TEST(Presence, WhatSleepsUnwatchedNeedsNobodyNearIt) {
   EXPECT_EQ(line.MotionOf(kBeside), Motion::kPrescribed);
 }
 
-TEST(Presence, WhatComesIsThereBeforeItArrives) {
+TEST(Presence, AnApproachingBodyIsPresentBeforeItArrives) {
   Line line;
   line.Steps(10);
   const float speed = 100;
@@ -117,9 +117,9 @@ TEST(Presence, WhatComesIsThereBeforeItArrives) {
   EXPECT_LT(gap, 45) << "and not all the time";
 }
 
-/// It was taken for heard of where it was reckoned when it came near, and what was heard of an
-/// earlier tick was no news any more.
-TEST(Presence, WhatComesNearGoesWhereItIsHeardToHaveTurnedMeanwhile) {
+/// Its reckoned pose on arrival counted as received, and a state of an earlier tick was ignored as
+/// old.
+TEST(Presence, AnArrivingBodyFollowsAStateFromBeforeItsArrival) {
   Line line;
   line.Steps(10);
   line.Hear(kFar, {20, 0}, {-20, 0});
@@ -132,7 +132,7 @@ TEST(Presence, WhatComesNearGoesWhereItIsHeardToHaveTurnedMeanwhile) {
   EXPECT_NEAR(line.replica.world().Read(kFar).position.x(), 19.7, 0.01) << "it has stopped";
 }
 
-TEST(Presence, WhatIsAbsentIsShownOnItsPath) {
+TEST(Presence, AnAbsentBodyIsShownOnItsPath) {
   Line line;
   line.Steps(10);
   line.Hear(kFar, {60, 0}, {0, 3});
@@ -143,7 +143,7 @@ TEST(Presence, WhatIsAbsentIsShownOnItsPath) {
   EXPECT_NEAR(view.y[kFar], 3 * 40 / 60.0, 0.06) << "less what still glides";
 }
 
-TEST(Presence, WhoIsToSimulateItHasItAtOnce) {
+TEST(Presence, ATakenBodyIsPresentAtOnce) {
   Line line;
   line.Steps(10);
   ASSERT_EQ(line.MotionOf(kFar), Motion::kAbsent);
@@ -155,7 +155,7 @@ TEST(Presence, WhoIsToSimulateItHasItAtOnce) {
 
 /// A wheel that was told of in a crash had travelled 15 m along its spring meanwhile, and the
 /// engine pulled it back with a crash.
-TEST(Presence, WhatBeginsToBeSimulatedHasNotTravelledAlongItsSprings) {
+TEST(Presence, ASimulatedWheelHasNotTravelledAlongItsSpring) {
   Line line(R"(
 gravity = [0, 0]
 [[player]]
@@ -198,7 +198,7 @@ frequency = 5
   }
 }
 
-TEST(Drivers, ConcernThosePeersThatSimulateWhatTheyDrive) {
+TEST(Drivers, ConcernPeersThatSimulateTheirBodies) {
   Line line;
   EXPECT_TRUE(line.replica.drivers().Concerns(0)) << "its own player";
   EXPECT_FALSE(line.replica.drivers().Concerns(1));
@@ -209,7 +209,7 @@ TEST(Drivers, ConcernThosePeersThatSimulateWhatTheyDrive) {
   EXPECT_TRUE(line.replica.drivers().Concerns(1)) << "it follows his box";
 }
 
-/// What InputTrack promises, written down with a map.
+/// InputTrack's contract, implemented with a map.
 struct PlainTrack {
   std::map<std::int64_t, Input> known;
   void Note(std::int64_t tick, const Input& input) {
@@ -231,7 +231,7 @@ struct PlainTrack {
   }
 };
 
-TEST(InputTrack, KnowsWhatItWasToldAndForgetsWhatIsOld) {
+TEST(InputTrack, KeepsNewInputsAndForgetsOldOnes) {
   Random random(7);
   for (int round = 0; round < 20; ++round) {
     InputTrack track;

@@ -31,7 +31,7 @@ TEST(ProposalQueue, EditsOfOtherJointsOrPartsDoNotWait) {
   EXPECT_FALSE(queue.Add(BondOf(1, 5, 0.5f), 102)) << "the same parts, elsewhere";
 }
 
-TEST(ProposalQueue, GivesEachProposalOnceInItsOrder) {
+TEST(ProposalQueue, ReturnsEachProposalOnceInOrder) {
   ProposalQueue queue(60);
   queue.Add(BreakOf(7), 100);
   queue.Add(BreakOf(2), 100);

@@ -1,4 +1,4 @@
-/// Which ticks are input-complete: how far can what is not known yet have got?
+/// Which ticks are input-complete: how far may the effect of unknown inputs reach?
 
 #include "common/sync/reach/reach.h"
 
@@ -36,7 +36,7 @@ class Lot {
   void Heard(int player, std::int64_t ago, const Input& input = {64, 0, 0}) {
     inputs[static_cast<std::size_t>(player)].Note(lot.world.tick() - ago, input);
   }
-  /// How many ticks ago the newest input-complete tick of a part is.
+  /// Age of a part's newest input-complete tick, in ticks.
   std::int64_t Missing(const std::string& part) {
     reach.Look();
     return lot.world.tick() - reach.CompleteTick(lot.world.mechanism(lot.Body(part)));
@@ -57,7 +57,7 @@ TEST(Reach, TheOwnPlayerNeverLimits) {
   for (const char* part : {"hers", "his", "crate"}) EXPECT_EQ(near.Missing(part), 0) << part;
 }
 
-TEST(Reach, WhatANearPlayerDidIsMissedAndWhatAFarOneDidIsNot) {
+TEST(Reach, ANearPlayersInputsAreMissingAndADistantOnesAreNot) {
   Lot near(0.1f);
   near.Heard(1, 20);
   EXPECT_EQ(near.Missing("hers"), 20);
@@ -69,7 +69,7 @@ TEST(Reach, WhatANearPlayerDidIsMissedAndWhatAFarOneDidIsNot) {
   EXPECT_EQ(far.Missing("his"), 20) << "his own is moved by it wherever it is";
 }
 
-TEST(Reach, HowFarItReachesGrowsWithWhatIsMissing) {
+TEST(Reach, GrowsWithTheNumberOfMissingInputs) {
   Lot lot(3);  // both can accelerate: 10 m/s^2 t^2
   lot.Heard(1, 6);
   EXPECT_EQ(lot.Missing("hers"), 0);
@@ -78,7 +78,7 @@ TEST(Reach, HowFarItReachesGrowsWithWhatIsMissing) {
   EXPECT_EQ(later.Missing("hers"), 40);
 }
 
-TEST(Reach, OfSeveralNearPlayersTheOneHeardLeastOfLimits) {
+TEST(Reach, TheLeastHeardOfSeveralNearPlayersLimits) {
   Lot server(0.1f, -1);  // plays nobody
   server.Heard(0, 5);
   server.Heard(1, 12);
@@ -87,7 +87,7 @@ TEST(Reach, OfSeveralNearPlayersTheOneHeardLeastOfLimits) {
   EXPECT_EQ(server.Missing("hers"), 5);
 }
 
-TEST(Reach, NobodyWaitsForWhoWasNeverHeardOrNotForThreeSeconds) {
+TEST(Reach, NobodyWaitsForAPlayerNeverHeardOrSilentForThreeSeconds) {
   Lot never(0.1f);
   EXPECT_EQ(never.Missing("hers"), 0);
   Lot gone(0.1f);
@@ -98,7 +98,7 @@ TEST(Reach, NobodyWaitsForWhoWasNeverHeardOrNotForThreeSeconds) {
   EXPECT_EQ(gone.Missing("hers"), 0);
 }
 
-TEST(Reach, InTheFirstThreeQuartersOfASecondTheFirstWordIsOnItsWay) {
+TEST(Reach, InTheFirstThreeQuartersOfASecondTheFirstInputIsInFlight) {
   Lot lot(0.1f, 0, 44);
   EXPECT_EQ(lot.Missing("hers"), 44) << "bob may have driven from the first tick on";
   EXPECT_EQ(lot.Missing("crate"), 0) << "out of reach of both";
@@ -108,7 +108,7 @@ TEST(Reach, InTheFirstThreeQuartersOfASecondTheFirstWordIsOnItsWay) {
   EXPECT_EQ(later.Missing("hers"), 0) << "who was not heard of by now is not there";
 }
 
-TEST(Reach, WhoHadLetGoIsWaitedForAtMostASecondAndAQuarter) {
+TEST(Reach, AnIdlePlayerIsWaitedForAtMostASecondAndAQuarter) {
   Lot idle(0.1f);
   idle.Heard(1, 0, Input{});
   for (int t = 0; t < 75; ++t) idle.lot.Step();
@@ -117,7 +117,7 @@ TEST(Reach, WhoHadLetGoIsWaitedForAtMostASecondAndAQuarter) {
   EXPECT_EQ(idle.Missing("hers"), 0);
 }
 
-TEST(Reach, InputsOfTicksStillToComeAreNotMissing) {
+TEST(Reach, InputsOfFutureTicksAreNotMissing) {
   Lot lot(0.1f);
   lot.Heard(1, -3);  // with an input delay they come before their tick
   EXPECT_EQ(lot.Missing("his"), 0);

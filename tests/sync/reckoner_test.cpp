@@ -1,4 +1,4 @@
-/// Mechanisms that are reckoned on and whose visual offsets return, as one.
+/// Mechanisms are dead-reckoned, and their visual offsets return, as rigid wholes.
 
 #include "common/sync/show/reckoner.h"
 
@@ -73,7 +73,7 @@ std::vector<BodyState> Turning(const World& world, float spin, const Vec2& veloc
   return states;
 }
 
-TEST(Reckoner, AMechanismGoesOnAsOneAndItsWheelGoesOnTurning) {
+TEST(Reckoner, AMechanismMovesRigidlyAndItsWheelKeepsTurning) {
   World world(ParseScene(kRods, "test.toml"));
   ASSERT_EQ(world.body_count(), 3);
   Snapshots snapshots(3);
@@ -105,8 +105,8 @@ TEST(Reckoner, AMechanismGoesOnAsOneAndItsWheelGoesOnTurning) {
   EXPECT_GT(meter.Worst(apart), 0.3);
 }
 
-/// Of two parts whose joint is a spring of 5 Hz: where "b" is in a's frame, and how it is turned,
-/// when both are reckoned on by `ticks` after b was told of with this motion and a with none.
+/// Two parts with a spring of 5 Hz between them: pose of "b" in a's frame, when both are
+/// dead-reckoned by `ticks` after states of b with this motion and of a with none.
 BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodyState& moves) {
   World world(ParseScene(
       "gravity = [0, 0]\n[[part]]\nname = \"a\"\nbox = [3, 1]\nposition = [0, 2]\n"
@@ -130,7 +130,7 @@ BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodySta
   return out;
 }
 
-TEST(Reckoner, WhatASpringHoldsSwingsAndTravelsNoFurther) {
+TEST(Reckoner, ASpringedBodySwingsAndTravelsNoFurther) {
   const float swing = 2 * kPiFloat * 5;
   for (const std::int64_t ticks : {1, 30, 119}) {
     BodyState moves;
@@ -155,7 +155,7 @@ TEST(Reckoner, WhatASpringHoldsSwingsAndTravelsNoFurther) {
   EXPECT_NEAR(slides.position.y(), -1.1, 0.02) << "within that it moves as it did";
 }
 
-TEST(Reckoner, StatesOfDifferentTicksDoNotTearIt) {
+TEST(Reckoner, StatesOfDifferentTicksDoNotOpenItsJoints) {
   World world(ParseScene(kRods, "test.toml"));
   Snapshots snapshots(3);
   const std::vector<BodyState> states = Turning(world, 1, Vec2(0, 0));
@@ -209,9 +209,10 @@ anchor_b = [1, 0]
 sleep = false
 )";
 
-/// What is heard of a mechanism may be torn by a metre, where its holder is. Closing it finds
-/// another way at each tick, and none of that is a motion: it would hit what is near at 100 m/s.
-TEST(Reckoner, WhatClosingTornJointsFindsIsNoMotion) {
+/// Received states of a mechanism may have joints open by a metre, as at its holder. Closing them
+/// finds another pose at each tick, and none of that is a motion: it would hit its neighbours at
+/// 100 m/s.
+TEST(Reckoner, ClosingOpenJointsAddsNoMotion) {
   World world(ParseScene(kFourBar, "test.toml"));
   std::mt19937 random(1);
   std::uniform_real_distribution<float> off(-1.5f, 1.5f);
@@ -268,7 +269,7 @@ velocity = [-1, 1]
 spin = 1
 )";
 
-TEST(Reckoner, WhatFallsFreelyBouncesOffWhatIsAnchored) {
+TEST(Reckoner, AFreelyFallingBodyBouncesOffAnchoredOnes) {
   World world(ParseScene(kThrown, "test.toml"));
   const JointCloser joints(world);
   Snapshots falling(2), straight(2);
@@ -296,8 +297,9 @@ TEST(Reckoner, WhatFallsFreelyBouncesOffWhatIsAnchored) {
   EXPECT_LT(rightmost, 5.15f);
 }
 
-/// What is absent is looked at every few ticks and goes straight on between: to where it is then.
-TEST(Reckoner, WhatIsAbsentIsTakenToWhereItFallsUntilTheNextLook) {
+/// An absent body is updated every few ticks and moves straight between: to its pose at the next
+/// update.
+TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
   World world(ParseScene(kThrown, "test.toml"));
   World truth(ParseScene(kThrown, "test.toml"));
   world.SetMotion(0, Motion::kAbsent);
@@ -319,7 +321,7 @@ TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   World world(ParseScene(kRods, "test.toml"));
   Smoother smoother(3, kSmoothRate);
   for (int body = 0; body < 3; ++body) {
-    // Where physics is now, less where the view is: turned by 1 rad about a point, and moved.
+    // Offset of physics from the view: turned by 1 rad about a point, and moved.
     const BodyState s = world.Read(body);
     BodyState by;
     by.angle = 1;

@@ -1,4 +1,4 @@
-/// rollback: exact to the wire's rounding wherever both worlds felt the same.
+/// rollback: exact to the wire's rounding if both worlds had the same contacts.
 
 #include <gtest/gtest.h>
 
@@ -63,8 +63,9 @@ const char* kRampage =
     "[[part]]\nname = \"ram\"\nbox = [1.5, 1]\nposition = [-9, 0.52]\nvelocity = [11, 0]\n"
     "friction = 0.1\n";
 
-/// How far a world apart that begins with the wire's rounding of a tick's states gets in `ahead`
-/// ticks, for any tick from 30 on: what no rule can be better than by knowing the states, m.
+/// How far a separate world that begins with the wire's rounding of a tick's states diverges in
+/// `ahead` ticks, for any tick from 30 on: a lower bound for every rule that knows only the states,
+/// m.
 float RoundingAlone(const char* scene, int ahead, int ticks) {
   World truth(ParseScene(scene, "s.toml"));
   std::vector<std::vector<BodyState>> path(1);
@@ -101,7 +102,7 @@ TEST(ReconcileRollback, IsAsExactAsRoundingLetsItBetweenAMovingBodyAndAPile) {
   EXPECT_GT(WorstAfter(&other, By(0.1f, 0.5f), 150), 1.5f * ours);
 }
 
-TEST(ReconcileRollback, OneReplayFromTheOldestOfManyMessages) {
+TEST(ReconcileRollback, ReplaysOnceFromTheOldestOfManyMessages) {
   // Half a second of silence, then all at once.
   FollowedCopy f(kRampage, "rollback", 4);
   f.Steps(20);
@@ -114,7 +115,7 @@ TEST(ReconcileRollback, OneReplayFromTheOldestOfManyMessages) {
   EXPECT_LT(f.Apart(3).norm(), 0.02f);
 }
 
-TEST(ReconcileRollback, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
+TEST(ReconcileRollback, AStateOlderThanTheBarriersPlacesADistantCopy) {
   FollowedCopy f(
       "gravity = [0, 0]\n[solver]\nsleep = false\n"
       "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [3, 0]\n",
@@ -127,8 +128,8 @@ TEST(ReconcileRollback, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
   EXPECT_LT(f.Apart(0).norm(), 0.26f);
 }
 
-TEST(ReconcileRollback, OwnBodiesStayWhereTheyAreWhileOthersAreSteppedAgain) {
-  // Peer 1 has the ram itself; what it told of it stays true through every replay.
+TEST(ReconcileRollback, OwnBodiesStayWhileOthersAreReplayed) {
+  // Peer 1 holds the ram; its states of it stay valid through every replay.
   FollowedCopy f(kRampage, "rollback", 12, {3});
   f.Steps(30);
   f.PutCopy(0, PlusScaled(f.copy.world().Read(0), By(0.05f, 0.2f), 1));

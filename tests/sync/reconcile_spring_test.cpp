@@ -1,4 +1,4 @@
-/// spring: the damped oscillator it is, its cap, and that it gives way.
+/// spring: the damped oscillator, its cap, and that it yields to obstacles.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace reconcile_spring_test {
 
 const char* kWeightless = "gravity = [0, 0]\n[solver]\nsleep = false\n";
 
-/// What the rule asks of a copy that is `apart` from a resting authority and nothing is in its way.
+/// Input of the rule for a copy that is `apart` from a resting authority, with a free path.
 PullInput Apart(const Vec2& apart, const Vec2& velocity = {0, 0}) {
   PullInput in;
   in.local.position = apart;
@@ -58,7 +58,7 @@ TEST(Spring, ConvergesAsTheDampedOscillatorDoes) {
   EXPECT_LT(std::fabs(x), 0.01) << "after 2 s it is nearly there";
 }
 
-TEST(Spring, AsksForNoMoreThanItsCap) {
+TEST(Spring, DemandsNoMoreThanItsCap) {
   for (const float apart : {0.1f, 1.0f, 7.0f, 1000.0f}) {
     PullMemory memory;
     PullInput in = Apart({0.6f * apart, -0.8f * apart}, {-3 * apart, 4 * apart});
@@ -71,7 +71,7 @@ TEST(Spring, AsksForNoMoreThanItsCap) {
   }
 }
 
-TEST(Spring, PlacesOnlyWhatIsFarOff) {
+TEST(Spring, PlacesOnlyDistantCopies) {
   ReconcileInput in;
   in.remote.velocity = Vec2(10, 0);
   in.dt = 0.1f;
@@ -83,15 +83,15 @@ TEST(Spring, PlacesOnlyWhatIsFarOff) {
   EXPECT_FLOAT_EQ(ReconcileSpring(in).now.position.x(), 11);
 }
 
-/// Of what stands for ever a correction takes the authority's side (Corrector::WayTo): this wall
-/// could move, a little.
+/// Against permanent obstacles a correction takes the authority's side (Corrector::WayTo): this
+/// wall could move, a little.
 const char* kWall =
     "[[part]]\nname = \"wall\"\nbox = [0.1, 10]\nposition = [2, 0]\nanchored = true\n"
     "[[part]]\nname = \"a\"\nbox = [1, 1]\n"
     "[[joint]]\nname = \"moves\"\nkind = \"kinematic\"\nb = \"wall\"\n"
     "path = [[0, 0], [0, 0.1]]\nperiod = 600\n";
 
-TEST(Spring, GivesWayWhereAWallHoldsTheCopyBack) {
+TEST(Spring, YieldsIfAWallBlocksTheCopy) {
   // The authority's body is beyond the wall; the copy can never get there.
   FollowedCopy f(std::string(kWeightless) + kWall, "spring", 6);
   f.Steps(10);
@@ -112,7 +112,7 @@ TEST(Spring, GivesWayWhereAWallHoldsTheCopyBack) {
   EXPECT_LE(last, first + 0.01f) << "nor ever harder";
 }
 
-TEST(Spring, ComesBackInFullWhenTheWayIsFree) {
+TEST(Spring, ReturnsToFullStrengthWhenThePathIsFree) {
   PullMemory memory;
   PullInput in = Apart({-1, 0});
   const float full = PullSpring(in, &memory).now.velocity.x();
@@ -133,8 +133,9 @@ TEST(Spring, ComesBackInFullWhenTheWayIsFree) {
   EXPECT_FLOAT_EQ(asked, full);
 }
 
-TEST(Spring, StandingOnTheGroundIsNotBeingBlocked) {
-  // Beside a resting authority's body, on the ground: gravity is taken up, the pull is not.
+TEST(Spring, StandingOnTheGroundIsNoBlock) {
+  // Beside the resting body of its authority, on the ground: the contact takes gravity, not the
+  // pull.
   FollowedCopy f(
       "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
       "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\nfriction = 0\n"

@@ -39,7 +39,7 @@ TEST(Reconcile, InterleaveMeetsHalfWay) {
   EXPECT_FLOAT_EQ(CorrectedX(in, ReconcileInterleave), 8.5f);
 }
 
-TEST(Reconcile, CompensatedMeetsHalfWayToTheMovedOnState) {
+TEST(Reconcile, CompensatedMeetsHalfWayToTheExtrapolatedState) {
   ReconcileInput in;
   in.local = At(10);
   in.remote = At(7, 20);
@@ -71,7 +71,7 @@ TEST(Reconcile, FadeKeepsTheLocalResultRightAfterAnImpact) {
   EXPECT_FLOAT_EQ((in.local.velocity + d.now.velocity).x(), -3 + 33 * 0.25f);
 }
 
-TEST(Reconcile, FadeTakesTheMovedOnStateASecondAfterTheImpact) {
+TEST(Reconcile, FadeTakesTheExtrapolatedStateASecondAfterTheImpact) {
   ReconcileInput in;
   in.local = At(10);
   in.remote = At(7, 20);
@@ -80,7 +80,7 @@ TEST(Reconcile, FadeTakesTheMovedOnStateASecondAfterTheImpact) {
   EXPECT_FLOAT_EQ(CorrectedX(in, ReconcileFade), 9);
 }
 
-TEST(Reconcile, RetrospectIsExactThroughGravityWhereCompensatedIsNot) {
+TEST(Reconcile, RetrospectIsExactUnderGravityAndCompensatedIsNot) {
   // Two copies of a thrown body, the local one displaced by 0.3 m and 0.5 m/s since before t1.
   const float g = -10;
   const float dt = 0.2f;
@@ -138,7 +138,7 @@ TEST(Reconcile, RetrospectDoesNotExtrapolateIntoTheGround) {
   EXPECT_FLOAT_EQ(c.now.velocity.y(), 0.25f);
 }
 
-TEST(Reconcile, RetrospectCarriesAMechanismOnAsAWhole) {
+TEST(Reconcile, RetrospectExtrapolatesAMechanismAsAWhole) {
   // A wheel that swings on its spring: the car's own difference is carried on, the swing is not.
   BodyState then;
   ReconcileInput in;
@@ -155,7 +155,7 @@ TEST(Reconcile, RetrospectCarriesAMechanismOnAsAWhole) {
   EXPECT_FLOAT_EQ(c.now.position.y(), 0.04f);
 }
 
-TEST(Reconcile, RetrospectMovesWhatIsHeldByFiveCentimetresAtMost) {
+TEST(Reconcile, RetrospectMovesACoupledBodyByFiveCentimetresAtMost) {
   const BodyState then = At(0);
   ReconcileInput in;
   in.local_then = &then;

@@ -84,8 +84,8 @@ struct Shown {
   float moved = 0;   ///< by how much its centre of mass has moved, m
 };
 
-/// A correction turns the paddle by 0.8 rad, moves its centre by (0.3, 0.1) m, and gives what spun
-/// at `before` a spin of `after` rad/s.
+/// A correction turns the paddle by 0.8 rad, moves its centre by (0.3, 0.1) m, and changes its spin
+/// from `before` to `after` rad/s.
 Shown CorrectPaddle(float before, float after) {
   const SyncConfig config = MakeSyncConfig("buffer", "rollback");
   World world(ParseScene(kPaddle, "s.toml"));
@@ -108,7 +108,7 @@ Shown CorrectPaddle(float before, float after) {
   return {view.angle[0] - was.angle, (shown - was.position - Turned(centre, was.angle)).norm()};
 }
 
-TEST(Correct, WhatSpinsIsShownAtItsAngleAtOnceAndItsCentreGlides) {
+TEST(Correct, ASpinningBodyTakesItsAngleAtOnceAndItsCentreGlides) {
   for (const auto& [before, after] : {std::pair{20.0f, 20.0f}, {20.0f, 0.0f}, {0.0f, -20.0f}}) {
     const Shown spinning = CorrectPaddle(before, after);
     EXPECT_NEAR(spinning.turned, 0.8f, 1e-5f) << before << " to " << after;

@@ -1,4 +1,4 @@
-/// RestCommit in one peer: what is committed, what is held, what wakes it.
+/// RestCommit in one peer: commits, holds and wake-ups.
 
 #include "common/sync/rest/rest_commit.h"
 
@@ -14,7 +14,7 @@
 namespace seam {
 namespace rest_commit_test {
 
-/// Two boxes side by side on the ground; this is peer 0, who has them all at first.
+/// Two boxes side by side on the ground; this is peer 0, which holds them all at first.
 class OnTheGround {
  public:
   explicit OnTheGround(const char* rule = "retrospect") : config(MakeSyncConfig("buffer", rule)) {
@@ -29,7 +29,7 @@ class OnTheGround {
     rest.AfterStep();
     memory.Record();
   }
-  /// Steps so often; returns what was committed meanwhile.
+  /// Steps `ticks` times; returns the commits.
   std::vector<Rest> Steps(int ticks) {
     std::vector<Rest> all;
     for (int i = 0; i < ticks; ++i) {
@@ -45,7 +45,7 @@ class OnTheGround {
     record.secondaries.Add(0);
     roles.table().Set(world->mechanism(body), record);
   }
-  /// Another's word that a box lies at x, after this tick.
+  /// Another peer's message that a box rests at x, after this tick.
   Rest Lies(int body, float x) {
     Rest told;
     told.peer = 1;
@@ -92,7 +92,7 @@ TEST(RestCommit, CommitsAQuarterOfASecondAfterFallingAsleepAndOnce) {
   EXPECT_TRUE(room.Steps(300).empty());
 }
 
-TEST(RestCommit, TheHashIsOfWhatLiesWhereAndNothingElse) {
+TEST(RestCommit, TheHashDependsOnThePosesAtRestAlone) {
   OnTheGround one, other;
   EXPECT_EQ(one.rest.Hash(), 0u);
   one.Steps(30);
@@ -107,7 +107,7 @@ TEST(RestCommit, TheHashIsOfWhatLiesWhereAndNothingElse) {
   EXPECT_NE(third.rest.Hash(), one.rest.Hash());
 }
 
-TEST(RestCommit, WritesWhatAnAuthoritySaysAndHoldsItAgainstSmallPushes) {
+TEST(RestCommit, WritesTheAuthoritysPoseAndHoldsItAgainstSmallPushes) {
   OnTheGround room;
   room.Give(1, 1);
   room.Steps(30);
@@ -121,7 +121,7 @@ TEST(RestCommit, WritesWhatAnAuthoritySaysAndHoldsItAgainstSmallPushes) {
   }
 }
 
-TEST(RestCommit, ACopyThatWasStruckGoesBackWhenItsAuthoritySaysNothing) {
+TEST(RestCommit, AStruckCopyReturnsIfItsAuthoritySendsNothing) {
   OnTheGround room;
   room.Give(1, 1);
   room.rest.Receive(room.Lies(1, 5.25f));
@@ -136,7 +136,7 @@ TEST(RestCommit, ACopyThatWasStruckGoesBackWhenItsAuthoritySaysNothing) {
   EXPECT_EQ(room.world->Read(1).position.x(), 5.25f);
 }
 
-TEST(RestCommit, ANewerStateEndsItAndAnOlderWordDoesNotBringItBack) {
+TEST(RestCommit, ANewerStateEndsItAndAnOlderRestDoesNotRestoreIt) {
   OnTheGround room;
   room.Give(1, 1);
   const Rest then = room.Lies(1, 5.25f);
@@ -149,7 +149,7 @@ TEST(RestCommit, ANewerStateEndsItAndAnOlderWordDoesNotBringItBack) {
   EXPECT_FALSE(room.rest.Holds(1));
 }
 
-TEST(RestCommit, TheNextAuthoritysWordCountsThoughTheLastOnesClockWasAhead) {
+TEST(RestCommit, TheNextAuthoritysRestCountsDespiteTheLastOnesFasterClock) {
   OnTheGround room;
   room.Give(1, 1);
   const Rest early = room.Lies(1, 5.25f);
@@ -166,7 +166,7 @@ TEST(RestCommit, TheNextAuthoritysWordCountsThoughTheLastOnesClockWasAhead) {
   EXPECT_TRUE(room.rest.Holds(1));
 }
 
-TEST(RestCommit, WhatIsSaidAgainIsAsOfNow) {
+TEST(RestCommit, ARepetitionHasTheCurrentTick) {
   OnTheGround room;
   room.Steps(100);
   ASSERT_EQ(room.rest.Everything().size(), 1u);
@@ -185,7 +185,7 @@ TEST(RestCommit, WhatIsSaidAgainIsAsOfNow) {
   EXPECT_TRUE(room.rest.Again({2, 0}, 0).empty());
 }
 
-TEST(RestCommit, AWordThatComesToACopyThatWasWokenSinceIsWhereThatGoesBackTo) {
+TEST(RestCommit, AWokenCopyReturnsToARestThatArrivesLater) {
   OnTheGround room("rollback");
   room.Give(1, 1);
   room.Steps(5);
@@ -203,7 +203,7 @@ TEST(RestCommit, AWordThatComesToACopyThatWasWokenSinceIsWhereThatGoesBackTo) {
   EXPECT_EQ(room.world->Read(1).position.x(), told.x[0]);
 }
 
-TEST(RestCommit, ANewAuthorityCommitsWhatItWasGivenAtRestUnderItsEpoch) {
+TEST(RestCommit, ANewAuthorityCommitsARestingMechanismUnderItsEpoch) {
   OnTheGround room;
   room.Steps(30);
   room.Give(1, 1);
@@ -213,7 +213,7 @@ TEST(RestCommit, ANewAuthorityCommitsWhatItWasGivenAtRestUnderItsEpoch) {
   EXPECT_EQ(told[0].epoch, std::vector<std::int32_t>{2});
 }
 
-TEST(RestCommit, WhatIsHandedOverAtRestLiesOnAndWhatMovesDoesNot) {
+TEST(RestCommit, ABodyHandedOverAtRestStaysAtRestAndAMovingOneDoesNot) {
   for (const float moves : {0.0f, 0.001f}) {
     OnTheGround room;
     room.Give(1, 1);
@@ -237,7 +237,7 @@ TEST(RestCommit, WhatIsHandedOverAtRestLiesOnAndWhatMovesDoesNot) {
   }
 }
 
-TEST(RestCommit, AnOwnBodyThatIsMovedIsAwakeAndCommittedAnew) {
+TEST(RestCommit, AMovedOwnBodyWakesAndIsCommittedAnew) {
   OnTheGround room;
   room.Steps(30);
   BodyState moving = room.world->Read(0);
@@ -252,9 +252,9 @@ TEST(RestCommit, AnOwnBodyThatIsMovedIsAwakeAndCommittedAnew) {
   EXPECT_GT(told[0].x[0], 0.01f);
 }
 
-/// A client that joins late, or was stopped, steps many times before it tells anything: what had
-/// come to rest twice was told twice in one message, which no message may, and the client ended.
-TEST(RestCommit, WhatCameToRestTwiceBeforeItIsToldIsToldOnce) {
+/// A client that joins late, or was stopped, steps many times before it sends: a body that had come
+/// to rest twice was sent twice in one message, which is invalid, and the client ended.
+TEST(RestCommit, ABodyThatRestsTwiceBeforeASendIsSentOnce) {
   OnTheGround room;
   for (int i = 0; i < 40; ++i) room.Step();
   ASSERT_TRUE(room.rest.all());

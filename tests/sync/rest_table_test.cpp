@@ -1,4 +1,4 @@
-/// RestTable: the sums that change with a body are those over everything.
+/// RestTable: incremental sums equal the sums over everything.
 
 #include "common/sync/rest/rest_table.h"
 
@@ -18,7 +18,7 @@ std::uint64_t Add(const T& value, std::uint64_t hash) {
   return Fnv1a(&value, sizeof value, hash);
 }
 
-/// As docs/protocol.md has it: id, epoch and the bits of the pose.
+/// The hash of docs/protocol.md: id, epoch and the bits of the pose.
 std::uint64_t HashOf(PartId id, const RestRecord& record) {
   if (!record.committed) return 0;
   std::uint64_t hash = Add(record.epoch, Add(id, Fnv1a("", 0)));
@@ -28,7 +28,7 @@ std::uint64_t HashOf(PartId id, const RestRecord& record) {
   return hash ^ (hash >> 33);
 }
 
-TEST(RestTable, ASumThatChangesWithABodyIsTheOneOverEverything) {
+TEST(RestTable, TheIncrementalSumEqualsTheFullSum) {
   for (const int count : {1, 32, 33, 300}) {
     RestTable table(count);
     Random random(7);
@@ -66,7 +66,7 @@ TEST(RestTable, ASumThatChangesWithABodyIsTheOneOverEverything) {
 }
 
 /// Sums of weak hashes would not tell two swapped poses, or two equal changes, apart.
-TEST(RestTable, WhatLiesWhereCountsAndNotOnlyThatSomethingLiesThere) {
+TEST(RestTable, TheHashTellsBodiesWithSwappedPosesApart) {
   const auto lies = [](float a, float b) {
     RestTable table(2);
     table.Commit(0, 0, 1, 5, {Vec2(a, 0), 0, Vec2(0, 0), 0});
@@ -94,7 +94,7 @@ TEST(RestBlocks, EachBodyIsInOneBlockAndHasItsTurn) {
   }
 }
 
-TEST(RestBlocks, WhatGoesOnToDifferIsLostAndWhatChangesIsUnderWay) {
+TEST(RestBlocks, APersistentDifferenceIsALossAndAChangingOneIsInFlight) {
   const RestBlock first{2, 0}, second{2, 1};
   RestBlocks blocks;
   EXPECT_FALSE(blocks.Lost(0, first, 1, 2));
@@ -104,12 +104,12 @@ TEST(RestBlocks, WhatGoesOnToDifferIsLostAndWhatChangesIsUnderWay) {
   EXPECT_FALSE(blocks.Lost(1100000, first, 1, 2)) << "it is under way";
   EXPECT_TRUE(blocks.Lost(2000000, first, 1, 2));
   EXPECT_FALSE(blocks.Lost(2100000, second, 5, 6)) << "each block for itself";
-  // What agrees, or cannot be said, begins anew.
+  // Agreement, or a skipped block, restarts the count.
   EXPECT_FALSE(blocks.Lost(2900000, first, 2, 2));
   EXPECT_FALSE(blocks.Lost(3000000, first, 1, 2));
   blocks.Skip(first);
   EXPECT_FALSE(blocks.Lost(4000000, first, 1, 2));
-  // Of what changes at each look something may be lost, too.
+  // A block that changes at each check may have a loss, too.
   bool lost = false;
   for (std::uint64_t i = 1; i < 80 && !lost; ++i) {
     lost = blocks.Lost(4000000 + static_cast<std::int64_t>(i) * 100000, first, 10 + i, 2);

@@ -1,4 +1,4 @@
-/// rollback: with the same inputs all peers come to the same, however late they hear of them.
+/// rollback: with the same inputs all peers agree, even if the inputs arrive late.
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ void ExpectBits(const World& world, const std::vector<BodyState>& states, const 
   }
 }
 
-TEST(Rollback, HoweverLateInputsComeAllPeersEndWithTheTruthBitForBit) {
+TEST(Rollback, LateInputsLeaveAllPeersWithTheTruthBitForBit) {
   const Scene scene = Sledges();
   const std::vector<BodyState> truth = Truth(scene, kEnd);
   EXPECT_GT((truth[2].position - Vec2(0.1f, 0.5f)).norm(), 0.5f) << "the crate was moved";
@@ -133,7 +133,7 @@ TEST(Rollback, HoweverLateInputsComeAllPeersEndWithTheTruthBitForBit) {
   }
 }
 
-TEST(Rollback, OnAPerfectNetworkItIsTheTruthAtEveryTick) {
+TEST(Rollback, EqualsTheTruthAtEveryTickOnAPerfectNetwork) {
   const Scene scene = Sledges();
   WiredReplicas room = Scripted(scene, 0);
   ScriptedWorld truth(scene);
@@ -149,7 +149,7 @@ TEST(Rollback, OnAPerfectNetworkItIsTheTruthAtEveryTick) {
   }
 }
 
-/// Only ann does something: what `input` says from `from` to before `until`.
+/// Only ann acts: with `input` from `from` to before `until`.
 WiredReplicas OnlyAnn(const Scene& scene, std::int64_t late, std::int64_t from, std::int64_t until,
                       Input input) {
   return WiredReplicas(scene, MakeSyncConfig("buffer", "rollback"), late,
@@ -164,7 +164,7 @@ Scene Floating() {
                     "floating.toml");
 }
 
-TEST(Rollback, APressHeardLateActsOnceAndAtItsTickWithEveryPeer) {
+TEST(Rollback, ALatePressActsOnceAtItsTickOnEveryPeer) {
   constexpr std::int64_t kPress = 51;
   WiredReplicas room = OnlyAnn(Floating(), 9, kPress, kPress + 5, Input{0, 0, 2});
   const float speed = 3;  // N s, on 1 kg
@@ -181,7 +181,7 @@ TEST(Rollback, APressHeardLateActsOnceAndAtItsTickWithEveryPeer) {
   }
 }
 
-TEST(Rollback, APressTooOldToGoBackToActsOnceAtTheAuthorityAndTheOthersFollow) {
+TEST(Rollback, APressTooOldToReplayActsOnceAtTheAuthorityAndOthersFollow) {
   constexpr std::int64_t kPress = 51, kHeard = 220;
   WiredReplicas room = OnlyAnn(Floating(), 3, kPress, kPress + 5, Input{0, 0, 2});
   // ann's lines are down for longer than there is a way back.
@@ -202,7 +202,7 @@ TEST(Rollback, APressTooOldToGoBackToActsOnceAtTheAuthorityAndTheOthersFollow) {
   }
 }
 
-TEST(Rollback, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) {
+TEST(Rollback, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
   const Scene scene = Sledges();
   constexpr std::int64_t kLate = 10;
   WiredReplicas room = Scripted(scene, kLate);
@@ -225,7 +225,7 @@ TEST(Rollback, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) {
   EXPECT_EQ(told, 10) << "one every other tick";
 }
 
-TEST(Rollback, WhatIsFarFromEveryOneElseIsToldOfAsItIs) {
+TEST(Rollback, SendsTheCurrentStateFarFromOtherPlayers) {
   const Scene scene = ParseScene(
       "[[player]]\nname = \"ann\"\nvehicle = \"hers\"\n[[player]]\nname = \"bob\"\n"
       "vehicle = \"his\"\n"
@@ -239,7 +239,7 @@ TEST(Rollback, WhatIsFarFromEveryOneElseIsToldOfAsItIs) {
   room.StepTo(60);
 }
 
-TEST(Rollback, WhatIsSteppedFromNowOnBeginsWhereItWasHeardOfAndGoesThroughWhatWasSince) {
+TEST(Rollback, ANewlyFollowedBodyReplaysFromItsLastState) {
   const Scene scene = ParseScene(
       "[[player]]\nname = \"ann\"\n"
       "[[part]]\nname = \"floor\"\nchain = [[-90, 0], [90, 0]]\n"
@@ -261,8 +261,8 @@ TEST(Rollback, WhatIsSteppedFromNowOnBeginsWhereItWasHeardOfAndGoesThroughWhatWa
 }
 
 /// The crate comes to rest at the server; bob's copy of it is off by `off` since tick 5, and the
-/// word of its rest takes `word_late` ticks to him. From then on it must lie there as the server's
-/// does, though he goes back in every tick.
+/// announcement of rest reaches him after `word_late` ticks. From then on it must rest at the
+/// server's pose, although he replays in every tick.
 void ExpectBobsCopyRests(const BodyState& off, std::int64_t word_late) {
   const Scene scene =
       ParseScene(Replaced(Replaced(Replaced(kSledges, "sleep = false", ""), "ANN", ""), "BOB", ""),
@@ -305,13 +305,13 @@ void ExpectBobsCopyRests(const BodyState& off, std::int64_t word_late) {
   EXPECT_GT(room.at(kBob).ticks_stepped_again(), 60) << "or nothing was tried";
 }
 
-TEST(Rollback, WhatRestsStaysAtRestThroughAReplayThoughItsCopyHadTurnedOtherwise) {
+TEST(Rollback, ARestingBodyStaysAtRestInAReplayWithATurnedCopy) {
   BodyState off;
   off.angle = 12 * kPiFloat;
   ExpectBobsCopyRests(off, 0);
 }
 
-TEST(Rollback, WhatRestsStaysAtRestThroughAReplayThatBeginsAfterItDidWithTheCopyElsewhere) {
+TEST(Rollback, ARestingBodyStaysAtRestInALaterReplayWithADisplacedCopy) {
   BodyState off;
   off.position.x() = 0.05f;
   ExpectBobsCopyRests(off, 20);

@@ -1,4 +1,4 @@
-/// Who is on the way to a seat is seen to go there by centimetres a tick.
+/// A character on its way to a seat moves by centimetres a tick in every view.
 
 #include "common/sync/show/seat_glide.h"
 
@@ -16,7 +16,7 @@ const char* const kTwo =
 
 std::vector<BodyState> PosesOf(const World& world) { return {world.Read(0), world.Read(1)}; }
 
-TEST(SeatGlide, WhatGoesAsFastAsItSaysIsNotHeldBack) {
+TEST(SeatGlide, ABodyThatMovesAtItsVelocityIsNotLimited) {
   const std::unique_ptr<World> made = SmallWorld(kTwo, "", "gravity = [0, 0]");
   World& world = *made;
   SeatGlide glide;
@@ -28,7 +28,7 @@ TEST(SeatGlide, WhatGoesAsFastAsItSaysIsNotHeldBack) {
   EXPECT_FALSE(glide.HoldBack(world, {0, 1}, &poses));
 }
 
-TEST(SeatGlide, WhatJumpsIsHeldBackToCentimetresAndAllByOneShare) {
+TEST(SeatGlide, AJumpIsLimitedToCentimetresByOneShareForAllBodies) {
   const std::unique_ptr<World> made = SmallWorld(kTwo, "", "gravity = [0, 0]");
   World& world = *made;
   SeatGlide glide;

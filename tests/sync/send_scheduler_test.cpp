@@ -51,7 +51,7 @@ class Row {
   SendScheduler scheduler{config, *world, roles, memory, reach, replay};
 };
 
-TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneSendTells) {
+TEST(SendScheduler, BodiesTakeTurnsIfASendCannotHoldAll) {
   constexpr int kBodies = 240;
   Row row(kBodies);
   std::set<int> waiting;
@@ -68,7 +68,7 @@ TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneSendTells) {
   }
 }
 
-TEST(SendScheduler, WhatWasJustStruckGoesFirst) {
+TEST(SendScheduler, AJustStruckBodyGoesFirst) {
   Row row(240);
   row.memory.track(239).last_impact_tick = 0;
   const std::vector<int> told = row.NextSend();
@@ -76,7 +76,7 @@ TEST(SendScheduler, WhatWasJustStruckGoesFirst) {
   EXPECT_EQ(told[told.size() - 2], static_cast<int>(kBodiesPerSend) - 2);
 }
 
-TEST(SendScheduler, TellsNothingOfOthersBodiesNorOfThoseNotYetPlaced) {
+TEST(SendScheduler, SendsNeitherOthersBodiesNorUnplacedOnes) {
   Row row(4);
   AuthorityRecord other;
   other.authority = 2;
@@ -85,7 +85,7 @@ TEST(SendScheduler, TellsNothingOfOthersBodiesNorOfThoseNotYetPlaced) {
   EXPECT_EQ(row.NextSend(), (std::vector<int>{0, 3}));
 }
 
-TEST(SendScheduler, BetweenTwoSendsThereIsNothingToTake) {
+TEST(SendScheduler, NothingIsDueBetweenTwoSends) {
   Row row(2);
   row.world->Step();
   row.scheduler.Collect();
@@ -96,7 +96,7 @@ TEST(SendScheduler, BetweenTwoSendsThereIsNothingToTake) {
   EXPECT_TRUE(row.scheduler.Take().empty());
 }
 
-TEST(SendScheduler, ABodyThatFellAsleepIsToldAndLiesWhereItLay) {
+TEST(SendScheduler, ASleepingBodyIsSentWithItsPose) {
   Row row(1);
   BodyState rest = row.world->Read(0);
   rest.position.x() = 0.3001f;  // between two quanta
@@ -109,7 +109,7 @@ TEST(SendScheduler, ABodyThatFellAsleepIsToldAndLiesWhereItLay) {
   EXPECT_NE(row.world->Read(0).position, Quantised(rest).position);
 }
 
-TEST(SendScheduler, WhatIsCommittedToRestIsToldNoMore) {
+TEST(SendScheduler, ABodyCommittedToRestIsNotSent) {
   Row row(2);
   row.world->SetAwake(0, false);
   row.memory.track(0).at_rest = true;

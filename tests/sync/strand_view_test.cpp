@@ -1,4 +1,4 @@
-/// Strands: looked at, and nothing else.
+/// Strands are only displayed: they do not collide and are not sent.
 
 #include "common/sync/show/strand_view.h"
 
@@ -55,7 +55,7 @@ std::vector<Vec2> PointsOf(const Strands& strands) {
   return points;
 }
 
-TEST(StrandView, EveryPeerShowsItWhereItsPartIsShown) {
+TEST(StrandView, EveryPeerShowsItAtItsDisplayedPart) {
   const Recording recording = Play(std::string(kTwoSides) + kFlyer + kScarf);
   ASSERT_EQ(recording.strands.size(), 3u);
   for (const auto& [peer, by_tick] : recording.strands) {
@@ -75,7 +75,7 @@ TEST(StrandView, EveryPeerShowsItWhereItsPartIsShown) {
   }
 }
 
-TEST(StrandView, ItTrailsBehindWhatFliesAndHangsBelowWhatRests) {
+TEST(StrandView, TrailsBehindAFlyingPartAndHangsBelowARestingOne) {
   const Recording recording = Play(std::string(kTwoSides) + kFlyer + kScarf, 12);
   const auto& server = recording.strands.at(0);
   const std::vector<Vec2> flying = PointsOf(server.at(20)),
@@ -85,7 +85,7 @@ TEST(StrandView, ItTrailsBehindWhatFliesAndHangsBelowWhatRests) {
   EXPECT_LT(rests.back().y(), rests.front().y() - 1);
 }
 
-TEST(StrandView, NothingFeelsItAndItIsNotSent) {
+TEST(StrandView, CollidesWithNothingAndIsNotSent) {
   // Without loss: the scene's text is longer, so other datagrams would be lost.
   const Recording with = Play(std::string(kTwoSides) + kFlyer + kScarf, 2, "perfect");
   const Recording without = Play(std::string(kTwoSides) + kFlyer, 2, "perfect");
@@ -98,7 +98,7 @@ TEST(StrandView, NothingFeelsItAndItIsNotSent) {
   EXPECT_TRUE(without.strands.empty());
 }
 
-TEST(StrandView, AStrandLeavesWithItsPartAndHangsAnewWhereThePartIsPlaced) {
+TEST(StrandView, AStrandLeavesWithItsPartAndRestartsAtThePartsNewPlace) {
   Scene scene = ParseScene(std::string(kFlyer) + kScarf, "flyer.toml");
   World world(scene);
   StrandView strands(world);

@@ -1,4 +1,4 @@
-/// The small parts of common/sync, each against what it promises.
+/// The small parts of common/sync, each against its contract.
 
 #include <gtest/gtest.h>
 
@@ -149,7 +149,7 @@ TEST(ClockFilter, IgnoresAnswersFromBeforeTheQuestion) {
   EXPECT_EQ(clock.rtt_min_us(), -1);
 }
 
-TEST(InputTrack, HoldsAxesAndButtonsBeyondWhatItKnowsButReportsNoPressThere) {
+TEST(InputTrack, HoldsInputsBeyondTheNewestButReportsNoPressThere) {
   InputTrack track;
   track.Note(9, Input{});
   track.Note(10, Input{100, -5, 3});
@@ -162,7 +162,7 @@ TEST(InputTrack, HoldsAxesAndButtonsBeyondWhatItKnowsButReportsNoPressThere) {
   EXPECT_EQ(track.TakePresses(16), 0);
 }
 
-TEST(InputTrack, APressMovesToItsTickWhenTheTicksBetweenAreHeardOfLate) {
+TEST(InputTrack, APressMovesToItsTickWhenLateInputsFillTheGap) {
   InputTrack track;
   track.Note(2, Input{});
   track.Note(6, Input{0, 0, 1});
@@ -224,15 +224,15 @@ TEST(Snapshots, ReckonWithAnAccelerationThatLasts) {
   EXPECT_NEAR(late.position.x(), 20 * 0.4f - 3 * 0.16f + 0.2f * late.velocity.x(), 1e-4f);
 }
 
-TEST(Snapshots, ReckonABlowWithoutItsAcceleration) {
+TEST(Snapshots, ReckonAnImpactWithoutItsAcceleration) {
   Snapshots snapshots(1);
   snapshots.Add(0, 0, State(0, 10, 0));
   snapshots.Add(0, 2, State(0, -5, 0));
   EXPECT_NEAR(snapshots.Extrapolate(0, 14, 1 / 60.0f, 1).position.x(), -5 * 0.2f, 1e-5f);
 }
 
-/// A blade whose motor brings it to 0.99 m/s within a tick was reckoned to gain 9 m/s.
-TEST(Snapshots, ReckonAStartOrABlowOfOnceWithoutItsAcceleration) {
+/// A blade that its motor brings to 0.99 m/s within a tick was reckoned to gain 9 m/s.
+TEST(Snapshots, ReckonASingleStartOrImpactWithoutItsAcceleration) {
   const float dt = 1 / 60.0f;
   for (const float speed : {0.99f, 0.3f, -0.6f}) {
     Snapshots snapshots(1);
@@ -268,7 +268,7 @@ TEST(Snapshots, TheNewestIsTheLastThatIsKeptAndCarriedOver) {
   EXPECT_FALSE(snapshots.has(0));
 }
 
-TEST(Snapshots, KeepThreeSecondsAndOfWhatIsToldSeldomNothingThatIsMuchOlder) {
+TEST(Snapshots, KeepThreeSecondsAndLittleMoreOfSparseStates) {
   constexpr std::int64_t kSeconds = 60;
   Snapshots snapshots(2);
   for (std::int64_t tick = 0; tick <= 100 * kSeconds; tick += 2) {

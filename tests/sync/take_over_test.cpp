@@ -1,4 +1,4 @@
-/// A copy that is told where its body's holder let go of it.
+/// A copy that receives the exact state of its body's last holder.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ ExactStates Exact(const World& world, std::int32_t epoch) {
   return exact;
 }
 
-TEST(TakeOver, PutsTheCopyRightFromTheTickOfTheLastWordOn) {
+TEST(TakeOver, CorrectsTheCopyFromTheTickOfTheLastState) {
   for (const char* rule : {"retrospect", "rollback", "fade"}) {
     FollowedCopy pair(kFlying, rule, 2);
     pair.Steps(20);
@@ -54,7 +54,7 @@ TEST(TakeOver, PutsTheCopyRightFromTheTickOfTheLastWordOn) {
   }
 }
 
-TEST(TakeOver, WhatIsOlderThanWhatWasHeardChangesNothing) {
+TEST(TakeOver, AnOlderStateChangesNothing) {
   FollowedCopy pair(kFlying, "retrospect", 2);
   pair.Steps(4);
   ExactStates old = Exact(pair.truth, 2);
@@ -65,7 +65,7 @@ TEST(TakeOver, WhatIsOlderThanWhatWasHeardChangesNothing) {
   EXPECT_EQ(pair.copy_world().Read(0).position, before);
 }
 
-TEST(TakeOver, OfAnEpochThatIsOverChangesNothing) {
+TEST(TakeOver, AStateOfAPastEpochChangesNothing) {
   FollowedCopy pair(kFlying, "retrospect", 2);
   pair.Steps(10);
   ExactStates stale = Exact(pair.truth, 0);

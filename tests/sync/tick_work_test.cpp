@@ -1,4 +1,4 @@
-/// What a client's tick looks at is what concerns it, however large the room is.
+/// A client's tick does work only for relevant bodies, in a room of any size.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace seam {
 namespace tick_work_test {
 
-/// The own box, one beside it that it leans on, and others far away, of the server's. Nobody looks.
+/// The own box, one beside it in contact, and the server's distant boxes. No view is published.
 std::unique_ptr<Replica> RoomOf(int far, const std::string& more = "") {
   const std::string text =
       "gravity = [0, 0]\nbounds = [[-1000, -1000], [9000, 1000]]\n"
@@ -35,7 +35,7 @@ std::unique_ptr<Replica> RoomOf(int far, const std::string& more = "") {
   return replica;
 }
 
-/// How often a tick looks at a body, in two seconds, once what is far lies parked.
+/// Number of bodies that ticks process in two seconds, once distant ones are parked.
 std::int64_t Looks(int far) {
   const std::unique_ptr<Replica> replica = RoomOf(far);
   for (int tick = 0; tick < 60; ++tick) replica->Step();
@@ -45,7 +45,7 @@ std::int64_t Looks(int far) {
   return replica->world().looks() - before;
 }
 
-TEST(TickWork, IsTheSameHoweverManyBodiesAreFar) {
+TEST(TickWork, DoesNotGrowWithDistantBodies) {
   const std::int64_t few = Looks(10);
   EXPECT_GT(few, 0);
   EXPECT_EQ(Looks(2000), few);
@@ -65,14 +65,14 @@ double BytesWithJoint(int far) {
   return static_cast<double>(AllocatedBytes() - before) / kTicks;
 }
 
-/// The exact solver is made anew at every barrier: of what takes part.
-TEST(TickWork, NextToJointsItAsksForNoMemoryForWhatIsFar) {
+/// The exact solver is rebuilt at every barrier, for the present bodies.
+TEST(TickWork, DistantBodiesTakeNoMemoryBesideJoints) {
   const double few = BytesWithJoint(10), many = BytesWithJoint(2010);
   EXPECT_GT(few, 0);
   EXPECT_LT((many - few) / 2000, 8) << "a number for each, at every second tick";
 }
 
-TEST(TickWork, OfWhatIsFarItBeginsWhereItsAuthorityPutsItNear) {
+TEST(TickWork, ADistantBodyBecomesPresentIfItsAuthorityPlacesItNear) {
   const std::unique_ptr<Replica> replica = RoomOf(500);
   for (int tick = 0; tick < 60; ++tick) replica->Step();
   constexpr int kFirst = 2;  // of the far ones

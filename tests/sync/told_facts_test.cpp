@@ -1,4 +1,5 @@
-/// What a peer has told of its own stays true when it learns that it was wrong of the others'.
+/// States that a peer has sent for its own body stay valid when it learns that it was wrong about
+/// others' bodies.
 
 #include <gtest/gtest.h>
 
@@ -24,9 +25,9 @@ restitution = 1
 constexpr int kOwn = 0, kOther = 1;
 constexpr std::int64_t kLate = 10;  // ticks
 
-/// The other's disc strikes the own one here alone: its authority has it 20 m away, and says so
-/// when the blow has been told already. The first step back is to before it.
-TEST(ToldFact, WhatWasToldAsStruckMovesOnThoughNothingStruckIt) {
+/// The other's disc strikes the own one only here: its authority has it 20 m away, and its state
+/// arrives after the impact was sent. The first replay begins before the impact.
+TEST(SentImpact, ABodySentAsStruckMovesOnAfterTheImpactIsUndone) {
   FollowedCopy peers(kTwoDiscs, "rollback", kLate, {kOwn});
   peers.Steps(90);
   ASSERT_FALSE(peers.copy_world().awake(kOwn)) << "what wakes it is the blow";

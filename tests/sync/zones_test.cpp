@@ -1,4 +1,4 @@
-/// Who may meet whom soon, against what can be reckoned by hand and against all pairs.
+/// Which boxes may meet soon, against results by hand and a comparison of all pairs.
 
 #include "common/sync/reach/zones.h"
 
@@ -39,7 +39,7 @@ TEST(Zones, TwoMeetWhenTheirRelativeSpeedTakesThemThrough) {
   EXPECT_FALSE(MayMeet(a, alike, 100)) << "neither comes nearer";
 }
 
-TEST(Zones, WhatIsDrivenReachesByItsAccelerationToo) {
+TEST(Zones, ADrivenBodyReachesByItsAccelerationToo) {
   MovingBox a = Box({0, 0}, {1, 1});
   MovingBox b = Box({21.1f, 0}, {22, 1});
   EXPECT_FALSE(MayMeet(a, b, 2));
@@ -51,7 +51,7 @@ TEST(Zones, WhatIsDrivenReachesByItsAccelerationToo) {
   EXPECT_FALSE(MayMeet(a, b, 1.9f));
 }
 
-TEST(Zones, WhatIsNearerThanTheSlackTouches) {
+TEST(Zones, ABodyNearerThanTheSlackTouches) {
   const MovingBox a = Box({0, 0}, {1, 1});
   EXPECT_TRUE(MayMeet(a, Box({1 + 0.9f * kZoneSlack, 0}, {3, 1}), 0));
   EXPECT_FALSE(MayMeet(a, Box({1 + 1.1f * kZoneSlack, 0}, {3, 1}), 0));
@@ -72,7 +72,7 @@ std::vector<MovingBox> RandomBoxes(Random* random, int count, int groups) {
   return boxes;
 }
 
-TEST(Zones, TheSweepFindsThePairsThatAllComparisonsFind) {
+TEST(Zones, TheSweepFindsThePairsOfAFullComparison) {
   Random random(11);
   std::size_t found = 0, possible = 0;
   for (int round = 0; round < 200; ++round) {
@@ -100,13 +100,13 @@ TEST(Zones, TheSweepFindsThePairsThatAllComparisonsFind) {
   EXPECT_LT(found, possible * 9 / 10);
 }
 
-TEST(Zones, OneTimeForAllIsTheSameForEachPair) {
+TEST(Zones, OneCommonTimeEqualsATimePerPair) {
   Random random(12);
   const std::vector<MovingBox> boxes = RandomBoxes(&random, 40, 20);
   EXPECT_EQ(MeetingGroups(boxes, 0.3f), MeetingGroups(boxes, 0.3f, [](int, int) { return 0.3f; }));
 }
 
-TEST(Zones, NoPairIsLookedAtFurtherAheadThanTheLongest) {
+TEST(Zones, NoPairIsCheckedBeyondTheLongestTime) {
   const std::vector<MovingBox> boxes = {Box({0, 0}, {1, 1}, {10, 0}, 0),
                                         Box({11, 0}, {12, 1}, {0, 0}, 1)};
   const auto far = [](int, int) { return 100.0f; };
@@ -121,7 +121,7 @@ TEST(Zones, ComponentsAreNamedAfterTheirLowestMember) {
   EXPECT_TRUE(Components(0, {}).empty());
 }
 
-TEST(Zones, ALongChainIsOneComponentWhateverTheOrderOfItsLinks) {
+TEST(Zones, ALongChainIsOneComponentInAnyOrderOfLinks) {
   constexpr int kCount = 300;
   Random random(13);
   std::vector<std::pair<int, int>> links;

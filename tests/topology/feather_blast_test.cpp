@@ -1,4 +1,4 @@
-/// What a blast frees: the same bricks as parts, thrown outwards, and nothing else.
+/// A blast frees bricks as parts, thrown outwards, and nothing else.
 
 #include "common/topology/feather_blast.h"
 

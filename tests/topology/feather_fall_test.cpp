@@ -1,4 +1,4 @@
-/// What a blast leaves without a foundation comes down, and nothing else.
+/// Bricks that a blast leaves without a foundation fall, and nothing else.
 
 #include "common/topology/feather_fall.h"
 
@@ -53,13 +53,13 @@ TEST(Fall, ARoofStaysOnOneWallAndComesDownWithTheSecond) {
   EXPECT_FALSE(topology.hanging().has_value());
 }
 
-TEST(Fall, WhatTheSceneHangsInTheAirStays) {
+TEST(Fall, BricksThatBeginInTheAirStay) {
   Topology topology(ParseScene(kGround + Bricks("cloud", 0, 5, 10, 4), "cloud.toml"));
   topology.Apply({At(4, 5.8f, 0.5f)});
   EXPECT_EQ(PartsOf(topology.scene(), "cloud"), 1) << "only what the blast frees";
 }
 
-TEST(Fall, ACornerCarriesNothingAndAnEdgeDoes) {
+TEST(Fall, AnEdgeSupportsAndACornerDoesNot) {
   const std::string low = Bricks("low", 0, 0, 1, 5);
   for (const auto& [x, falls] : {std::pair{0.4f, true}, std::pair{0.35f, false}}) {
     // The tower over the lower one touches it by a corner, or by 5 cm of an edge; and a post.
@@ -72,7 +72,7 @@ TEST(Fall, ACornerCarriesNothingAndAnEdgeDoes) {
   }
 }
 
-TEST(Fall, PiecesCoverWhatFallsOnceWithItsMassAndRoom) {
+TEST(Fall, PiecesCoverFallingBricksOnceWithTheirMass) {
   const Scene scene = ParseScene(kGround + Bricks("tower", 0, 0, 9, 30, "density = 2\n"), "t.toml");
   Topology topology(scene);
   // Right through the tower, 3.6 m wide, in two blasts.
@@ -88,7 +88,7 @@ TEST(Fall, PiecesCoverWhatFallsOnceWithItsMassAndRoom) {
   EXPECT_LE(topology.scene().parts.size(), 1u + 2 * kBlastPiecesMax + 2 * kFallPiecesMax);
 }
 
-TEST(Fall, WhatIsTooMuchForOneEditFallsByTheNext) {
+TEST(Fall, BricksBeyondOneEditFallByTheNext) {
   // Crosses of narrow bricks make many pieces: columns of every second one hang on one beam.
   std::string text = kGround + Bricks("post", 0, 0, 1, 10) + Bricks("beam", 0, 2, 125, 1);
   for (int i = 0; i < 60; ++i) {

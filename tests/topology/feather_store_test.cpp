@@ -1,4 +1,4 @@
-/// Featherweight bricks as data: memory, cells, and outlines that say what is solid.
+/// Featherweight bricks as data: memory, cells, and outlines of the solid area.
 
 #include "common/topology/feather_store.h"
 
@@ -102,7 +102,7 @@ TEST(FeatherStore, AMillionBricksTakeLessThanFiveBytesEach) {
   EXPECT_GT(each, 4);
 }
 
-TEST(FeatherStore, FindsWhatOverlapsABoxAndNothingElse) {
+TEST(FeatherStore, FindsExactlyTheBricksInABox) {
   const FeatherStore store({Rectangle(-400, -90, 90, 50, 9, 7), Rectangle(0, 300, 20, 9, 80, 31)});
   std::vector<Brick> all;
   for (int cell = 0; cell < store.cell_count(); ++cell) store.Append(cell, &all);
@@ -121,7 +121,7 @@ TEST(FeatherStore, FindsWhatOverlapsABoxAndNothingElse) {
   }
 }
 
-TEST(FeatherStore, WhatWasTakenOutAndPutBackIsAsBefore) {
+TEST(FeatherStore, RestoringRemovedBricksRestoresTheStore) {
   FeatherStore store({Rectangle(-400, -90, 90, 50, 9, 7)});
   const FeatherStore before = store;
   std::vector<Brick> hole = store.InBox(-50, -20, 120, 90);
@@ -173,7 +173,7 @@ TEST(FeatherOutline, AllCellsTogetherAreTheBoundaryOfTheUnion) {
   }
 }
 
-TEST(FeatherOutline, PathsThatEndGoOnWhereAnotherBegins) {
+TEST(FeatherOutline, OpenPathsContinueIntoTheNext) {
   BrickField rough = Rectangle(-300, 100, 3, 9);
   rough.friction = 0.9f;
   const FeatherStore store({Towers(2, true), Rectangle(-500, -40, 90, 8), rough});

@@ -1,5 +1,5 @@
-/// What holds bricks up: the anchored parts that they lie on, wherever; and of a building that lies
-/// on none, its own lowest rows.
+/// Foundations of bricks: the anchored parts under them; for a building without any, its own lowest
+/// rows.
 
 #include "common/topology/foundation.h"
 
@@ -126,7 +126,7 @@ std::string Anchored(const std::string& shape) {
   return "[[part]]\nname = \"rock\"\nanchored = true\n" + shape + "\n";
 }
 
-TEST(Foundations, EveryShapeHoldsWhatLiesOnIt) {
+TEST(Foundations, EveryShapeSupportsBricksOnIt) {
   EXPECT_TRUE(Stands(Ground("[-9, 0], [0.5, 0], [0.5, -9], [9, -9]")));
   EXPECT_TRUE(Stands(Ground("[-9, 3], [0.5, -0.2], [0.5, -9], [9, -9]"))) << "a slope";
   EXPECT_TRUE(Stands("[[part]]\nname = \"s\"\nsegment = [[0.5, 0], [-2, 0]]\n"));
@@ -148,7 +148,7 @@ TEST(Foundations, EveryShapeHoldsWhatLiesOnIt) {
   EXPECT_TRUE(Stands(Anchored("box = [1, 2]\nposition = [0, 19]"), 20)) << "anywhere";
 }
 
-TEST(Foundations, WhatIsBesideOrAboveOrFurtherBelowHoldsNothing) {
+TEST(Foundations, ShapesBesideAboveOrFurtherBelowDoNotSupport) {
   EXPECT_FALSE(Stands(""));
   EXPECT_FALSE(Stands(Anchored("box = [1, 9]\nposition = [-0.5, 0]"))) << "a rock beside it";
   EXPECT_FALSE(Stands(Anchored("box = [1, 2]\nposition = [0.25, 3]"))) << "it hangs below that";
@@ -165,7 +165,7 @@ const std::string kPedestal =
     Ground("[-50, -5], [50, -5]") +
     "[[part]]\nname = \"rock\"\nanchored = true\nbox = [3, 5]\nposition = [1, -2.5]\n";
 
-TEST(Foundations, WhatStandsOnAPartFallsWhenThatIsRemovedOrFreed) {
+TEST(Foundations, BricksOnAPartFallWhenItIsRemovedOrFreed) {
   const std::string text = kPedestal + Bricks("hut", 0, 0, 4, 8);
   for (const Edit& edit : {Edit(RemoveEdit{1}), Edit(FreeEdit{1})}) {
     Topology topology(ParseScene(text, "hut.toml"));
@@ -181,7 +181,7 @@ TEST(Foundations, WhatStandsOnAPartFallsWhenThatIsRemovedOrFreed) {
   EXPECT_FALSE(other.hanging().has_value()) << "it does not lie on that one";
 }
 
-TEST(Foundations, OneOfTwoPartsIsEnough) {
+TEST(Foundations, OneOfTwoPartsSuffices) {
   const std::string text =
       kPedestal + Anchored("box = [1, 5]\nposition = [3.5, -2.5]") + Bricks("hut", 0, 0, 8, 8);
   std::string two = text;
@@ -190,7 +190,7 @@ TEST(Foundations, OneOfTwoPartsIsEnough) {
   EXPECT_EQ(After(two, {Edit(RemoveEdit{1}), Edit(RemoveEdit{2})}).BricksLeft().size(), 0u);
 }
 
-TEST(Foundations, WhoJoinsLaterHasTheSameBricks) {
+TEST(Foundations, ALatecomerHasTheSameBricks) {
   const std::string text = kPedestal + Bricks("hut", 0, 0, 4, 8) + Bricks("low", 4, -5, 4, 8) +
                            Bricks("deck", 2, 0, 8, 1);
   const Scene scene = ParseScene(text, "join.toml");

@@ -1,4 +1,4 @@
-/// Connectors: who joins, where, once, and when again.
+/// Connectors: which pieces join, where, once, and when again.
 
 #include "common/topology/join.h"
 
@@ -51,7 +51,7 @@ TEST(Join, AnInletTakesOneOutlet) {
   EXPECT_EQ(bonds, 1);
 }
 
-TEST(Join, WhatLooksTheWrongWayOrDoesNotComeNearerDoesNotJoin) {
+TEST(Join, MisalignedOrRecedingPiecesDoNotJoin) {
   auto turned = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0,
                                                     "angle = 0.5\n"
                                                     "velocity = [-0.5, 0]"),
@@ -64,7 +64,7 @@ TEST(Join, WhatLooksTheWrongWayOrDoesNotComeNearerDoesNotJoin) {
   EXPECT_TRUE(Live(still.get(), 30).empty());
 }
 
-TEST(Join, WhatWasTornApartJoinsAgainOnlyAfterASecond) {
+TEST(Join, BrokenPiecesJoinAgainOnlyAfterASecond) {
   auto world = SmallWorld(
       Brick("a", 0, 0) + Brick("b", 1, 0) +
           "[[joint]]\nname = \"glue\"\nkind = \"glue\"\na = \"a\"\nb = \"b\"\nstrength = 5\n",
@@ -84,7 +84,7 @@ TEST(Join, WhatWasTornApartJoinsAgainOnlyAfterASecond) {
   EXPECT_EQ(world->body_count(), 1);
 }
 
-TEST(Join, OnlyWhatConnectorsWouldDoMayBeProposed) {
+TEST(Join, OnlyBondsOfConnectorsMayBeProposed) {
   auto world = SmallWorld(Brick("a", 0, 0) + Brick("b", 3, 0) +
                               "[[part]]\nname = \"plain\"\nbox = [1, 1]\nposition = [6, 0]\n",
                           "", kNoGravity);

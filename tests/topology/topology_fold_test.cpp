@@ -1,5 +1,5 @@
-/// What edits leave behind: a topology built of it is the one that had all the edits, bit for bit,
-/// and damaged entries are refused in one line.
+/// The compacted edit history: a topology rebuilt from it equals the one with all edits, bit for
+/// bit, and damaged entries are refused in one line.
 
 #include "common/topology/topology_fold.h"
 
@@ -16,7 +16,7 @@
 namespace seam {
 namespace topology_fold_test {
 
-/// Of all kinds of joints a few, a seat and a wall to blast.
+/// A few joints of every kind, a seat and a wall to blast.
 const std::string kScene = R"(
 [[player]]
 name = "ann"
@@ -113,7 +113,7 @@ class RandomEdits {
   float Real(float low, float high) { return static_cast<float>(random_.Uniform(low, high)); }
 
  private:
-  /// Names come again when what had them is gone.
+  /// Names are reused after their part is gone.
   std::string Text(const Topology& now) {
     const auto& parts = now.scene().parts;
     const std::string a =
@@ -210,7 +210,7 @@ Status Read(const Scene& scene, const std::vector<Snapshot>& parts, Topology* ou
   return Status::Ok();
 }
 
-TEST(TopologyFold, WhatIsBuiltOfItIsWhatHadAllTheEdits) {
+TEST(TopologyFold, RebuildsTheTopologyOfAllEdits) {
   const Scene scene = ParseScene(kScene, "fold.toml");
   int applied = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(60)); ++seed) {
@@ -241,7 +241,7 @@ TEST(TopologyFold, WhatIsBuiltOfItIsWhatHadAllTheEdits) {
   EXPECT_GT(applied, 1000) << "the edits are worth something";
 }
 
-TEST(TopologyFold, IsAsLongAsWhatIsThereAndNotAsItsPast) {
+TEST(TopologyFold, GrowsWithTheTopologyAndNotWithItsHistory) {
   const Scene scene = ParseScene(kScene, "fold.toml");
   Topology now(scene);
   TopologyFold fold(now);
@@ -265,7 +265,7 @@ TEST(TopologyFold, IsAsLongAsWhatIsThereAndNotAsItsPast) {
   ExpectSame(now, built);
 }
 
-TEST(TopologyFold, DamagedSnapshotsAreRefusedOrAreWorldsThatCanBe) {
+TEST(TopologyFold, DamagedSnapshotsAreRefusedOrAreValidWorlds) {
   const Scene scene = ParseScene(kScene, "fold.toml");
   RandomEdits edits(7);
   Topology now(scene);
@@ -313,7 +313,7 @@ TEST(TopologyFold, DamagedSnapshotsAreRefusedOrAreWorldsThatCanBe) {
   EXPECT_GT(refused, 100);
 }
 
-TEST(TopologyFold, AnInsertBeyondThePartsThatThereMayEverBeIsRefusedAndTheRestGoesOn) {
+TEST(TopologyFold, AnInsertBeyondTheLimitOfPartsIsRefusedAndTheRestGoesOn) {
   const Scene scene = ParseScene(kScene, "fold.toml");
   TopologyEntry almost;
   almost.kind = TopologyEntry::Kind::kParts;
@@ -329,7 +329,7 @@ TEST(TopologyFold, AnInsertBeyondThePartsThatThereMayEverBeIsRefusedAndTheRestGo
   EXPECT_EQ(topology.revision(), 60002);
 }
 
-TEST(TopologyFold, APlaceThatABondHasLeftIsTakenByTheNext) {
+TEST(TopologyFold, ABrokenBondsSlotIsReused) {
   const Scene scene = ParseScene(kScene, "fold.toml");
   Topology topology(scene);
   const auto scenes = static_cast<std::int32_t>(scene.joints.size());

@@ -62,7 +62,7 @@ Momentum MomentumOf(const World& world) {
   return sum;
 }
 
-/// Where a part is, whichever body it belongs to.
+/// Pose of a part, in whichever body it is.
 BodyState WhereIs(const World& world, PartId part) {
   const Composition& c = world.composition();
   const Assembly& assembly =
@@ -117,7 +117,7 @@ TEST(Topology, ABrokenBondSplitsABodyAndKeepsMomentumAndAngularMomentum) {
   EXPECT_NEAR(world->Read(1).spin, 4, 1e-6);
 }
 
-TEST(Topology, WhatWasGluedAgainMovesAsIfItHadNeverBeenBroken) {
+TEST(Topology, ARegluedBodyMovesAsIfNeverBroken) {
   auto broken = Thrown(), whole = Thrown();
   broken->Apply({Break(1)});
   broken->Apply({Bond(1, 2, 1.25f, 0, 0)});
@@ -160,7 +160,7 @@ TEST(Topology, BondsMoveThePlacesOfAWholeSide) {
   EXPECT_NEAR(c.angle, quarter, 1e-6);
 }
 
-TEST(Topology, AHingeStillHoldsWhenWhatItHoldsIsBonded) {
+TEST(Topology, AHingeStillHoldsWhenItsBodyIsBonded) {
   auto world = SmallWorld(Part("ground", 1, 1, 0, 5, "anchored = true") +
                           Part("rod", 1, 0.2, 1, 5) + Part("tip", 0.4, 0.4, 4, 4) +
                           Joint("revolute", "ground", "rod", "anchor = [0.5, 5]"));
@@ -189,7 +189,7 @@ TEST(Topology, AStackStandsOnThroughAnEditElsewhere) {
   EXPECT_LT(after.velocity.norm(), 2e-3);
 }
 
-TEST(Topology, EditsThatCannotBeCountAndDoNothing) {
+TEST(Topology, ImpossibleEditsCountAndDoNothing) {
   auto world = Thrown();
   const std::uint64_t hash = world->composition().hash;
   const Edit insert(InsertEdit{"[[part]]\nname = \"a\"\nbox = [1, 1]\n"});  // a name that is taken
@@ -241,7 +241,7 @@ TEST(Topology, PartsComeAndGo) {
   EXPECT_GT(world->Read(0).position.x(), 3.4f);
 }
 
-TEST(Topology, WhatIsFreedFalls) {
+TEST(Topology, AFreedPartFalls) {
   auto world = SmallWorld(Part("held", 1, 1, 0, 5, "anchored = true") + Part("hung", 1, 1, 1, 5) +
                           Joint("weld", "held", "hung"));
   EXPECT_EQ(world->body_count(), 0);
@@ -313,7 +313,7 @@ TEST(Topology, ABondWithinAMechanismCarriesNothingAlong) {
   EXPECT_EQ(PartPose(*world, 1).position, arm.position);
 }
 
-TEST(Topology, ABondWithWhatIsAnchoredCarriesTheMechanismAlong) {
+TEST(Topology, ABondWithAnAnchoredPartCarriesTheMechanismAlong) {
   const std::string scene = Part("box", 1, 1, 0, 0) + Part("arm", 0.2, 1, 0, -1) +
                             Part("post", 1, 4, 5, 0, "anchored = true") +
                             Joint("revolute", "box", "arm", "anchor = [0, -0.5]");

@@ -43,6 +43,14 @@ Flag Command::Option(const std::string& names, float& value, const std::string& 
 Flag Command::Option(const std::string& names, double& value, const std::string& about) {
   return Flag(app_->add_option(names, value, about));
 }
+Flag Command::Option(const std::string& names, std::optional<int>& value,
+                     const std::string& about) {
+  return Flag(app_->add_option(names, value, about));
+}
+Flag Command::Option(const std::string& names, std::optional<double>& value,
+                     const std::string& about) {
+  return Flag(app_->add_option(names, value, about));
+}
 Flag Command::Option(const std::string& names, std::vector<std::string>& values,
                      const std::string& about) {
   return Flag(app_->add_option(names, values, about));

@@ -5,7 +5,7 @@
 namespace seam {
 namespace {
 
-std::string Quoted(const std::string& text) {
+std::string QuotedForFish(const std::string& text) {
   std::string out = "'";
   for (const char c : text)
     out += c == '\'' || c == '\\' ? std::string("\\") + c : std::string(1, c);
@@ -31,21 +31,22 @@ std::string Names(const FlagEntry& flag) {
 void AddCommand(const CommandEntry& command, const std::string& program,
                 const std::string& condition, std::string* script) {
   const std::string begin =
-      "complete -c " + program + (condition.empty() ? "" : " -n " + Quoted(condition));
+      "complete -c " + program + (condition.empty() ? "" : " -n " + QuotedForFish(condition));
   for (const FlagEntry& flag : command.flags) {
-    const std::string values = flag.values.empty() ? "" : " -a " + Quoted(Joined(flag.values));
+    const std::string values =
+        flag.values.empty() ? "" : " -a " + QuotedForFish(Joined(flag.values));
     if (flag.names.empty()) {
-      if (!values.empty()) *script += begin + values + " -d " + Quoted(flag.word) + "\n";
+      if (!values.empty()) *script += begin + values + " -d " + QuotedForFish(flag.word) + "\n";
       continue;
     }
     std::string line = begin + Names(flag);
     if (flag.takes_value) line += values.empty() ? " -r" : " -x" + values;
-    *script += line + " -d " + Quoted(flag.about) + "\n";
+    *script += line + " -d " + QuotedForFish(flag.about) + "\n";
   }
   for (const CommandEntry& sub : command.commands) {
     const std::string here = condition.empty() ? "__fish_use_subcommand" : condition;
-    *script += "complete -c " + program + " -n " + Quoted(here) + " -a " + sub.name + " -d " +
-               Quoted(sub.about) + "\n";
+    *script += "complete -c " + program + " -n " + QuotedForFish(here) + " -a " + sub.name +
+               " -d " + QuotedForFish(sub.about) + "\n";
     AddCommand(sub, program, "__fish_seen_subcommand_from " + sub.name, script);
   }
 }

@@ -6,7 +6,7 @@ namespace seam {
 namespace {
 
 /// Escapes text for single quotes of the shell and for the brackets and colons of _arguments.
-std::string Quoted(const std::string& text) {
+std::string QuotedForZsh(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '\'') {
@@ -23,7 +23,8 @@ std::string Quoted(const std::string& text) {
 std::string Values(const FlagEntry& flag) {
   if (flag.values.empty()) return "_files";
   std::string all;
-  for (const std::string& value : flag.values) all += (all.empty() ? "" : " ") + Quoted(value);
+  for (const std::string& value : flag.values)
+    all += (all.empty() ? "" : " ") + QuotedForZsh(value);
   return "(" + all + ")";
 }
 
@@ -32,14 +33,15 @@ std::string Arguments(const CommandEntry& command) {
   std::string lines;
   for (const FlagEntry& flag : command.flags) {
     for (const std::string& name : flag.names) {
-      lines += "    '*" + name + "[" + Quoted(flag.about) + "]";
+      lines += "    '*" + name + "[" + QuotedForZsh(flag.about) + "]";
       lines += (flag.takes_value ? ":value:" + Values(flag) : "") + "' \\\n";
     }
     // A scene may be a file as well as a name.
     if (flag.names.empty() && flag.values.empty()) {
-      lines += "    '*:" + Quoted(flag.word) + ":_files' \\\n";
+      lines += "    '*:" + QuotedForZsh(flag.word) + ":_files' \\\n";
     } else if (flag.names.empty()) {
-      lines += "    '*:" + Quoted(flag.word) + ":{compadd - " + Quoted(Values(flag).substr(1));
+      lines += "    '*:" + QuotedForZsh(flag.word) + ":{compadd - " +
+               QuotedForZsh(Values(flag).substr(1));
       lines.pop_back();
       lines += "; _files}' \\\n";
     }
@@ -58,7 +60,7 @@ void AddFunction(const CommandEntry& command, const std::string& function, std::
   }
   *script += "  local -a commands=(\n";
   for (const CommandEntry& sub : command.commands) {
-    *script += "    '" + sub.name + ":" + Quoted(sub.about) + "'\n";
+    *script += "    '" + sub.name + ":" + QuotedForZsh(sub.about) + "'\n";
   }
   *script += "  )\n  if (( CURRENT > 2 )); then\n    case \"$words[2]\" in\n";
   for (const CommandEntry& sub : command.commands) {

@@ -121,12 +121,12 @@ class AdaptiveGolomb {
   int k() const { return quarters_ / 4; }
   void Note(std::uint32_t value) {
     const int width = BitWidth(value), now = k();
-    if (width > now) quarters_ = std::min(quarters_ + 1, 4 * kMost + 3);
+    if (width > now) quarters_ = std::min(quarters_ + 1, 4 * kParameterMax + 3);
     if (width < now) --quarters_;
   }
 
  private:
-  static constexpr int kMost = 16;
+  static constexpr int kParameterMax = 16;
   int quarters_;
 };
 

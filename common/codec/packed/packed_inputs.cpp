@@ -17,7 +17,7 @@ constexpr int kGapBits = 1, kApartBits = 1, kTicksBits = 2;
 constexpr std::size_t kEntryBitsMost = 1 + kTickBits + 17 + 25 + 13;
 constexpr std::size_t kTickBitsMost = 1 + 3 + 8 + 8 + 16;
 /// Largest distance of the newest ticks of two players in one message.
-constexpr std::int64_t kApartMost = 1000;
+constexpr std::int64_t kTicksApartMax = 1000;
 
 /// Inputs of one tick; all 0 before the first.
 struct Held {
@@ -81,7 +81,7 @@ bool InputsPacker::Add(const Inputs& inputs, std::size_t newest) {
   const std::size_t most = 1 + (kEntryBitsMost + kTickBitsMost * ticks + 1) / 8;
   const bool fits = bits_.size() + most <= kPackedBytesMax;
   if (!empty() &&
-      (!fits || inputs.player <= player_ || apart > kApartMost || apart < -kApartMost)) {
+      (!fits || inputs.player <= player_ || apart > kTicksApartMax || apart < -kTicksApartMax)) {
     return false;
   }
   if (empty()) {

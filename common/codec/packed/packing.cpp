@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/codec/quanta.h"
+
 namespace seam {
 namespace {
 
-constexpr double kVelocityUnits = 256;  // per m/s
-constexpr double kFine = 65536;         // per velocity unit
+constexpr double kFine = 65536;  // per velocity unit
 constexpr std::int64_t kTicksMost = 1024;
 /// Angle units per 1/512 rad, times 2^16: 65536 / (2 pi) / 512 * 65536.
-constexpr std::int64_t kTurn = 1335088;
+constexpr std::int64_t kTurnPerQuantum = 1335088;
 
 std::int64_t Ticks(std::int64_t from, std::int64_t to) {
   return std::clamp<std::int64_t>(to - from, -kTicksMost, kTicksMost);
@@ -24,7 +25,7 @@ std::int16_t Low(std::int64_t value) {
 
 PackedMotion::PackedMotion(float x, float y, int hz) : tick_hz(std::max(1, hz)) {
   const auto fine = [&](float g) {
-    const double per_tick = static_cast<double>(g) * kVelocityUnits * kFine / std::max(1, hz);
+    const double per_tick = static_cast<double>(g) * kQuantaPerSpeed * kFine / std::max(1, hz);
     return static_cast<std::int64_t>(std::llround(std::clamp(per_tick, -1e12, 1e12)));
   };
   gravity_x = fine(x);
@@ -51,7 +52,8 @@ void PredictPose(const PackedMotion& motion, const PackedState& from, PackedStat
   };
   to->x = from.x + moved(from.vx, to->vx);
   to->y = from.y + moved(from.vy, to->vy);
-  const std::int64_t turned = (from.spin + to->spin) * ticks * kTurn / motion.tick_hz / 65536;
+  const std::int64_t turned =
+      (from.spin + to->spin) * ticks * kTurnPerQuantum / motion.tick_hz / 65536;
   to->angle = Low(from.angle + turned);
 }
 

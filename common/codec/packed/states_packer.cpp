@@ -4,10 +4,11 @@
 #include <cstdlib>
 #include <utility>
 
+#include "common/codec/quanta.h"
+
 namespace seam {
 namespace {
 
-constexpr std::uint32_t kQuantaPerMetre = 512;
 /// Most messages with contents remembered until they are acknowledged.
 constexpr std::size_t kSentMost = 256;
 /// Time between resends of a lost state, us: the first, and the longest.
@@ -59,10 +60,8 @@ PackedState EntryOf(const States& states, std::size_t i) {
   state.tick = states.tick;
   state.epoch = states.epoch[i];
   state.flags = states.flags[i];
-  state.x = static_cast<std::uint32_t>(states.origin_x) * kQuantaPerMetre +
-            static_cast<std::uint32_t>(states.x[i]);
-  state.y = static_cast<std::uint32_t>(states.origin_y) * kQuantaPerMetre +
-            static_cast<std::uint32_t>(states.y[i]);
+  state.x = static_cast<std::uint32_t>(states.origin_x * kQuantaPerMetre + states.x[i]);
+  state.y = static_cast<std::uint32_t>(states.origin_y * kQuantaPerMetre + states.y[i]);
   state.angle = states.angle[i];
   state.vx = states.vx[i];
   state.vy = states.vy[i];

@@ -6,14 +6,12 @@
 #include <numeric>
 #include <utility>
 
+#include "common/codec/quanta.h"
 #include "common/codec/validate.h"
 
 namespace seam {
 namespace {
 
-constexpr std::int32_t kQuantaPerMetre = 512;
-/// Largest distance from an origin, in quanta (60 m; int16 reaches 64 m).
-constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
 /// Messages by which another may be overtaken without harm. Differences in later messages refer to
 /// the same state or a newer one, so that older states are dropped only after this many.
 constexpr std::int64_t kOvertaken = 64;
@@ -24,9 +22,9 @@ std::int16_t Low(std::uint32_t value) {
 
 /// Returns true if the coordinate is within the range of origins.
 bool InRange(std::uint32_t coordinate) {
-  constexpr std::int64_t kMost = std::int64_t{kOriginMax} * kQuantaPerMetre;
+  constexpr std::int64_t kCoordinateMax = std::int64_t{kOriginMax} * kQuantaPerMetre;
   const std::int64_t value = static_cast<std::int32_t>(coordinate);
-  return value >= -kMost && value <= kMost;
+  return value >= -kCoordinateMax && value <= kCoordinateMax;
 }
 
 void Append(std::int32_t id, const PackedState& state, States* to) {
@@ -45,7 +43,8 @@ void Append(std::int32_t id, const PackedState& state, States* to) {
 
 bool Fits(const States& states, const PackedState& state) {
   const auto near = [](std::int32_t origin, std::uint32_t at) {
-    return std::abs(static_cast<std::int32_t>(at) - origin * kQuantaPerMetre) < kReach;
+    return std::abs(static_cast<std::int32_t>(at) - origin * kQuantaPerMetre) <
+           kOriginReach * kQuantaPerMetre;
   };
   return states.id.size() < kStatesBodiesMax && near(states.origin_x, state.x) &&
          near(states.origin_y, state.y);

@@ -36,10 +36,10 @@ std::map<int, ShownBodies> PartialViews(const Scene& scene, const Recording& rec
 
 std::string PartialViewsText(const std::map<int, ShownBodies>& partial,
                              const std::function<std::string(int)>& name_of) {
-  constexpr std::size_t kNamed = 3;
+  constexpr std::size_t kNamedPeers = 3;
   std::vector<std::string> names;
   for (const auto& [peer, shown] : partial) {
-    if (names.size() == kNamed) break;
+    if (names.size() == kNamedPeers) break;
     names.push_back(fmt::format("{} ({:.0f} of {:.0f})", name_of(peer), shown.shown, shown.of));
   }
   if (names.empty()) return "";

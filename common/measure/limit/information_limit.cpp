@@ -140,9 +140,10 @@ class Guesser {
     for (int body = 0; body < world_.body_count(); ++body) {
       const auto b = static_cast<std::size_t>(body);
       if (own[b]) continue;
-      const double apart = guess.states.empty() ? 0
-                                                : extents_[b].Displacement(DoublePose(guess.states[b]),
-                                                                           DoublePose(world_.Read(body)));
+      const double apart = guess.states.empty()
+                               ? 0
+                               : extents_[b].Displacement(DoublePose(guess.states[b]),
+                                                          DoublePose(world_.Read(body)));
       apart_.Add(apart * apart);
     }
   }

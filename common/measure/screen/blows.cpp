@@ -13,11 +13,11 @@ using Eigen::Vector2d;
 
 /// Duration of an impact, and the gap before and after it at which velocity changes are compared to
 /// distinguish the impact from a lasting force, ticks.
-constexpr std::int64_t kBlowTicks = 2, kAround = 2;
+constexpr std::int64_t kBlowTicks = 2, kBlowAround = 2;
 /// Greatest lead and lag of a view against the oracle, s.
 constexpr double kEarly = 0.1, kLate = 1.0;
 /// Greatest gap of touching bodies, m.
-constexpr double kTouch = 0.1;
+constexpr double kTouchingGap = 0.1;
 constexpr std::int64_t kNeverTick = std::numeric_limits<std::int64_t>::max() / 2;
 
 /// Returns the velocity in the step that leads to `tick`, m/s.
@@ -32,7 +32,7 @@ void Blows::Begin(PartId id, const BodyPath& truth, double radius) {
   const auto change = [&](std::int64_t tick) -> Vector2d {
     return Velocity(truth, tick + kBlowTicks, h_) - Velocity(truth, tick, h_);
   };
-  const std::int64_t reach = kBlowTicks + kAround;
+  const std::int64_t reach = kBlowTicks + kBlowAround;
   for (std::int64_t tick = truth.first() + reach + 1; tick + 2 * reach <= truth.last(); ++tick) {
     if (!truth.Whole(tick - reach - 1, tick + 2 * reach)) continue;
     const Vector2d dv = change(tick);
@@ -95,7 +95,7 @@ void Blows::Notice(BodySeconds* seconds) const {
     for (std::size_t k = i + 1; k < order.size() && order[k]->tick <= order[i]->tick + 1; ++k) {
       const Blow &a = *order[i], &b = *order[k];
       const double apart = (a.position - b.position).norm();
-      if (a.id == b.id || apart > a.radius + b.radius + kTouch) continue;
+      if (a.id == b.id || apart > a.radius + b.radius + kTouchingGap) continue;
       compare(a, b);
       compare(b, a);
     }

@@ -4,7 +4,8 @@
 
 namespace seam {
 
-std::optional<DoublePose> TruthShown(const BodyPath& truth, const ViewAges& ages, std::int64_t tick) {
+std::optional<DoublePose> TruthShown(const BodyPath& truth, const ViewAges& ages,
+                                     std::int64_t tick) {
   const double shown = static_cast<double>(tick) - ages.TicksAt(tick);
   const double at = std::max(shown, static_cast<double>(truth.first()));
   if (truth.Has(at)) return truth.At(at);

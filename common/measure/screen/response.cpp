@@ -16,10 +16,10 @@ namespace {
 constexpr int kChangesMax = 16;     ///< examined changes of each player
 constexpr double kHorizon = 1;      ///< s: greatest response time
 constexpr double kEffectMin = 0.2;  ///< m/s: weaker inputs are left out
-/// A body responds when the input has changed its velocity by kAnswer, m/s, for kKept ticks. The
-/// threshold is low because the onset tells most: a late body catches up.
+/// A body responds when the input has changed its velocity by kAnswer, m/s, for kAnswerTicks ticks.
+/// The threshold is low because the onset tells most: a late body catches up.
 constexpr double kAnswer = 0.1;
-constexpr std::int64_t kKept = 3;
+constexpr std::int64_t kAnswerTicks = 3;
 /// The change must also exceed the velocity error before the change: its mean and its standard
 /// deviation, each times its factor.
 constexpr double kBiasFactor = 1.5, kNoiseFactor = 3;
@@ -142,8 +142,8 @@ std::optional<Answer> AnswerOf(const Question& question, const Difference& scree
   for (std::int64_t tick = first; tick < end; ++tick) {
     const std::optional<double> off = screen.At(tick);
     kept = off && *off >= due ? kept + 1 : 0;
-    if (kept < kKept) continue;
-    const std::int64_t answer = tick - kKept + 1;
+    if (kept < kAnswerTicks) continue;
+    const std::int64_t answer = tick - kAnswerTicks + 1;
     if (answer < *truth - 1) return std::nullopt;
     return Answer{static_cast<double>(answer), *truth};
   }

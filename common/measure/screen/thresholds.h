@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
+
 namespace seam {
 
 /// Tolerated velocity error as a share of the velocity: over one tick, and over kVelocityLong.
@@ -23,7 +25,7 @@ constexpr double kStopShare = 0.1;
 
 /// Least noticed bend of the path, rad; duration of the legs before and after it over which the
 /// directions are taken, s; least speed on both legs, m/s.
-constexpr double kKink = 12 * 3.14159265358979323846 / 180, kKinkLeg = 0.05, kKinkSpeedMin = 0.5;
+constexpr double kKink = 12 * kPi / 180, kKinkLeg = 0.05, kKinkSpeedMin = 0.5;
 /// Bends of the oracle's path within this time of a bend excuse it, s.
 constexpr double kKinkReach = 0.1;
 

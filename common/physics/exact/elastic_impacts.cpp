@@ -13,7 +13,8 @@ namespace {
 
 /// Restitution from here on counts as 1.
 constexpr float kEverything = 0.999f;
-/// Speed above which a body has an impact even without gravity, m/s; added to the fall of kRestSteps.
+/// Speed above which a body has an impact even without gravity, m/s; added to the fall of
+/// kRestSteps.
 constexpr double kSlowestElastic = 1e-3;
 /// Impacts per contact in one step; and limit of contact checks in a step, which must end even
 /// where thousands of bodies start in one place.
@@ -21,7 +22,7 @@ constexpr std::size_t kElasticImpactsEach = 8, kLooksMost = 5000000;
 /// Iterations over the points and directions of a contact, until no impulse changes by more than
 /// this share.
 constexpr int kSweepsMax = 300;
-constexpr double kSame = 1e-12;
+constexpr double kSettledShare = 1e-12;
 /// A gain of energy up to this share counts as rounding.
 constexpr double kRounded = 1e-7;
 constexpr double kFast = 1e9;  // m/s, faster than anything
@@ -199,7 +200,7 @@ double ElasticImpacts::Solve(const Touch& touch, double share, double* pushed, d
       change = std::max(change, std::fabs(rub - rubbed[i]));
       rubbed[i] = rub;
     }
-    if (change <= kSame * most) break;
+    if (change <= kSettledShare * most) break;
   }
   const double gained = energy(a) + energy(b) - before;
   return friction > 0 && gained > kRounded * before ? gained : 0;

@@ -13,7 +13,7 @@ namespace seam {
 namespace {
 
 /// Bounds of the scale of internal velocities in one projection.
-constexpr double kLeast = 0.5, kMost = 2;
+constexpr double kScaleMin = 0.5, kScaleMax = 2;
 /// Internal energy below this share of the energy is rounding.
 constexpr double kLittle = 1e-12;
 
@@ -123,8 +123,9 @@ void ExactIsland::Arrive() {
     const double turns = is.spin / is.inertia, turned = was.spin / is.inertia;
     const double inner = is.energy - is.spin * turns / 2;
     const double wanted = was.energy - was.spin * turned / 2;
-    const double scale =
-        inner > kLittle * is.energy ? std::sqrt(std::clamp(wanted / inner, kLeast, kMost)) : 1;
+    const double scale = inner > kLittle * is.energy
+                             ? std::sqrt(std::clamp(wanted / inner, kScaleMin, kScaleMax))
+                             : 1;
     for (int i = 0; i < flight.bodies; ++i) {
       ExactBody& q = Body(flight_bodies_[static_cast<std::size_t>(flight.first_body + i)]);
       const double rx = q.x - is.x, ry = q.y - is.y;

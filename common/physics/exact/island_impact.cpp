@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/physics/exact/island.h"
-
 #include "common/physics/exact/shared_rules.h"
 
 namespace seam {

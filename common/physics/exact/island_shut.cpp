@@ -15,11 +15,11 @@ constexpr double kShut = 1e-9, kShutTouching = 1e-7;
 constexpr int kCorrections = 8;
 /// Maximal speed of a correction, m/s or rad/s; and softness of contacts, as a share.
 constexpr double kShutFastest = 8, kYield = 1e-3;
-/// The matrix is rebuilt when a correction leaves more than kSlow of the error. Not before:
+/// The matrix is rebuilt when a correction leaves more than kRebuildShare of the error. Not before:
 /// impulses along the rows of the old pose keep the energy, and those along other rows lose some.
 /// But if contacts press, which takes energy anyway, it is rebuilt as soon as a body turns by more
 /// than kTurnsFast, rad.
-constexpr double kSlow = 0.3, kTurnsFast = 0.25;
+constexpr double kRebuildShare = 0.3, kTurnsFast = 0.25;
 /// Redundant joints contradict each other by the rounding of their lengths in single precision. So
 /// if a correction with a new matrix leaves more than kStalled of an error below kShutAtBest, m or
 /// rad, joints are closed as far as possible.
@@ -115,7 +115,7 @@ bool ExactIsland::ShutJoints(const Pace& pace) {
     if (far < (contacts.empty() ? kShut : kShutTouching)) return true;
     if (anew && far < kShutAtBest && far > kStalled * last) return true;
     if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
-    if (!anew && tries > 0 && far > kSlow * last) {
+    if (!anew && tries > 0 && far > kRebuildShare * last) {
       anew = true;
       RightHandSides(pace, anew, &slope);
     }

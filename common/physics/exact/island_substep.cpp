@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "common/physics/exact/island.h"
-
 #include "common/physics/exact/shared_rules.h"
 
 namespace seam {
@@ -15,7 +14,7 @@ namespace {
 
 /// Share of the rotational stiffness by tension that is added to a body's inertia (after Tournier,
 /// Nesme, Gilles and Faure 2015: as much as keeps the step stable).
-constexpr double kStiffness = 0.35;
+constexpr double kTensionShare = 0.35;
 /// It counts in full from this ratio of stiffness to inertia on, and below kStiffFrom not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
 /// A little less than that, to allow for rounding.
@@ -149,7 +148,7 @@ double ExactIsland::Stiffened(const ExactBody& q) {
   const double tense = std::min(std::max(q.stiffness, q.lasting), kStiffMost * q.inertia);
   if (tense < kSurelyLittle * q.inertia) return q.inertia;
   const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
-  return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
+  return q.inertia + kTensionShare * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
 
 void ExactIsland::Tension(double h) {

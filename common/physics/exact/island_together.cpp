@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/physics/exact/island.h"
-
 #include "common/physics/exact/shared_rules.h"
 
 namespace seam {

@@ -40,14 +40,14 @@ void ReadGear(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
 }
 
 void ReadPulley(const SceneReader& r, Joint* joint) {
-  constexpr float kLeast = 0.1f;  // m; at less, the engine finds no direction of the rope
+  constexpr float kRopeMin = 0.1f;  // m; at less, the engine finds no direction of the rope
   joint->ground_a = r.Vector("ground_a", kCoordinate);
   joint->ground_b = r.Vector("ground_b", kCoordinate);
   joint->ratio = ReadRatio(r, 0);
   const float on_a = (joint->anchor_a - joint->ground_a).norm();
   const float on_b = (joint->anchor_b - joint->ground_b).norm();
   for (const auto& [key, length] : {std::pair("ground_a", on_a), std::pair("ground_b", on_b)}) {
-    if (length < kLeast) r.FailAt(key, "is closer than " + Decimal(double{kLeast}) + " m");
+    if (length < kRopeMin) r.FailAt(key, "is closer than " + Decimal(double{kRopeMin}) + " m");
   }
   joint->length = r.Number("length", {kEdgeMin, 10000}, on_a + joint->ratio * on_b);
 }

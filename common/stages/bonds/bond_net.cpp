@@ -2,25 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "common/base/disjoint_sets.h"
 
 namespace seam {
 namespace {
 
 /// Residual at which the iteration stops, relative to the forces.
 constexpr double kResidual = 1e-10;
-
-/// Returns the representative of a set: its lowest index.
-int NameOf(std::vector<int>* of, int i) {
-  while ((*of)[static_cast<std::size_t>(i)] != i) i = (*of)[static_cast<std::size_t>(i)];
-  return i;
-}
-
-void Unite(std::vector<int>* of, int a, int b) {
-  a = NameOf(of, a);
-  b = NameOf(of, b);
-  (*of)[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-}
 
 int PlaceOf(const std::vector<PartId>& parts, PartId part) {
   const auto at = std::lower_bound(parts.begin(), parts.end(), part);
@@ -79,12 +68,11 @@ int BondNet::NodeOf(PartId part) const {
 BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<int>& joints) {
   BondNet net;
   net.parts = assembly.parts;
-  std::vector<int> of(net.parts.size());
-  std::iota(of.begin(), of.end(), 0);
+  DisjointSets nodes(net.parts.size());
   int anchored = -1;
   for (std::size_t i = 0; i < net.parts.size(); ++i) {
     if (!scene.parts[static_cast<std::size_t>(net.parts[i])].anchored) continue;
-    if (anchored >= 0) Unite(&of, anchored, static_cast<int>(i));
+    if (anchored >= 0) nodes.Unite(anchored, static_cast<int>(i));
     anchored = static_cast<int>(i);
   }
   std::vector<BondNet::Bond> bonds;
@@ -96,14 +84,13 @@ BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<in
     if (CanBreak(joint)) {
       bonds.push_back({a, b, j, static_cast<double>(joint.strength)});
     } else {
-      Unite(&of, a, b);
+      nodes.Unite(a, b);
     }
   }
   net.node_of.resize(net.parts.size());
   for (std::size_t i = 0; i < net.parts.size(); ++i) {
-    const int name = NameOf(&of, static_cast<int>(i));
-    net.node_of[i] =
-        name == static_cast<int>(i) ? net.nodes++ : net.node_of[static_cast<std::size_t>(name)];
+    const auto first = static_cast<std::size_t>(nodes.Find(static_cast<int>(i)));
+    net.node_of[i] = first == i ? net.nodes++ : net.node_of[first];
   }
   if (anchored >= 0) net.anchor = net.node_of[static_cast<std::size_t>(anchored)];
   for (BondNet::Bond bond : bonds) {

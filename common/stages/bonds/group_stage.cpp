@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
+#include "common/base/disjoint_sets.h"
+#include "common/base/geometry.h"
 #include "common/physics/world_shapes.h"
 #include "common/scene/grouping.h"
 #include "common/stages/bonds/relative_rest.h"
@@ -25,7 +26,7 @@ std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition)
 
 /// A group is undone only by a relative motion this many times that at which one forms: otherwise
 /// groups would come and go.
-constexpr float kApart = 2;
+constexpr float kUndoneFactor = 2;
 /// Two bodies will meet soon if their gap is below kMeetGap, m, plus kMeetTicks at their relative
 /// speed: no less than the engine's boxes are enlarged by and look ahead.
 constexpr float kMeetGap = 2 * b2_aabbExtension, kMeetTicks = 4;
@@ -125,7 +126,8 @@ RelativeMotion GroupStage::Disturb(b2Contact* contact) {
   const auto wakes = [](b2Body* b) { return b->GetType() != b2_staticBody && b->IsAwake(); };
   if (!wakes(bodies[0]) && !wakes(bodies[1])) return {};
   const RelativeMotion motion = MotionAt(w_, contact);
-  const bool moved = motion.speed > kApart * kRestSpeed || motion.spin > kApart * kRestSpin;
+  const bool moved =
+      motion.speed > kUndoneFactor * kRestSpeed || motion.spin > kUndoneFactor * kRestSpin;
   const float way = kMeetTicks * motion.speed / static_cast<float>(w_.scene.solver.tick_hz);
   if (moved && GapOf(contact) <= kMeetGap + way) Note(*contact, State::kDisturbed);
   return motion;
@@ -214,7 +216,7 @@ BondEdit GroupStage::BondOf(int body, int other) const {
   edit.a = a.id;
   edit.b = b.id;
   edit.position = FromB2(place);
-  edit.angle = std::remainder(b.body->GetAngle() - a.body->GetAngle(), 6.2831853f);
+  edit.angle = std::remainder(b.body->GetAngle() - a.body->GetAngle(), 2 * kPiFloat);
   return edit;
 }
 
@@ -225,16 +227,10 @@ void GroupStage::ProposeEdits(std::vector<Edit>* edits) {
   }
   if (stale_) return;  // the bodies have already changed
   // Of all touching pairs, only enough bonds to hold each body once.
-  std::vector<int> group(w_.built.moving.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto name = [&group](int i) {
-    while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
-    return i;
-  };
+  DisjointSets groups(w_.built.moving.size());
   for (const auto& [body, other] : resting_) {
-    const int one = name(body), two = name(other);
-    if (one == two) continue;
-    group[static_cast<std::size_t>(std::max(one, two))] = std::min(one, two);
+    if (groups.Same(body, other)) continue;
+    groups.Unite(body, other);
     edits->emplace_back(BondOf(body, other));
   }
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// Time ahead for which a body's path gets fixtures, s, and the cells per tick for that. Cells that
 /// the body could touch within the tick do not count: they get fixtures at once.
-constexpr float kAhead = 0.2f;
+constexpr float kPathAhead = 0.2f;
 constexpr int kCellsPerTick = 2;
 /// m; a body's cells beyond this distance are dropped.
 constexpr float kKeep = 4;
@@ -139,8 +139,8 @@ class FeatherStage : public Stage {
         {store_.cell_x_min(), store_.cell_y_min(), store_.cell_x_max(), store_.cell_y_max()});
   }
   static int Cell(float metres) {
-    constexpr float kSide = FeatherStore::kCell * kBrickUnit, kFar = 1e6f;
-    return static_cast<int>(std::floor(std::clamp(metres, -kFar, kFar) / kSide));
+    constexpr float kSide = FeatherStore::kCell * kBrickUnit, kCellsFar = 1e6f;
+    return static_cast<int>(std::floor(std::clamp(metres, -kCellsFar, kCellsFar) / kSide));
   }
 
   void Stream(int budget) {
@@ -156,8 +156,8 @@ class FeatherStage : public Stage {
       const float speed = std::max(kSpeedMax, body.GetLinearVelocity().Length());
       const float margin = kFat + std::min(most_, speed * tick_s_);
       const CellRange must = CellsNear(body, f.reach, margin, 0);
-      const CellRange ahead = CellsNear(body, f.reach, margin, kAhead);
-      const CellRange keep = CellsNear(body, f.reach, margin + kKeep, kAhead);
+      const CellRange ahead = CellsNear(body, f.reach, margin, kPathAhead);
+      const CellRange keep = CellsNear(body, f.reach, margin + kKeep, kPathAhead);
       CellRange want = f.cells.Within(keep).With(must);
       if (!want.Contains(ahead) && budget > 0) want = want.With(ahead);
       if (!want.Contains(f.cells) || !f.cells.Contains(want)) budget -= Want(want, &f);

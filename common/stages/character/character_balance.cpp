@@ -72,12 +72,11 @@ CharacterControl::LegPose CharacterControl::PoseFor(b2Vec2 way) const {
 /// Moves the ankle to a moving point, and the foot to an angle, all in the own frame.
 void CharacterControl::Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity,
                              float foot, float stiffness) {
-  constexpr float kAhead = 0.01f;  // s, for the rates of the angles
   const b2Vec2 way = ankle - s.hip;
   const LegPose now = PoseFor(way);
-  const LegPose then = PoseFor(way + kAhead * (velocity - s.hip_velocity));
-  const float thigh_spin = (then.thigh - now.thigh) / kAhead;
-  const float knee_spin = (then.knee - now.knee) / kAhead;
+  const LegPose then = PoseFor(way + kDerivativeStep * (velocity - s.hip_velocity));
+  const float thigh_spin = (then.thigh - now.thigh) / kDerivativeStep;
+  const float knee_spin = (then.knee - now.knee) / kDerivativeStep;
   Pose(Hip(side), now.thigh - s.torso, stiffness, thigh_spin - s.torso_spin, gains_.hip_rate);
   Pose(Knee(side), now.knee, stiffness, knee_spin);
   Pose(Ankle(side), foot - s.legs[side].shank, gains_.ankle_stiffness);

@@ -27,6 +27,8 @@ enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLim
 
 /// m; x of an absent edge.
 constexpr float kNoEdge = 1e6f;
+/// s; step of numeric derivatives.
+constexpr float kDerivativeStep = 0.01f;
 
 /// State of a controller; numbers only, so that a world can save it.
 struct CharacterMemory {

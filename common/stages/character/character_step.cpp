@@ -218,13 +218,12 @@ float CharacterControl::LeastHeight(const CharacterSense& s, int side, const Foo
 }
 
 void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& to) {
-  constexpr float kAhead = 0.01f;  // s, for the foot's velocity
   const float least = LeastHeight(s, side, to);
   b2Vec2 now = SwingAt(memory_.step, to);
-  b2Vec2 then = SwingAt(memory_.step + kAhead, to);
+  b2Vec2 then = SwingAt(memory_.step + kDerivativeStep, to);
   now.y = std::max(now.y, least);
   then.y = std::max(then.y, least);
-  Reach(s, side, now, 1 / kAhead * (then - now), to.slope, gains_.swing_stiffness);
+  Reach(s, side, now, 1 / kDerivativeStep * (then - now), to.slope, gains_.swing_stiffness);
 }
 
 void CharacterControl::StepOn(const CharacterSense& s, float h) {

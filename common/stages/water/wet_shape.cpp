@@ -15,7 +15,7 @@ namespace {
 /// neither covers the other.
 constexpr double kLookOut = 1e-3, kLarger = 5e-4;
 /// Shorter pieces of edges are left out, m.
-constexpr double kEdgeMin = 2e-3;
+constexpr double kWetEdgeMin = 2e-3;
 
 using Span = std::pair<double, double>;  // of an edge, 0..1
 
@@ -137,7 +137,7 @@ void AddUncovered(const WetEdge& edge, std::vector<Span> covered, std::vector<We
   const Vec2d along = edge.to - edge.from;
   double open = 0;
   for (const Span& span : covered) {
-    if ((span.first - open) * along.norm() > kEdgeMin) {
+    if ((span.first - open) * along.norm() > kWetEdgeMin) {
       out->push_back({edge.from + open * along, edge.from + std::min(1.0, span.first) * along,
                       edge.normal, edge.arc});
     }

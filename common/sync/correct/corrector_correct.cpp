@@ -18,16 +18,13 @@ constexpr float kQuiet = 0.1f;
 /// smallest one counts. 5 ticks match other collisions too; 2 miss some of the same.
 constexpr std::int64_t kImpactShift = 3;
 constexpr float kOtherImpact = 1;
-/// Blocked directions of a mechanism that are closer than this count as one: cosine of the angle
-/// between them.
-constexpr float kSameDirection = 0.9f;
 
 /// Largest stable share of a difference to correct at once, when peers correct towards each other
 /// with a delay of `dt` s, `send_hz` times a second.
 float GainFor(float dt, int send_hz) {
   // A pure correction delayed by d updates is stable below 2 sin(pi / (2 (2 d + 1))).
   const double d = std::ceil(static_cast<double>(dt) * send_hz);
-  const double limit = 2 * std::sin(3.14159265358979 / (2 * (2 * d + 1)));
+  const double limit = 2 * std::sin(kPi / (2 * (2 * d + 1)));
   constexpr double kShareOfLimit = 0.25;  // above 0.4 a tall stack never rests at 200 ms
   return static_cast<float>(std::min(1.0, kShareOfLimit * limit));
 }

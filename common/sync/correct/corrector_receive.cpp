@@ -10,8 +10,7 @@
 namespace seam {
 namespace {
 
-/// Limits of kept States of future ticks; a hostile peer could send many.
-constexpr std::size_t kWaitingMax = 64;
+/// Most that kept States may be in the future, ticks.
 constexpr std::int64_t kWaitingTicksMax = 120;
 
 }  // namespace
@@ -29,7 +28,7 @@ Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles,
 Received Corrector::Receive(const States& states) {
   Received result;
   if (IsEarly(states)) {
-    if (IsNear(states) && waiting_.size() < kWaitingMax) {
+    if (IsNear(states) && waiting_.size() < kEarlyMessagesMax) {
       Wait(states);
       result.used = static_cast<int>(states.id.size());
     } else {

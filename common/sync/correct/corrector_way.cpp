@@ -9,7 +9,7 @@ namespace seam {
 namespace {
 
 /// A body that moved less than this cannot have crossed a shape, m.
-constexpr float kNear = 0.05f;
+constexpr float kCrossingMin = 0.05f;
 /// A body that is stopped before a surface keeps this share of its smallest half extent as
 /// distance; the engine pushes the rest out.
 constexpr float kClear = 0.9f;
@@ -31,7 +31,8 @@ bool Corrector::CameFrom(int body, const Vec2& heard, std::int64_t from) const {
 }
 
 Vec2 Corrector::WayTo(int body, const Vec2& heard, std::int64_t from, const Vec2& target) const {
-  if ((target - heard).norm() < kNear || world_.FreeWay(body, heard, target) >= 1) return target;
+  if ((target - heard).norm() < kCrossingMin || world_.FreeWay(body, heard, target) >= 1)
+    return target;
   // It may have come round a corner: then only its present move counts.
   const Vec2 start = CameFrom(body, heard, from) ? world_.Read(body).position : heard;
   const Vec2 way = target - start;

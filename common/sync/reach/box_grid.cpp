@@ -33,7 +33,7 @@ BoxGrid::BoxGrid(const std::vector<MovingBox>& boxes, const std::vector<char>* u
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (use != nullptr && (*use)[i] == 0) continue;
     const float half = (boxes[i].max - boxes[i].min).maxCoeff() / 2;
-    if (half > kCell / 2) {
+    if (half > kCellSide / 2) {
       large_.push_back(static_cast<int>(i));
       continue;
     }

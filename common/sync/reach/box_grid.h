@@ -29,7 +29,7 @@ class BoxGrid {
   }
 
   /// Cell size, m; normal 8. Larger only if the boxes are spread over very many cells.
-  static constexpr float kCell = 8;
+  static constexpr float kCellSide = 8;
 
  private:
   // Boxes beyond the border are kept in the border's cells, and queries there look in these cells.
@@ -44,7 +44,7 @@ class BoxGrid {
   void ChooseCells(const std::vector<Vec2>& centres);
 
   Vec2 low_{0, 0};
-  float cell_ = kCell;
+  float cell_ = kCellSide;
   int columns_ = 1, rows_ = 1;
   float widest_ = 0;        // half of the longest side among the boxes in cells, m
   std::vector<int> start_;  // by cell: index of its first box in items_; one more at the end

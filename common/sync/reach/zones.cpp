@@ -1,7 +1,8 @@
 #include "common/sync/reach/zones.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "common/base/disjoint_sets.h"
 
 namespace seam {
 
@@ -44,22 +45,9 @@ std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& box
 }
 
 std::vector<int> Components(int count, const std::vector<std::pair<int, int>>& pairs) {
-  std::vector<int> parent(static_cast<std::size_t>(count));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto find = [&](int group) {
-    while (parent[static_cast<std::size_t>(group)] != group) {
-      int& up = parent[static_cast<std::size_t>(group)];
-      up = parent[static_cast<std::size_t>(up)];
-      group = up;
-    }
-    return group;
-  };
-  for (const auto& [a, b] : pairs) {
-    const int x = find(a), y = find(b);
-    parent[static_cast<std::size_t>(std::max(x, y))] = std::min(x, y);
-  }
-  for (int group = 0; group < count; ++group) parent[static_cast<std::size_t>(group)] = find(group);
-  return parent;
+  DisjointSets components(static_cast<std::size_t>(count));
+  for (const auto& [a, b] : pairs) components.Unite(a, b);
+  return components.Lowest();
 }
 
 }  // namespace seam

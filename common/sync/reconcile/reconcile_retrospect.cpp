@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include "common/codec/quanta.h"
 #include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
@@ -18,16 +19,16 @@ namespace {
 
 /// Dead band for coupled bodies: 1.5 quanta of position (m), angle (rad) and velocity (m/s, rad/s).
 /// Below one quantum, resting copies never stop correcting each other; far above, error stays.
-constexpr float kBandPosition = 1.5f / 512;
-constexpr float kBandAngle = 3 * 9.58738e-5f;
-constexpr float kBandVelocity = 1.5f / 256;
+constexpr float kBandPosition = 1.5f * kPositionQuantum;
+constexpr float kBandAngle = 3 * static_cast<float>(kAngleQuantum);
+constexpr float kBandVelocity = 1.5f * kVelocityQuantum;
 
 /// A newly simulated copy has no past to compare. Up to these differences, m and m/s, it waits for
 /// one: placing a loaded wheel by a quantum makes it hop.
 constexpr float kStartApart = 0.25f, kStartApartSpeed = 2.5f;
 /// Most that one message moves a blocked difference, m: more is pushed into neighbours, which push
 /// back.
-constexpr float kHeldMax = 0.05f;
+constexpr float kBlockedMax = 0.05f;
 
 Vec2 AtMost(float most, const Vec2& v) {
   const float size = v.norm();
@@ -69,7 +70,7 @@ Correction ReconcileRetrospect(const ReconcileInput& in) {
   }
   const BodyState held = Minus(d, free);
   BodyState share;
-  share.position = AtMost(kHeldMax, in.gain * Outside(held.position, kBandPosition));
+  share.position = AtMost(kBlockedMax, in.gain * Outside(held.position, kBandPosition));
   share.angle = in.gain * Outside(held.angle, kBandAngle);
   share.velocity = in.gain * Outside(held.velocity, kBandVelocity);
   share.spin = in.gain * Outside(held.spin, kBandVelocity);

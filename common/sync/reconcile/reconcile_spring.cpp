@@ -19,7 +19,7 @@ namespace {
 /// below 1.
 constexpr float kStiffness = 20, kDamping = 9;
 /// m/s^2 and rad/s^2. More lets a wrong message throw the copy about.
-constexpr float kAccelerationMax = 100, kTurnMax = 100;
+constexpr float kPullAccelerationMax = 100, kPullTurnMax = 100;
 /// Above this spin the angle is not followed, rad/s: the wire lost its revolutions.
 constexpr float kSpinFollowed = 15;
 /// Farther off than this, m, the copy is placed: a spring would drag it through the scene.
@@ -62,12 +62,12 @@ Correction PullSpring(const PullInput& in, PullMemory* memory) {
   GiveWay(in, memory);
   const BodyState d = Minus(in.target, in.local);
   Vec2 a = kStiffness * d.position + kDamping * d.velocity;
-  if (a.norm() > kAccelerationMax) a *= kAccelerationMax / a.norm();
+  if (a.norm() > kPullAccelerationMax) a *= kPullAccelerationMax / a.norm();
   const bool follows = std::fabs(in.target.spin) < kSpinFollowed;
   const float turn = (follows ? kStiffness * d.angle : 0.0f) + kDamping * d.spin;
   Correction out;
   out.now.velocity = (memory->share * in.step) * a;
-  out.now.spin = memory->share * in.step * std::clamp(turn, -kTurnMax, kTurnMax);
+  out.now.spin = memory->share * in.step * std::clamp(turn, -kPullTurnMax, kPullTurnMax);
   return out;
 }
 

@@ -48,7 +48,7 @@ class RestBlocks {
     }
     if (known.any_us < 0) known.any_us = now_us;
     if (ours != known.ours || theirs != known.theirs) known = {ours, theirs, now_us, known.any_us};
-    const bool lost = now_us - known.since_us >= kPatienceUs ||
+    const bool lost = now_us - known.since_us >= kLostAfterUs ||
                       now_us - known.any_us >= kPatienceMovingUs + at.blocks * kTurnUs;
     if (lost) known.since_us = known.any_us = now_us;
     return lost;
@@ -60,7 +60,7 @@ class RestBlocks {
  private:
   /// Time after which an unchanged difference counts as a loss, us: longer than a message takes on
   /// a slow path, and at least two pings of a quiet room.
-  static constexpr std::int64_t kPatienceUs = 1000000;
+  static constexpr std::int64_t kLostAfterUs = 1000000;
   /// Time after which any difference counts as a loss, us: where bodies come to rest or wake all
   /// the time, messages in transit keep changing it. kTurnUs, about two pings, is added per block.
   static constexpr std::int64_t kPatienceMovingUs = 3000000, kTurnUs = 200000;

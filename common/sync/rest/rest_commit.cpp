@@ -15,10 +15,10 @@ namespace {
 /// body.
 constexpr float kSleepSpeed = 0.01f, kSleepSpin = 0.035f, kWakeShare = 1.4f;
 /// ...if exceeded for this long in a row, s: a corrected copy next to it pushes only for a tick or
-/// two. The time doubles with each release, at most kDoublings times: two peers whose copies lie
-/// differently would otherwise wake each other forever.
+/// two. The time doubles with each release, at most kWaitDoublings times: two peers whose copies
+/// lie differently would otherwise wake each other forever.
 constexpr double kPushedFor = 0.1;
-constexpr int kDoublings = 5;
+constexpr int kWaitDoublings = 5;
 /// An impact, m/s and rad/s: wakes the body at once.
 constexpr float kWakeImpactSpeed = 0.5f;
 /// A woken copy goes back to rest if its authority has not reported motion for this long, s: more
@@ -177,7 +177,7 @@ bool RestCommit::ExceedsWakeLimit(int body) {
   Disturbance& d = disturbed(body);
   const bool pushed = speed > kWakeShare * kSleepSpeed || spin > kWakeShare * kSleepSpin;
   d.pushed_ticks = pushed ? d.pushed_ticks + 1 : 0;
-  if (d.pushed_ticks < Ticks(kPushedFor) << std::min(d.times, kDoublings)) return false;
+  if (d.pushed_ticks < Ticks(kPushedFor) << std::min(d.times, kWaitDoublings)) return false;
   ++d.times;
   d.pushed_ticks = 0;
   return true;

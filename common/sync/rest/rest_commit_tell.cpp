@@ -7,6 +7,7 @@
 #include "common/base/geometry.h"
 #include "common/sync/reconcile/reconcile.h"
 #include "common/sync/rest/rest_commit.h"
+#include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
@@ -22,8 +23,7 @@ constexpr float kMoved = 0.005f;
 /// Number of times that an own body at rest is woken by such a move; after that its pose is as good
 /// as the other peer's.
 constexpr int kMovedTimes = 3;
-/// Limits of waiting messages: their number, and how far in the future they may be, s.
-constexpr std::size_t kWaitingMax = 64;
+/// Most that a waiting message may be in the future, s.
 constexpr double kWaitingFor = 2;
 
 }  // namespace
@@ -128,7 +128,7 @@ bool RestCommit::Receive(const Rest& rest) {
   if (Off()) return false;
   if (rest.tick > world_.tick()) {
     const bool soon = rest.tick <= world_.tick() + Ticks(kWaitingFor);
-    if (soon && waiting_.size() < kWaitingMax) waiting_.push_back(rest);
+    if (soon && waiting_.size() < kEarlyMessagesMax) waiting_.push_back(rest);
     return false;
   }
   bool placed = false;

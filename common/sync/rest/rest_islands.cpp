@@ -1,26 +1,13 @@
 #include "common/sync/rest/rest_islands.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "common/base/disjoint_sets.h"
 
 namespace seam {
-namespace {
-
-/// Returns the representative of the island of `m` (union-find with path halving).
-int Leader(std::vector<int>* leaders, int m) {
-  std::vector<int>& up = *leaders;
-  while (up[static_cast<std::size_t>(m)] != m) {
-    int& next = up[static_cast<std::size_t>(m)];
-    next = up[static_cast<std::size_t>(next)];
-    m = next;
-  }
-  return m;
-}
-
-}  // namespace
 
 std::vector<std::vector<int>> FindPresentIslands(const World& world) {
-  // Ascending; leaders are indexed by the place in this list.
+  // Ascending; the sets are of places in this list.
   std::vector<int> mechanisms;
   for (const int body : world.present()) mechanisms.push_back(world.mechanism(body));
   std::sort(mechanisms.begin(), mechanisms.end());
@@ -29,22 +16,19 @@ std::vector<std::vector<int>> FindPresentIslands(const World& world) {
     const auto at = std::lower_bound(mechanisms.begin(), mechanisms.end(), world.mechanism(body));
     return static_cast<int>(at - mechanisms.begin());
   };
-  std::vector<int> leaders(mechanisms.size());
-  std::iota(leaders.begin(), leaders.end(), 0);
+  DisjointSets sets(mechanisms.size());
   for (const Touch& touch : world.touches()) {
-    const int a = Leader(&leaders, place_of(touch.body_a));
-    const int b = Leader(&leaders, place_of(touch.body_b));
-    leaders[static_cast<std::size_t>(a)] = b;
+    sets.Unite(place_of(touch.body_a), place_of(touch.body_b));
   }
-  std::vector<int> island_of(leaders.size(), -1);
+  std::vector<int> island_of(mechanisms.size(), -1);  // by the lowest place of its set
   std::vector<std::vector<int>> islands;
   for (const int body : world.present()) {
-    const auto leader = static_cast<std::size_t>(Leader(&leaders, place_of(body)));
-    if (island_of[leader] < 0) {
-      island_of[leader] = static_cast<int>(islands.size());
+    int& island = island_of[static_cast<std::size_t>(sets.Find(place_of(body)))];
+    if (island < 0) {
+      island = static_cast<int>(islands.size());
       islands.emplace_back();
     }
-    islands[static_cast<std::size_t>(island_of[leader])].push_back(body);
+    islands[static_cast<std::size_t>(island)].push_back(body);
   }
   return islands;
 }

@@ -7,10 +7,10 @@ namespace {
 
 /// m. The engine lets a body sleep that creeps by 5 mm in its half second; a tall stack settles
 /// more slowly than that for seconds.
-constexpr float kStill = 0.001f, kSlow = 0.02f;
+constexpr float kStill = 0.001f, kCreep = 0.02f;
 /// rad per metre of these distances: a corner of a 1 m box then moves as far by turning as by
 /// shifting.
-constexpr float kTurn = 2;
+constexpr float kTurnWeight = 2;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void RestWatch::StartAnew() {
 
 void RestWatch::Follow(const BodyState& now, float distance, Near* near) const {
   if ((now.position - near->pose.position).norm() <= distance &&
-      std::fabs(now.angle - near->pose.angle) <= kTurn * distance) {
+      std::fabs(now.angle - near->pose.angle) <= kTurnWeight * distance) {
     return;
   }
   *near = {now, world_.tick()};
@@ -45,7 +45,7 @@ void RestWatch::Look() {
     }
     const BodyState now = world_.Read(body);
     Follow(now, kStill, &track.still);
-    Follow(now, kSlow, &track.slow);
+    Follow(now, kCreep, &track.slow);
   }
 }
 

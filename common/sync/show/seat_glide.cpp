@@ -5,6 +5,7 @@
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
+#include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
@@ -14,8 +15,6 @@ constexpr int kAfter = 2;
 /// Visible move per tick beyond the velocity, m: the limit of the glide, plus the part that closing
 /// joints adds.
 constexpr float kGentleBeside = 0.04f;
-/// rad/s; at a higher spin the angle cannot be seen.
-constexpr float kSpinSeen = 12;
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-/// Out of the water hand over hand, where each hold is an edit that the server orders: others see
-/// who climbs come out, as without a network.
+/// A character climbs out of the water; each grip is an edit ordered by the server. Other peers see
+/// it come out as without a network.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ double OutAt(const std::map<std::int64_t, View>& views, PartId torso, const Star
   return -1;
 }
 
-TEST(ClimbCluster, HandOverHandOutOfTheWaterIsSeenByEverybody) {
+TEST(ClimbCluster, EveryPeerShowsTheClimbOutOfTheWater) {
   for (const Start& start : {Start{-1.5, 0.3, 0.8}, Start{-2.2, 0.4, 1}, Start{-3.1, 0.45, 0.7}}) {
     ClusterConfig config;
     config.scene_text = Pool(start);

@@ -1,4 +1,4 @@
-/// A character's jump on another player's screen: a jump, and in time.
+/// A character's jump is visible on another player's screen, and in time.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-/// What is told in the first ticks, of which nobody has heard the others' inputs yet, must not be
-/// told as if they had none: others would put it in, rounded as the wire has it, and never come to
-/// the same bits again.
+/// States of the first ticks, when no other player's inputs are known yet, must not assume that
+/// there are none: others would apply them, rounded by the wire, and never agree bit for bit again.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +48,8 @@ std::string TugText(const char* begins) {
          HingeText("left", "ann", "link.0", -4) + HingeText("right", "bob", "link.7", 4);
 }
 
-/// Of the last second of 4 s: ticks in which all three peers had the same bits, and all ticks.
+/// Counts ticks in the last second of 4 s: those in which all three peers had the same bits, and
+/// all.
 std::pair<int, int> EqualTicks(const char* begins, std::int64_t seed) {
   ClusterConfig config;
   config.scene = "tug";
@@ -72,7 +72,7 @@ std::pair<int, int> EqualTicks(const char* begins, std::int64_t seed) {
   return out;
 }
 
-TEST(FirstTicks, WhoeverDrivesFromTheStartOnAllComeToTheSameBits) {
+TEST(FirstTicks, AllPeersAgreeBitForBitWhenPlayersDriveFromTheStart) {
   for (const char* begins : {"0.02", "0.1", "0.25"}) {
     for (std::int64_t seed = 1; seed <= 3; ++seed) {
       const auto [equal, all] = EqualTicks(begins, seed);

@@ -1,6 +1,6 @@
-/// A room of elastic discs whose clients may only step a few of them: what one has and what it
-/// meets are simulated by the same peer, or each blow is another one for each of two and energy
-/// comes of it.
+/// A room of elastic discs whose clients may simulate only a few of them: a client's discs and
+/// those they meet are simulated by the same peer; otherwise the two sides of an impact differ and
+/// the room gains energy.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ std::string RoomText(int capacity) {
   return text;
 }
 
-/// How many times the energy of the one world all that is seen has at most, over any 2 s.
+/// Largest energy of all displayed bodies over any 2 s, relative to the single world.
 double MostEnergy(int capacity, std::int64_t seed) {
   ClusterConfig config;
   config.scene = "discs";
@@ -58,7 +58,7 @@ double MostEnergy(int capacity, std::int64_t seed) {
   return most;
 }
 
-TEST(Capacity, RoomsOfElasticDiscsGainNoEnergyHoweverLittleClientsMayStep) {
+TEST(Capacity, RoomsOfElasticDiscsGainNoEnergyAtAnyCapacity) {
   for (std::int64_t seed = 1; seed <= 2; ++seed) {
     for (const int capacity : {0, 10, 30}) EXPECT_LT(MostEnergy(capacity, seed), 1.08);
   }

@@ -1,4 +1,5 @@
-/// What a holder gives back to the server is told to all whom it concerns, not to the holder alone.
+/// When a holder returns a mechanism to the server, every client that needs the change hears of it,
+/// not only the holder.
 
 #include <gtest/gtest.h>
 
@@ -12,9 +13,9 @@
 namespace seam {
 namespace handed_back_cluster_test {
 
-/// Where the plan's followers were those that the question to let go had left, nobody else was
-/// told: seed 400001 of the soak of narrow rooms.
-TEST(HandedBackCluster, WhoIsNearHearsOfItWithinTwoSeconds) {
+/// If the plan's followers equalled those left by the revocation, nobody else was informed: seed
+/// 400001 of the soak of narrow rooms.
+TEST(HandedBackCluster, NearbyClientsHearOfItWithinTwoSeconds) {
   const Scene scene = LoadScene("scenes/swarm.toml");
   ClusterConfig config;
   config.scene = "swarm";

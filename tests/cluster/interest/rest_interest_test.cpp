@@ -1,5 +1,5 @@
-/// That something has come to rest is told at once to those whom it concerns, to the others in
-/// turn; and what one has lost of it is said again, block by block.
+/// Rest is announced to relevant clients at once and to the others in turn; a lost announcement is
+/// repeated block by block.
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ std::uint64_t KnownBy(Cluster& cluster, int client) {
   return cluster.client(client)->replica()->rest().Hash();
 }
 
-TEST(RestInterest, WhomItIsNothingIsToldInTurnAndTheOthersAtOnce) {
+TEST(RestInterest, RelevantClientsHearOfRestAtOnceAndTheOthersInTurn) {
   Cluster* room = nullptr;
   std::map<int, std::int64_t> at_ann, by_bob;  // by body: when it was first told, us
   int told_ann = 0, told_by_bob = 0;           // messages
@@ -100,7 +100,7 @@ TEST(RestInterest, WhomItIsNothingIsToldInTurnAndTheOthersAtOnce) {
 
 /// Both ways: of a message with rest that is lost for good (acknowledged, but without its content)
 /// only the block is said again.
-TEST(RestInterest, WhatWasLostOfABlockIsSaidAgainAndNoMore) {
+TEST(RestInterest, OnlyTheBlockWithALostRestIsRepeated) {
   for (const std::size_t loser : {0u, 1u}) {
     Cluster* room = nullptr;
     int lost = -1, again = 0, before = 0;
@@ -121,7 +121,7 @@ TEST(RestInterest, WhatWasLostOfABlockIsSaidAgainAndNoMore) {
         if (id == lost && again_us == 0) again_us = room->now_us();
       }
     };
-    // Ann loses what she is told, or bob what he says himself.
+    // Ann loses a received announcement, or bob one of his own.
     Cluster cluster(loser == 0 ? Room({{0, lose}}) : Room({}, lose));
     room = &cluster;
     for (int second = 1; second <= 20; ++second) {

@@ -1,5 +1,5 @@
-/// Scenes that carry their exact answer: what the judge makes of right and wrong ones, by poses and
-/// by a number, and every mistake in one line.
+/// Scenes that carry their exact answer: the judge on right and wrong answers, by poses and by a
+/// number, and every mistake in one line.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ struct JudgedScene {
   const std::string path = files / "my.toml";
 };
 
-TEST(ExactCase, IsAboutZeroForTheEnginesOwnSum) {
+TEST(ExactCase, ErrorIsNearZeroForTheEnginesOwnSum) {
   // Symplectic Euler in closed form: y_n = y0 + n v h - g h^2 n (n + 1)/2.
   const JudgedScene scene(
       "function exact(t)\n"
@@ -50,7 +50,7 @@ TEST(ExactCase, IsAboutZeroForTheEnginesOwnSum) {
   EXPECT_EQ(hard.truth, Truth::kFormula);
 }
 
-TEST(ExactCase, IsTheWorstDistanceFromTheParabolaAtAnyRate) {
+TEST(ExactCase, ErrorIsTheWorstDistanceFromTheParabolaAtAnyRate) {
   const JudgedScene scene(
       "function exact(t) return {ball = {x = 3 * t, y = 10 + 4 * t - 5 * t * t}} end");
   EXPECT_NEAR(scene.Error(), 5.0 / 60, 1e-4) << "the step's own error, g h t/2";
@@ -60,7 +60,7 @@ TEST(ExactCase, IsTheWorstDistanceFromTheParabolaAtAnyRate) {
   EXPECT_NEAR(scene.ErrorAt(fine), 5.0 / 960, 1e-4);
 }
 
-TEST(ExactCase, AWrongAnswerIsWrongByWhatItIsWrong) {
+TEST(ExactCase, ErrorEqualsTheDeviationOfAWrongAnswer) {
   EXPECT_NEAR(JudgedScene("function exact(t) return {ball = {x = 5 * t}} end").Error(), 2, 1e-4);
   EXPECT_NEAR(JudgedScene("function exact(t) return {ball = {angle = math.pi * t}} end").Error(), 1,
               1e-4)
@@ -70,7 +70,7 @@ TEST(ExactCase, AWrongAnswerIsWrongByWhatItIsWrong) {
   EXPECT_NEAR(early.Error(), 7, 1e-4) << "the worst, not the last";
 }
 
-TEST(ExactCase, TheEnergyIsComparedAsAShareOfTheGreatestThatExactSays) {
+TEST(ExactCase, EnergyIsComparedAsAShareOfTheLargestExactValue) {
   // The engine's energy falls by g^2 h t/2 for each kg, of g y0 + v^2/2.
   const JudgedScene scene(
       "local m = math.pi / 4\nfunction exact(t) return m * (10 * 10 + 12.5), \"J\" end");
@@ -79,7 +79,7 @@ TEST(ExactCase, TheEnergyIsComparedAsAShareOfTheGreatestThatExactSays) {
   EXPECT_NE(scene.Case().about.find("energy against exact(t)"), std::string::npos);
 }
 
-TEST(ExactCase, TheEnergyOfWeldsThatAreJointsIsThatOfTheirBodies) {
+TEST(ExactCase, EnergyOfJointedWeldsIsThatOfTheirBodies) {
   const JudgedScene scene("function exact(t) return 20, \"J\" end",
                           "gravity = [0, 0]\nduration = 1\n"
                           "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [4, 0]\ndensity = 2\n"
@@ -90,7 +90,7 @@ TEST(ExactCase, TheEnergyOfWeldsThatAreJointsIsThatOfTheirBodies) {
   EXPECT_LT(scene.ErrorAt(StockSolver()), 1e-5);
 }
 
-TEST(ExactCase, MeasuredIsWhatTheNumberIsComparedWith) {
+TEST(ExactCase, ComparesTheExactNumberWithTheMeasuredOne) {
   const std::string measured = "function measured(t) return world.part(\"ball\").vy + 0 * t end\n";
   const JudgedScene right(measured + "function exact(t) return 4 - 10 * t, \"m/s\", \"vy\" end");
   EXPECT_LT(right.Error(), 1e-6);
@@ -104,14 +104,14 @@ TEST(ExactCase, MeasuredIsWhatTheNumberIsComparedWith) {
   EXPECT_EQ(zero.Case().unit, "m");
 }
 
-TEST(ExactCase, WhatIsMeasuredAsNoNumberHasDiverged) {
+TEST(ExactCase, AMeasuredNanHasDiverged) {
   const JudgedScene scene(
       "function exact() return 1, \"m\" end\n"
       "function measured(t) return t < 0.5 and 1 or 0 / 0 end");
   EXPECT_TRUE(std::isinf(scene.Error()));
 }
 
-TEST(ExactCase, WithoutExactItIsTheRunAt32TimesTheRate) {
+TEST(ExactCase, WithoutExactTheReferenceRunsAt32TimesTheRate) {
   const JudgedScene scene("function on_tick(t) end");
   const HardCase hard = scene.Case();
   EXPECT_EQ(hard.truth, Truth::kConverged);
@@ -119,7 +119,7 @@ TEST(ExactCase, WithoutExactItIsTheRunAt32TimesTheRate) {
   EXPECT_EQ(hard.unit, "m");
 }
 
-TEST(ExactCase, TheScenesThatComeWithItFollowTheirAnswers) {
+TEST(ExactCase, TheSuppliedScenesFollowTheirAnswers) {
   const auto error = [](const std::string& name, const Solver& solver) {
     const HardCase hard = SceneCase("scenes/exact/" + name + ".toml", 0);
     return Observe(hard, WithSolver(LoadHardScene(hard), solver), hard.seconds).error;
@@ -235,7 +235,7 @@ TEST(ExactCase, TwoAnswersOrTwoScenesOfOneNameAreRefused) {
   EXPECT_EQ(said({files / "none.toml"}), files / "none.toml" + ": no such scene file");
 }
 
-TEST(ExactCase, WhereNothingMovesThereIsNothingToConverge) {
+TEST(ExactCase, RefusesASceneWithoutMovingParts) {
   const LabWorkspace files;
   files.Write("wall.toml", "[[part]]\nname = \"wall\"\nbox = [1, 1]\nanchored = true\n");
   try {

@@ -1,5 +1,5 @@
-/// seam-lab physics with scenes of the user's own: the table, the front, the plot, and what is said
-/// where nothing can be judged.
+/// seam-lab physics with scenes of the user's own: the table, the front, the plot, and the messages
+/// for scenes that cannot be judged.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::string RunIn(const LabWorkspace& files, const std::string& words, int statu
   return lab.output();
 }
 
-TEST(LabPhysicsOwn, JudgesAllSettingsByTheScenesAnswerAndDrawsThem) {
+TEST(LabPhysicsOwn, JudgesAndDrawsAllSettingsByTheScenesAnswer) {
   const LabWorkspace files;
   files.Write("my.toml", std::string(kBall) + kTruth);
   const std::string said = RunIn(files, "physics my.toml --grid quick --quiet", 0);
@@ -81,7 +81,7 @@ TEST(LabPhysicsOwn, WithoutAnAnswerTheReferencesOwnErrorIsPrinted) {
   EXPECT_NEAR(*table.Number(0, "reference_change"), 5 * (1 / 960.0 - 1 / 1920.0) * 0.587, 2e-4);
 }
 
-TEST(LabPhysicsOwn, WhereHalvingBringsItNoNearerTheTableSaysNotConverged) {
+TEST(LabPhysicsOwn, TheTableSaysNotConvergedWhenHalvingDoesNotHelp) {
   const LabWorkspace files;
   files.Write("my.toml", kChaos);
   const std::string said = RunIn(files, "physics my.toml --grid quick --quiet", 0);
@@ -110,7 +110,7 @@ TEST(LabPhysicsOwn, MistakesAreOneLineAndNothingIsWritten) {
   EXPECT_EQ(files.Names(), (std::vector<std::string>{"my.toml", "no-scene.toml"}));
 }
 
-TEST(LabPhysicsOwn, TuneTakesTheScenesAnswerToo) {
+TEST(LabPhysicsOwn, TuneUsesTheScenesAnswerToo) {
   const LabWorkspace files;
   files.Write("my.toml", std::string(kBall) + kTruth);
   const std::string said = RunIn(files, "tune my.toml --error 0.03", 0);

@@ -1,4 +1,5 @@
-/// How far a part is from its exact pose: by the points of its shape, against geometry by hand.
+/// The displacement of a part from its exact pose, over the points of its shape, against geometry
+/// by hand.
 
 #include <gtest/gtest.h>
 
@@ -19,13 +20,13 @@ WantedPose Wanted(double x, double y, double angle) { return {x, y, angle}; }
 
 BodyState At(float x, float y, float angle) { return {{x, y}, angle, {0, 0}, 0}; }
 
-TEST(Displacement, IsTheDistanceWhereNothingIsTurned) {
+TEST(Displacement, EqualsTheDistanceWithoutATurn) {
   for (const char* shape : {"box = [2, 1]", "circle = 0.5", "polygon = [[0, 0], [2, 0], [0, 1]]"}) {
     EXPECT_NEAR(Displacement(PartOf(shape), At(3, 4, 1), Wanted(0, 0, 1)), 5, 1e-6) << shape;
   }
 }
 
-TEST(Displacement, OfATurnIsThatOfTheFarthestPoint) {
+TEST(Displacement, ATurnDisplacesTheFarthestPoint) {
   const double turn = 0.2, chord = 2 * std::sin(turn / 2);
   const auto turned = [&](const char* shape) {
     return Displacement(PartOf(shape), At(0, 0, 0.2f), Wanted(0, 0, 0));
@@ -40,7 +41,7 @@ TEST(Displacement, OfATurnIsThatOfTheFarthestPoint) {
       << "whole turns do not matter";
 }
 
-TEST(Displacement, WhatIsNotWantedCountsAsRight) {
+TEST(Displacement, AnUnspecifiedCoordinateCountsAsRight) {
   const Part box = PartOf("box = [2, 1]");
   EXPECT_NEAR(Displacement(box, At(3, 4, 1), {3.0, {}, {}}), 0, 1e-6);
   EXPECT_NEAR(Displacement(box, At(3, 4, 1), {{}, 0.0, {}}), 4, 1e-6);
@@ -48,7 +49,7 @@ TEST(Displacement, WhatIsNotWantedCountsAsRight) {
   EXPECT_GT(Displacement(box, At(3, 4, 1), {{}, {}, 0.0}), 0.5);
 }
 
-TEST(Displacement, OfAStateThatIsNoNumberIsNone) {
+TEST(Displacement, ANanStateGivesNan) {
   const Part box = PartOf("box = [2, 1]");
   EXPECT_TRUE(std::isnan(Displacement(box, At(NAN, 0, 0), Wanted(0, 0, 0))));
   EXPECT_TRUE(std::isnan(Displacement(box, At(0, 0, NAN), Wanted(0, 0, 0))));

@@ -24,7 +24,7 @@ FairnessRun Headon(const std::string& mode, const std::string& reconcile = "") {
   return run;
 }
 
-TEST(Fairness, InModeOracleBothReceiveWhatMechanicsSays) {
+TEST(Fairness, InModeOracleBothReceiveTheImpulseOfMechanics) {
   for (const int near : {0, 1}) {
     FairnessRun run = Headon("oracle");
     run.near = near;
@@ -41,7 +41,7 @@ TEST(Fairness, InModeOracleBothReceiveWhatMechanicsSays) {
   }
 }
 
-TEST(Fairness, WhoIsNearDecidesWhichCarIsWhichAndNothingElse) {
+TEST(Fairness, TheNearSideOnlySwapsTheTwoCars) {
   ClusterConfig config;
   config.scene = "headon";
   config.reconcile = "snap";
@@ -56,9 +56,9 @@ TEST(Fairness, WhoIsNearDecidesWhichCarIsWhichAndNothingElse) {
   EXPECT_DOUBLE_EQ(a.advantage_own_ns(), -b.advantage_own_ns());
 }
 
-TEST(Fairness, InModeStrictBothReceiveWhatAWallWouldGive) {
-  // Mode strict takes the other car where it was told to be, a thing that nothing can push: each
-  // receives what a wall would give.
+TEST(Fairness, InModeStrictBothReceiveTheImpulseOfAWall) {
+  // Mode strict places the other car at its received pose, immovable: each receives the impulse of
+  // a wall.
   const FairnessResult r = RunFairness(Headon("strict"));
   ASSERT_EQ(r.invalid, "");
   EXPECT_GT(r.own_ns[0], 1.5 * r.oracle_ns);
@@ -72,7 +72,7 @@ TEST(Fairness, ARunWithoutTheCrashOrItsEndIsNotValid) {
   EXPECT_EQ(RunFairness(run).invalid, "views about the crash are missing");
 }
 
-TEST(Fairness, IsForTwoPlayersWithAVehicleEach) {
+TEST(Fairness, NeedsTwoPlayersWithAVehicleEach) {
   FairnessRun run = Headon("buffer");
   run.session.scene = "scenes/relay.toml";
   run.session.duration_s = 0.5;
@@ -81,7 +81,7 @@ TEST(Fairness, IsForTwoPlayersWithAVehicleEach) {
   EXPECT_THROW(RunFairness(run), OperatorError);
 }
 
-TEST(Fairness, BothDoWhatOneBotDoesAndStayEachOthersMirrorImage) {
+TEST(Fairness, BothFollowOneBotAndStayMirrorImages) {
   for (const char* name : {"headon", "seesaw"}) {  // scripts of one line and of several
     const Scene scene = LoadScene("scenes/" + std::string(name) + ".toml");
     const Scene same = ParseScene(WithMirroredBots(scene, 7, 4), "mirrored.toml");
@@ -133,7 +133,7 @@ const char* const kColumns =
     "momentum_oracle_ns,momentum_near_own_ns,momentum_far_own_ns,momentum_near_server_ns,"
     "momentum_far_server_ns,advantage_own_ns,advantage_server_ns\n";
 
-TEST(FairnessTable, HasMeansAndThe95thPercentileOfSizesAndSaysWhatIsNotValid) {
+TEST(FairnessTable, HasMeansAndThe95thPercentileAndNamesInvalidRows) {
   const std::string key = "v,headon,0,";
   const std::string paths = ",delay=20ms,delay=120ms,script,ann,1,";
   const CsvTable csv =
@@ -150,7 +150,7 @@ TEST(FairnessTable, HasMeansAndThe95thPercentileOfSizesAndSaysWhatIsNotValid) {
   EXPECT_NE(table.note.find("Of all 3 rows 1 are not valid"), std::string::npos) << table.note;
 }
 
-TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndGoesOnWhereItWas) {
+TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndResumes) {
   const LabWorkspace work;
   FairnessCommand command;
   command.methods = {"buffer/fade"};

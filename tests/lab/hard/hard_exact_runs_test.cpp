@@ -1,5 +1,5 @@
-/// The hard cases with an answer, run: the scene's own setting against the stock one, and the step
-/// made small.
+/// Runs the hard cases with an answer: the scene's own setting against the stock one, and small
+/// steps.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ Verdict RunFinely(const HardCase& hard, int substeps) {
   return Judged(hard, scene);
 }
 
-/// Twice what was measured; the case's unit.
+/// Twice the measured error, in the case's unit.
 struct Bound {
   const char* name;
   double own, fine;  ///< the scene's own setting; 960 Hz, two substeps of 8/3
@@ -76,7 +76,7 @@ const Bound kBounds[] = {
     {"slope-stop", 0.134, 0.0045},
 };
 
-TEST(HardExactRuns, TheScenesOwnSettingIsRightToWhatWasMeasured) {
+TEST(HardExactRuns, TheScenesOwnSettingKeepsItsMeasuredBounds) {
   for (const Bound& bound : kBounds) {
     const Verdict own = Judged(CaseNamed(bound.name), LoadHardScene(CaseNamed(bound.name)));
     EXPECT_LE(own.error, bound.own) << bound.name;
@@ -94,8 +94,8 @@ TEST(HardExactRuns, TheScenesOwnSettingIsNoWorseThanStock) {
   }
 }
 
-TEST(HardExactRuns, WithSmallStepsTheFormulasAreMet) {
-  // So the formulas are of the scenes that are run, and what is left is the step.
+TEST(HardExactRuns, SmallStepsConvergeToTheFormulas) {
+  // So the formulas describe the scenes, and the remaining error is the step's.
   for (const Bound& bound : kBounds) {
     EXPECT_LE(RunFinely(CaseNamed(bound.name), 2).error, bound.fine) << bound.name;
   }
@@ -121,7 +121,7 @@ TEST(HardExactRuns, JudgesAreRightAtAnyRate) {
   }
 }
 
-TEST(HardExactRuns, NothingTunnelsWithTheCasesOwnStepsAndNothingIsSlowed) {
+TEST(HardExactRuns, NothingTunnelsOrIsSlowedWithTheCasesOwnSteps) {
   int shots = 0;
   for (const HardCase& hard : ExactCases()) {
     if (hard.scene != "tunnel") continue;
@@ -139,7 +139,7 @@ TEST(HardExactRuns, NothingTunnelsWithTheCasesOwnStepsAndNothingIsSlowed) {
             "32 of 32 shots slowed by the engine's clamp");
 }
 
-TEST(HardExactRuns, WhatStockCannotDo) {
+TEST(HardExactRuns, StockErrsByMetresInFiveCases) {
   EXPECT_GT(RunStock(CaseNamed("cantilever")).error, 2);         // m of 10 m
   EXPECT_GT(RunStock(CaseNamed("chain-heavy-end")).error, 5);    // m of 10 m
   EXPECT_GT(RunStock(CaseNamed("motor-loop")).error, 3);         // rad of 60
@@ -171,7 +171,7 @@ double WaveSpeed(int tick_hz, int substeps) {
   return 15 * 0.5 / (passed[1] - passed[0]);
 }
 
-TEST(HardExactRuns, TheDominoWaveHasOneSpeedAndTheSceneAlmostIt) {
+TEST(HardExactRuns, TheDominoWaveHasOneSpeedAndTheSceneNearlyReachesIt) {
   // In units of sqrt(g H), by which domino waves scale (McLachlan et al. 1983). Measured 0.997 with
   // small steps, 0.993 with the scene's.
   const double fine = WaveSpeed(960, 2);

@@ -1,5 +1,5 @@
-/// The judges of the hard cases with an exact answer, on worlds moved by hand to where the error is
-/// known by arithmetic.
+/// The judges of the hard cases with an exact answer, on worlds moved by hand to a pose of known
+/// error.
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ struct Puppet {
   const std::unique_ptr<Judge> judge;
 };
 
-TEST(HardExact, AnErrorThatIsNoNumberIsTheWorst) {
+TEST(HardExact, ANanErrorIsTheWorst) {
   EXPECT_EQ(Worse(1, 2), 2);
   EXPECT_EQ(Worse(2, 1), 2);
   EXPECT_TRUE(std::isnan(Worse(std::nan(""), 1)));
@@ -87,7 +87,7 @@ TEST(HardExact, ProjectileIsComparedWithTheSumAndWithTheParabola) {
   EXPECT_NEAR(parabola.ErrorAt(2), 0.25, 2e-6);
 }
 
-TEST(HardExact, BlocksSlideAndStopAsCoulombSays) {
+TEST(HardExact, BlocksSlideAndStopByCoulombsLaw) {
   struct Way {
     const char* name;
     double angle, t, come;
@@ -107,7 +107,7 @@ TEST(HardExact, BlocksSlideAndStopAsCoulombSays) {
   }
 }
 
-TEST(HardExact, DiscIsComparedWithTwoThirdsOfThePullAndItsTurningWithItsWay) {
+TEST(HardExact, DiscIsComparedWithTwoThirdsOfTheSlopesPullAndItsTurnWithItsPath) {
   Puppet way("rolling-disc"), slip("rolling-disc-slip");
   const double c = std::cos(0.35), s = std::sin(0.35), come = 10 * s / 3 * 9;
   for (Puppet* p : {&way, &slip}) {
@@ -152,7 +152,7 @@ TEST(HardExact, EnergyIsAShareOfTheFall) {
   EXPECT_NEAR(two.ErrorAt(1), 0.05, 1e-6);
 }
 
-TEST(HardExact, BlowsAreComparedWithReflectionAboutTheCommonCentre) {
+TEST(HardExact, ImpactsAreComparedWithReflectionAboutTheCommonCentre) {
   for (const char* name : {"collision-elastic", "collision-glancing", "collision-inelastic"}) {
     Puppet p(name);
     for (std::size_t i = 0; i < p.scene.parts.size(); i += 2) {
@@ -253,7 +253,7 @@ TEST(HardExact, StretchIsMeasuredAtTheLoadsHinge) {
   EXPECT_NEAR(p.ErrorAt(2), 0.2, 2e-6);
 }
 
-TEST(HardExact, DroopIsSeenFromTheBaseHoweverItIsTurned) {
+TEST(HardExact, DroopIsMeasuredInTheFrameOfTheTurnedBase) {
   Puppet whole("cantilever");
   EXPECT_EQ(whole.world.body_count(), 1);
   whole.Place("base", 3, 4);

@@ -50,7 +50,7 @@ struct Puppet {
   World world;
 };
 
-TEST(HardJudge, DriftIsTheWorstDistanceThatCounts) {
+TEST(HardJudge, DriftIsTheWorstDistanceAlongTheJudgedAxis) {
   for (const int hz : {30, 60, 960}) {
     Puppet p(kTwoBoxes, hz);
     const auto all = MakeDriftJudge({}, {});
@@ -66,7 +66,7 @@ TEST(HardJudge, DriftIsTheWorstDistanceThatCounts) {
   }
 }
 
-TEST(HardJudge, DriftCountsFromWhereABodySettled) {
+TEST(HardJudge, DriftCountsFromTheSettledPose) {
   Puppet p(kTwoBoxes);
   const auto judge = MakeDriftJudge({}, {kNoLimit, Vec2(0, 0), 2});
   p.ShowAt(0, judge.get());
@@ -79,7 +79,7 @@ TEST(HardJudge, DriftCountsFromWhereABodySettled) {
   EXPECT_NEAR(judge->Error(), 0.25, 1e-6);
 }
 
-TEST(HardJudge, WhoIsTooFarAwayFellAtTheFirstSuchTick) {
+TEST(HardJudge, ABodyTooFarAwayFellAtTheFirstSuchTick) {
   Puppet p(kTwoBoxes);
   const auto judge = MakeDriftJudge({}, {0.5, Vec2(1, 0), 0});
   p.ShowAt(0, judge.get());
@@ -92,7 +92,7 @@ TEST(HardJudge, WhoIsTooFarAwayFellAtTheFirstSuchTick) {
   EXPECT_EQ(judge->Failure(), "fell at 12.3 s");
 }
 
-TEST(HardJudge, WhatIsTooFastExplodedAndWhatIsOutsideEscaped) {
+TEST(HardJudge, AFastBodyExplodedAndAnOutsideOneEscaped) {
   Puppet p(kTwoBoxes);
   const auto fast = MakeDriftJudge({40, {}}, {});
   const auto outside = MakeDriftJudge({kNoLimit, {-1, -1, 6, 1}}, {});
@@ -109,7 +109,7 @@ TEST(HardJudge, WhatIsTooFastExplodedAndWhatIsOutsideEscaped) {
   EXPECT_EQ(outside->Failure(), "escaped at 0.2 s");
 }
 
-TEST(HardJudge, TheWaveStoppedUnlessAllLie) {
+TEST(HardJudge, TheWaveStoppedUnlessAllHaveFallen) {
   Puppet p(kTwoBoxes);
   const auto judge = MakeToppleJudge({}, {});
   p.ShowAt(0, judge.get());
@@ -150,7 +150,7 @@ TEST(HardJudge, ReachTakesTheShortestWayAndTheLengthsOfRods) {
   EXPECT_NEAR(judge->Error(), 0.1, 1e-6);
 }
 
-TEST(HardJudge, NothingHoldsWhatHangsOnNothing) {
+TEST(HardJudge, ABodyWithoutJointsHasNoReach) {
   Puppet p(kTwoBoxes);
   const auto judge = MakeReachJudge({}, 1, p.scene);
   p.Place(0, 100, 0);
@@ -187,7 +187,7 @@ TEST(HardJudge, ReleaseIsTheGreatestSpeedOfAnyMove) {
   EXPECT_NEAR(judge->Error(), 6, 1e-4);
 }
 
-TEST(HardJudge, WhoIsReleasedMustNotOverlapInTheEnd) {
+TEST(HardJudge, AReleasedBodyMustNotOverlapAtTheEnd) {
   Puppet p(kTwoBoxes);
   const auto judge = MakeReleaseJudge({}, 0.01, p.scene);
   p.Place(1, 0.97f, 0);
@@ -198,7 +198,7 @@ TEST(HardJudge, WhoIsReleasedMustNotOverlapInTheEnd) {
   EXPECT_EQ(judge->Failure(), "");
 }
 
-TEST(HardJudge, ArrivalIsHowFarOffItIsFromThenOn) {
+TEST(HardJudge, ArrivalIsTheDistanceFromItsGoalAfterItsTime) {
   Puppet p(kTwoBoxes);
   const auto judge = MakeArrivalJudge({}, {"box.1", 3, 2, 0.5}, p.scene);
   p.ShowAt(0, judge.get());
@@ -272,7 +272,7 @@ TEST(HardInvariant, NoCaseFailsWithItsScenesOwnSolver) {
   }
 }
 
-TEST(HardInvariant, WhereStockFailsTheScenesOwnSolverHoldsForAMinute) {
+TEST(HardInvariant, TheScenesOwnSolverHoldsForAMinuteAndStockFails) {
   const Solver stock = StockSolver();
   const std::pair<const char*, const char*> failures[] = {
       {"ball-and-chain", "came apart"}, {"bridge", "came apart"},      {"card-house", "fell"},
@@ -286,7 +286,7 @@ TEST(HardInvariant, WhereStockFailsTheScenesOwnSolverHoldsForAMinute) {
 }
 
 TEST(HardInvariant, PilesStandEvenWhenNothingMaySleep) {
-  // A pile that sleeps stands whatever the solver does: what wakes it must not fell it.
+  // A sleeping pile stands under any solver: waking it must not fell it.
   for (const char* name : {"arch", "card-house", "mass-ratio", "tower-10", "tower-30"}) {
     SCOPED_TRACE(name);
     const HardCase& hard = CaseOf(name);
@@ -306,7 +306,7 @@ TEST(HardInvariant, TheScenesOwnSolverErrsLessThanStock) {
   }
 }
 
-TEST(HardInvariant, FamiliesAreWhereTheirNamesSay) {
+TEST(HardInvariant, FamiliesMatchTheirNames) {
   const Vec2 near = LoadHardScene(CaseOf("far-chain-0km")).parts[3].position;
   const Scene far = LoadHardScene(CaseOf("far-chain-10km"));
   EXPECT_EQ(far.parts[3].position - near, Vec2(8000, 6000));  // 10 km by Pythagoras

@@ -1,4 +1,5 @@
-/// What a session costs is told with what makes the figure worth something: who did the work.
+/// The load of a session is reported with the number of bodies that the server and the clients
+/// simulate.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ std::string Apart(int server_follow) {
   return text;
 }
 
-/// Somebody who looks at what the server shows.
+/// An observer of the server's view.
 class Onlooker : public Recorder {
  public:
   void Publish(const std::string&, std::int64_t, ByteView) override {}
@@ -40,7 +41,7 @@ SessionLoad LoadOf(const std::string& mode, int server_follow, Recorder* onlooke
   return MeasureLoad(config);
 }
 
-TEST(LabLoad, TellsWhoDoesTheWork) {
+TEST(LabLoad, ReportsTheLoadOfServerAndClients) {
   Onlooker onlooker;
   const SessionLoad relieved = LoadOf("buffer", 0), unseen = LoadOf("buffer", 256);
   const SessionLoad doubled = LoadOf("buffer", 256, &onlooker), central = LoadOf("central", 0);

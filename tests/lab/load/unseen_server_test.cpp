@@ -1,5 +1,5 @@
-/// A server whose view nobody sees: what clients hold in a small room it does not simulate, and
-/// nobody sees the others any worse for it, though a holder falls silent for a moment.
+/// A server whose view nobody watches does not simulate the clients' bodies in a small room, and no
+/// client's view gets worse, even if a holder falls silent for a moment.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ std::vector<int> FollowsAndHas(Publish publish, bool keep) {
   return counts;
 }
 
-TEST(UnseenServer, SimulatesNothingOfWhatClientsHold) {
+TEST(UnseenServer, SimulatesNoBodyThatAClientHolds) {
   const std::vector<int> all = {2, 2}, nothing = {0, 0};
   EXPECT_EQ(FollowsAndHas(Publish::kAll, true), all) << "its view is as good as a player's";
   EXPECT_EQ(FollowsAndHas(Publish::kNone, true), nothing) << "it shows nothing";
@@ -90,8 +90,8 @@ density = 0.5
 repeat = {count = [8, 2], step = [20, 0.71]}
 )";
 
-/// What rests is the server's, which looks at it only when something of its own may touch it.
-TEST(UnseenServer, HasNothingThereOfWhatRests) {
+/// Bodies at rest are the server's, which loads them only when one of its own may touch them.
+TEST(UnseenServer, HasNoRestingBodyInItsWorld) {
   ClusterConfig config;
   config.scene = "plain";
   config.scene_text = kPlain;
@@ -110,7 +110,7 @@ TEST(UnseenServer, HasNothingThereOfWhatRests) {
   EXPECT_TRUE(server.world().present().empty());
 }
 
-/// What clients see of the others, m.
+/// Error of other players' bodies on the clients' screens, m.
 double ErrorOfOthers(const std::string& text, int seed) {
   ClusterConfig config;
   config.scene = "obstacle";
@@ -123,9 +123,9 @@ double ErrorOfOthers(const std::string& text, int seed) {
 }
 
 /// Bursts of losses make holders silent for longer than 0.2 s. A server that only then begins to
-/// simulate a character, from its last state, does not know where it was in its step: what it said
-/// in the holder's name made those who simulated it all along err by two to five times as much.
-TEST(UnseenServer, SaysNothingOfASilentHoldersThingsToWhoKnowsMoreOfThem) {
+/// simulate a character, from its last state, does not know its gait phase: its states in the
+/// holder's name made peers that had simulated it all along err two to five times as much.
+TEST(UnseenServer, SendsNoStatesForASilentHolderToBetterInformedFollowers) {
   const std::string text = LoadScene("scenes/obstacle.toml").text;
   for (const int seed : {1, 2, 3}) {
     const double followed = ErrorOfOthers(text, seed);
@@ -134,7 +134,7 @@ TEST(UnseenServer, SaysNothingOfASilentHoldersThingsToWhoKnowsMoreOfThem) {
   }
 }
 
-/// Where every client has every body at the end.
+/// Final positions of every body at every client.
 std::vector<Vec2> ClientsEnd(const std::string& scene, int seed, bool listening) {
   ClusterConfig config;
   config.scene = scene;
@@ -155,7 +155,7 @@ std::vector<Vec2> ClientsEnd(const std::string& scene, int seed, bool listening)
   return places;
 }
 
-/// Clients come to the same bits whether or not somebody listens to a bus without views.
+/// Clients reach the same bits with and without a listener on a bus without views.
 TEST(UnseenServer, IsUnseenOnABusWithoutViews) {
   for (const char* scene : {"crossing", "obstacle", "heap"}) {
     for (const int seed : {1, 2}) {
@@ -165,8 +165,8 @@ TEST(UnseenServer, IsUnseenOnABusWithoutViews) {
   }
 }
 
-/// By how much the server's view of what has one body is ever off its world, m: what hides
-/// corrections moves it, and a little the closing of joints to what is anchored.
+/// Largest distance between the server's view and its world for mechanisms of one body, m: caused
+/// by smoothing, and slightly by closing joints to anchored bodies.
 float MostHidden(Publish publish, bool keep) {
   ClusterConfig config;
   config.scene = "heap";
@@ -194,7 +194,7 @@ float MostHidden(Publish publish, bool keep) {
   return most;
 }
 
-TEST(UnseenServer, HidesNoCorrectionsInViewsThatNobodyGets) {
+TEST(UnseenServer, SmoothsNoViewsThatNobodyReceives) {
   EXPECT_GT(MostHidden(Publish::kAll, true), 0.01f);
   EXPECT_LT(MostHidden(Publish::kNone, true), 0.001f) << "it shows nothing";
   EXPECT_LT(MostHidden(Publish::kAll, false), 0.001f) << "nobody listens";

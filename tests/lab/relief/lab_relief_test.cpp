@@ -1,4 +1,4 @@
-/// seam-lab relief: that its rooms are what they say, its verdicts what they mean.
+/// seam-lab relief: its rooms have the stated size, and its verdicts are right.
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ TEST(LabRelief, TheReportHasItsTables) {
   EXPECT_TRUE(ReliefSection(files / "nowhere").items.empty());
 }
 
-TEST(LabRelief, ASwarmThatSaysNothingOfTheServerIsNotRead) {
+TEST(LabRelief, RefusesASwarmReportWithoutTheServersLoad) {
   EXPECT_THROW(ReadSwarm("client cpu: 5.0 us a tick\nserver: not heard\n"), OperatorError);
   EXPECT_THROW(ReadSwarm(""), OperatorError);
 }

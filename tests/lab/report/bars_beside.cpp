@@ -70,13 +70,15 @@ TextTable StutterTable(const std::vector<ReportCase>& cases, const Before* befor
     const bool holds = lowest && stutter && *stutter <= *lowest;
     if (lowest && stutter) ++judged;
     held += holds ? 1 : 0;
-    const auto seen = [&](const char* method) { return DigitsOrDash(MedianOf(at.Find(method), "seen")); };
+    const auto seen = [&](const char* method) {
+      return DigitsOrDash(MedianOf(at.Find(method), "seen"));
+    };
     table.rows.push_back(
         {at.Name(), DigitsOrDash(lowest), CellOf(own, stutter),
          DigitsOrDash(MedianOf(at.Find(kCentralMethod), "stutter_mps2")),
          lowest && stutter ? (holds ? "held" : "missed") : "–",
-         before == nullptr ? "–" : DigitsOrDash(before->Find(at, "retrospect", "seen")), seen("strict"),
-         seen(kDefaultMethod), seen(kCentralMethod),
+         before == nullptr ? "–" : DigitsOrDash(before->Find(at, "retrospect", "seen")),
+         seen("strict"), seen(kDefaultMethod), seen(kCentralMethod),
          Ratio(MedianOf(own, CpuMeasure()), MedianOf(at.Find("retrospect"), CpuMeasure()))});
     AddSweep(at, &table);
   }
@@ -99,7 +101,8 @@ TextTable ChangeTable(const std::vector<ReportCase>& cases, const Before* before
     if (!IsPlain(at) || at.Find(kDefaultMethod) == nullptr) continue;
     std::vector<std::string> row = {at.Name()};
     for (const char* method : {"fade", "retrospect", "resimulate"}) {
-      row.push_back(before == nullptr ? "–" : DigitsOrDash(before->Find(at, method, "error_others_m")));
+      row.push_back(before == nullptr ? "–"
+                                      : DigitsOrDash(before->Find(at, method, "error_others_m")));
     }
     if (before != nullptr && std::count(row.begin() + 1, row.end(), "–") == 3) continue;
     const auto cell = [&](const ReportCase* where, const char* method) {

@@ -22,7 +22,7 @@ Section CasesSection(const std::vector<ReportCase>& cases);
 /// Every case's error_others_m, a column for each method; ✓ marks what is within a tenth of the
 /// least.
 TextTable GlanceTable(const std::vector<ReportCase>& cases);
-/// The same of those methods that one would choose from, for a page with little room.
+/// The same for six cases and the methods that one would choose from, for a page with little room.
 TextTable ShortTable(const std::vector<ReportCase>& cases);
 /// Every method's figures, in the middle of the cases that all methods ran.
 TextTable MethodsTable(const std::vector<ReportCase>& cases);

@@ -1,5 +1,5 @@
-/// Each large scene does what its title says, as every peer saw it over the 4g profile; `make soak`
-/// plays more seeds.
+/// Each large scene matches its title in every peer's view over the 4g profile; `make soak` plays
+/// more seeds.
 
 #include <gtest/gtest.h>
 

@@ -31,7 +31,7 @@ TEST(FloorTable, HasTheFloorsOfASceneAndTheMethodsThatChaosLeavesAlike) {
             (std::vector<std::string>{"wall", "0", "0.1", "0.2", "0.05", "0.25", "fade, snap"}));
 }
 
-TEST(FloorTable, OneMethodNearTheFloorIsToldApartFromTheOthers) {
+TEST(FloorTable, OneMethodNearTheFloorDiffersFromTheOthers) {
   const TextTable table =
       FloorTable({SweepOf("v,wall.toml,buffer,fade,demo,script,1,0.3,9,9,0.1,0.2,0.05,0.25,plain,\n"
                           "v,wall.toml,strict,,demo,script,1,0.5,9,9,0.1,0.2,0.05,0.25,plain,\n")});
@@ -46,7 +46,7 @@ TEST(FloorTable, WithoutFloorsHasNoRows) {
   EXPECT_TRUE(FloorTable({}).rows.empty());
 }
 
-TEST(InformationLimit, IsATableOfMultiplesWhereASweepHasIt) {
+TEST(InformationLimit, IsATableOfMultiplesIfASweepHasIt) {
   const Sweep sweep = SweepOf(kRows);
   EXPECT_DOUBLE_EQ(LimitMeasure().value(sweep.table, 0).value(), 0.3 / 0.25);
   EXPECT_DOUBLE_EQ(LimitMeasure().value(sweep.table, 2).value(), 20);

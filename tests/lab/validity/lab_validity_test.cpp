@@ -1,4 +1,5 @@
-/// Rows that do not show what they are about: how a run is judged, and what the report makes of it.
+/// Rows of runs that miss their scene's expected event: how a run is judged, and how the report
+/// shows it.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +53,7 @@ std::map<std::string, std::string> RowOf(const std::string& expect, const std::s
   return row;
 }
 
-TEST(Validity, ARowWithoutWhatItsSceneExpectsHasAReasonAndNoFigures) {
+TEST(Validity, ARowThatMissesAnExpectedEventHasAReasonAndNoFigures) {
   const std::map<std::string, std::string> reasons = {
       {"'contact'", "no contact between two players' bodies"},
       {"'hand-over'", "no hand-over"},
@@ -74,7 +75,7 @@ TEST(Validity, AHandOverIsExpectedOnlyOfModesThatHaveThem) {
   EXPECT_EQ(RowOf("'hand-over'", "methods = 'strict'")["valid"], "no hand-over");
 }
 
-TEST(Validity, ARowSaysByWhichOracleItIsJudged) {
+TEST(Validity, ARowNamesItsOracle) {
   EXPECT_EQ(RowOf("", "methods = 'buffer/rollback'")["oracle"], "barrier");
   EXPECT_EQ(RowOf("", "methods = 'buffer/fade'")["oracle"], "plain");
   EXPECT_EQ(RowOf("", "methods = 'central/all'")["oracle"], "barrier");
@@ -98,7 +99,7 @@ TEST(Validity, TheLossMayBeSmallerOnlyByChance) {
   EXPECT_TRUE(LossTooSmall(bursts, {10000, 300}));
 }
 
-TEST(Validity, AnImpairedNetworkCountsWhatItTakes) {
+TEST(Validity, AnImpairedNetworkCountsItsLosses) {
   ClusterConfig config;
   config.scene = "crossing";
   config.impair = "loss=20%";

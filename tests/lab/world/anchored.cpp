@@ -90,8 +90,10 @@ TextTable AnchoredBench(bool quick) {
     double pitch = kApart;
   };
   for (const Row& row :
-       {Row{"single parts", AnchoredKind::kSingle, 0}, Row{"turned by 0.02", AnchoredKind::kSingle, 0.02f},
-        Row{"turned by 0.8", AnchoredKind::kSingle, 0.8f}, Row{"welded in rows", AnchoredKind::kWelded, 0},
+       {Row{"single parts", AnchoredKind::kSingle, 0},
+        Row{"turned by 0.02", AnchoredKind::kSingle, 0.02f},
+        Row{"turned by 0.8", AnchoredKind::kSingle, 0.8f},
+        Row{"welded in rows", AnchoredKind::kWelded, 0},
         Row{"welded, turned by 0.3", AnchoredKind::kWelded, 0.3f},
         Row{"welded, turned by 0.8", AnchoredKind::kWelded, 0.8f},
         Row{"single, no room, turned by 0.3", AnchoredKind::kSingle, 0.3f, kClose},

@@ -166,8 +166,8 @@ TextTable FeatherweightBench(bool quick) {
 
   TextTable table;
   table.name = "featherweight";
-  table.title = std::to_string(bricks) + " anchored bricks under " + std::to_string(kBodiesOnBricks) +
-                " moving bodies";
+  table.title = std::to_string(bricks) + " anchored bricks under " +
+                std::to_string(kBodiesOnBricks) + " moving bodies";
   table.header = {"", "no city", "featherweight", "static bodies"};
   const auto row = [&](const char* name, const std::string& a, double b, double c) {
     table.rows.push_back({name, a, Digits(b), c < 0 ? "–" : Digits(c)});

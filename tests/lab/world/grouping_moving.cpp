@@ -73,8 +73,8 @@ TextTable GroupingMovingBench(bool quick) {
     const std::string bodies = std::to_string(single.body_count());
     const std::string left = std::to_string(grouped.body_count());
     const int ticks = quick ? 10 : 20;
-    const double cost =
-        CostRatio([&] { PlayAndApply(&single, ticks); }, [&] { PlayAndApply(&grouped, ticks); }, quick ? 3 : 9);
+    const double cost = CostRatio([&] { PlayAndApply(&single, ticks); },
+                                  [&] { PlayAndApply(&grouped, ticks); }, quick ? 3 : 9);
     table.rows.push_back(
         {carrier.name, bodies, left, Digits(cost), Digits(LargestDistance(grouped, single))});
   }

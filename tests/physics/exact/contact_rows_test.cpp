@@ -1,4 +1,4 @@
-/// The rows of contacts: derivatives of the separation, and what of them turns with a disc.
+/// The rows of contacts: derivatives of the separation, and the terms that turn with a disc.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ struct PointRows {
   KeptRow normal, friction;
 };
 
-/// Of the first point of the contact, as the bodies are now.
+/// Rows of the contact's first point at the bodies' current poses.
 PointRows RowsOf(const RowsOfScene& scene, const ExactContact& contact) {
   PointRows out;
   RowEnd ends[2 * b2_maxManifoldPoints][2];

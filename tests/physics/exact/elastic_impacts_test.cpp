@@ -1,4 +1,4 @@
-/// Blows of restitution 1 between bodies that no joint holds: energy, order, and who hears of them.
+/// Perfectly elastic impacts between bodies without joints: energy, order and reports.
 
 #include <gtest/gtest.h>
 
@@ -67,11 +67,11 @@ TEST(ElasticImpacts, DiscsInAClosedBoxKeepTheirEnergyAtAnySubsteps) {
   }
 }
 
-TEST(ElasticImpacts, TheEngineAloneDoesNot) {
+TEST(ElasticImpacts, TheEngineAloneLosesTheEnergy) {
   EXPECT_GT(EnergyChange(Gas("circle = 0.6", 11), "joints = \"iterative\"\n"), 2e-3);
 }
 
-TEST(ElasticImpacts, SquaresThatTumbleKeepIt) {
+TEST(ElasticImpacts, TumblingSquaresKeepTheirEnergy) {
   EXPECT_LT(EnergyChange(Gas("box = [1, 1]", 13), ""), 1e-3);
 }
 
@@ -93,7 +93,7 @@ TEST(ElasticImpacts, ABallUnderGravityComesBackToItsHeight) {
   EXPECT_GT(highest("joints = \"iterative\"\n"), 4);  // the engine throws it higher and higher
 }
 
-/// What is left of the energy of thirty squares that fall into a pit, after 20 s.
+/// Remaining share of the energy of thirty squares that fall into a pit, after 20 s.
 double LeftInAPit(const std::string& solver) {
   std::string parts = Elastic("floor", "box = [9, 1]\nposition = [0, -0.5]\nanchored = true");
   for (const int side : {-1, 1}) {
@@ -119,7 +119,7 @@ TEST(ElasticImpacts, APileUnderGravityKeepsItsEnergy) {
   EXPECT_GT(LeftInAPit("joints = \"iterative\"\n"), 1.1);  // the engine heats it
 }
 
-TEST(ElasticImpacts, OfARowOfDiscsTheLastFlies) {
+TEST(ElasticImpacts, TheLastDiscOfARowFlies) {
   std::string parts;
   for (int i = 0; i < 5; ++i) {
     parts += Elastic("disc" + std::to_string(i),
@@ -133,7 +133,7 @@ TEST(ElasticImpacts, OfARowOfDiscsTheLastFlies) {
   }
 }
 
-TEST(ElasticImpacts, SlowOnesBounceWhereNothingWeighs) {
+TEST(ElasticImpacts, SlowImpactsBounceWithoutGravity) {
   const auto world =
       SmallWorld(Walls() + Elastic("disc", "circle = 0.5\nposition = [5, 0]\nvelocity = [0.3, 0]"),
                  "", kWeightless);
@@ -141,7 +141,7 @@ TEST(ElasticImpacts, SlowOnesBounceWhereNothingWeighs) {
   EXPECT_NEAR(world->Read(0).velocity.x(), -0.3, 1e-6);
 }
 
-TEST(ElasticImpacts, WhatLiesOnElasticGroundLies) {
+TEST(ElasticImpacts, ABoxAtRestOnElasticGroundStaysAtRest) {
   const auto world =
       SmallWorld(Elastic("ground", "box = [20, 1]\nposition = [0, -0.5]\nanchored = true", 0.5) +
                  Elastic("box", "box = [1, 1]\nposition = [0, 0.505]", 0.5));
@@ -158,12 +158,12 @@ TEST(ElasticImpacts, WithFrictionNoEnergyIsGained) {
   const double begin = world->Energy();
   for (int tick = 0; tick < 600; ++tick) {
     world->Step();
-    // What a step of 1/60 s is early or late with gravity: 8 m/s by 0.16 m/s.
+    // The error of a step of 1/60 s under gravity: 8 m/s by 0.16 m/s.
     EXPECT_LT(world->Energy(), begin + 0.7 * 8 * 0.17) << tick;
   }
 }
 
-TEST(ElasticImpacts, LessThanRestitutionOneIsTheEngines) {
+TEST(ElasticImpacts, RestitutionBelowOneIsLeftToTheEngine) {
   std::string parts = Gas("circle = 0.6", 14);
   for (std::size_t at = 0; (at = parts.find("restitution = 1\n", at)) != std::string::npos; ++at) {
     parts.replace(at, 15, "restitution = 0.9");
@@ -175,7 +175,7 @@ TEST(ElasticImpacts, LessThanRestitutionOneIsTheEngines) {
   EXPECT_EQ(ours->Hash(), engines->Hash());
 }
 
-TEST(ElasticImpacts, AreHeardAsImpacts) {
+TEST(ElasticImpacts, AreReportedAsImpacts) {
   const auto world =
       SmallWorld(Elastic("left", "circle = 0.5\nposition = [-1, 0]\nvelocity = [3, 0]") +
                      Elastic("right", "circle = 0.5\nposition = [1, 0]\nvelocity = [-3, 0]"),
@@ -189,7 +189,7 @@ TEST(ElasticImpacts, AreHeardAsImpacts) {
   EXPECT_NEAR(heard[0].dv, 6, 1e-4);
 }
 
-TEST(ElasticImpacts, GoBackBitForBit) {
+TEST(ElasticImpacts, ReplayBitForBit) {
   const auto world = SmallWorld(Gas("circle = 0.6", 15), "substeps = 2\n", kWeightless);
   Steps(world.get(), 50);
   const WorldSnapshot barrier = world->Barrier();

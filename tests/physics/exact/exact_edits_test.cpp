@@ -1,4 +1,4 @@
-/// Mechanisms that are edited and led while exact.
+/// Mechanisms that are edited, or have prescribed links, under the exact solver.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ int JointNamed(const World& world, const std::string& name) {
   return -1;
 }
 
-TEST(ExactEdits, WhatIsBrokenOffFallsAndWhatIsLeftStaysShut) {
+TEST(ExactEdits, ABrokenOffPieceFallsAndTheRestStaysClosed) {
   const auto world = ExactWorld(HungChain(6));
   Steps(world.get(), 30);
   world->Apply({Edit(BreakEdit{JointNamed(*world, "h2")})});
@@ -61,7 +61,7 @@ TEST(ExactEdits, ABondMakesTwoLinksOneAndTheMechanismGoesOn) {
   }
 }
 
-TEST(ExactEdits, WhatIsInsertedWithAJointIsSolvedAsWell) {
+TEST(ExactEdits, AnInsertedJointIsSolvedToo) {
   const auto world =
       ExactWorld(PostText(0, 0) + PartText("ball", "circle = 0.3\nposition = [20, 0]"));
   Steps(world.get(), 10);
@@ -73,7 +73,7 @@ TEST(ExactEdits, WhatIsInsertedWithAJointIsSolvedAsWell) {
   EXPECT_NEAR(world->Read(world->BodyOfId(2)).position.norm(), 1, 1e-5);
 }
 
-TEST(ExactEdits, AKinematicLinkGoesItsWayAndTheOthersFollow) {
+TEST(ExactEdits, AKinematicLinkFollowsItsPathAndTheOthersFollowIt) {
   const auto world = ExactWorld(ChainText(5, 0, 0));
   world->SetMotion(2, Motion::kKinematic);
   const BodyState start{{2.5f, 0}, 0, {1, 0.5f}, 0};
@@ -91,7 +91,7 @@ TEST(ExactEdits, AKinematicLinkGoesItsWayAndTheOthersFollow) {
   EXPECT_LT(Drift(*world), 1e-5);
 }
 
-/// How far a chain's joints are open, at worst, while its first link is led.
+/// Largest opening of a chain's joints while its first link is prescribed.
 double DriftOfLed(const char* joints) {
   const auto world = SmallWorld(ChainText(5, 0, 0), joints, "gravity = [0, 0]\n");
   world->SetMotion(0, Motion::kPrescribed);
@@ -110,7 +110,7 @@ double DriftOfLed(const char* joints) {
   return worst;
 }
 
-TEST(ExactEdits, ALedLinkIsWhereItsPathTakesItAndTheOthersFollow) {
+TEST(ExactEdits, APrescribedLinkFollowsItsPathAndTheOthersFollowIt) {
   // It is put on its path after a step that solved it with its joints: a step's correction is open,
   // of a start at 1.1 m/s within one of 17 ms.
   const double exact = DriftOfLed("joints = \"exact\"\n");
@@ -118,7 +118,7 @@ TEST(ExactEdits, ALedLinkIsWhereItsPathTakesItAndTheOthersFollow) {
   EXPECT_LT(exact, 1.2 * DriftOfLed("joints = \"iterative\"\n"));
 }
 
-TEST(ExactEdits, AWriteThatTearsAJointApartIsUndoneWithoutSpeed) {
+TEST(ExactEdits, AWriteThatOpensAJointIsClosedWithoutAddingSpeed) {
   const auto world = ExactWorld(ChainText(4, 0, 0), "", "gravity = [0, 0]\n");
   Steps(world.get(), 5);
   BodyState off = world->Read(1);

@@ -1,4 +1,4 @@
-/// What exact joints keep: energy, momentum, and being shut.
+/// Exact joints conserve energy and momentum and stay closed.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ double EnergyOf(const World& world) {
   return MechanicalEnergy(world.scene(), world.composition(), StatesOf(world));
 }
 
-/// Of a bob on a hinged rod of 2 m, let go at the height of the hinge.
+/// A bob on a hinged rod of 2 m, released at the height of the hinge.
 std::string Pendulum() {
   return PostText(0, 0) + PartText("bob", "box = [2, 0.1]\nposition = [1, 0]") +
          HingeText("pivot", "post", "bob", 0, 0);
@@ -181,7 +181,7 @@ std::string RodBox(int start, double speed) {
   return parts;
 }
 
-TEST(ExactEnergy, JointedRodsThatStrikeEachOtherKeepIt) {
+TEST(ExactEnergy, JointedRodsThatStrikeEachOtherKeepTheirEnergy) {
   for (const auto& [speed, substeps] : {std::pair(2.4, 1), std::pair(2.4, 4), std::pair(2.4, 8),
                                         std::pair(8.0, 1), std::pair(8.0, 2), std::pair(16.0, 1)}) {
     for (int start = 0; start < 4; ++start) {
@@ -197,7 +197,7 @@ TEST(ExactEnergy, JointedRodsThatStrikeEachOtherKeepIt) {
   }
 }
 
-TEST(ExactEnergy, AThrownChainKeepsWhatItHasAboutItsCentre) {
+TEST(ExactEnergy, AThrownChainKeepsEnergyAndMomentumAboutItsCentre) {
   // It falls for two seconds, turning by up to 0.3 rad in a substep; nothing touches it.
   auto world = ExactWorld(ChainText(3, -1.5, 0, "group = -1\n"), "joint_substeps = 1\n");
   const double spins[] = {18, -12, 9};
@@ -250,7 +250,7 @@ TEST(ExactEnergy, AMechanismAtItsDeadEndStops) {
       for (int t = 0; t < 240; ++t) {
         world->Step();
         for (const BodyState& state : StatesOf(*world)) {
-          // The motor's 5 m/s by the ratio are 25 of the load; what hangs on it may swing.
+          // The motor's 5 m/s by the ratio are 25 of the load, and its appendages may swing.
           ASSERT_LT(state.velocity.norm(), 60) << more << substeps << t;
         }
       }
@@ -259,7 +259,7 @@ TEST(ExactEnergy, AMechanismAtItsDeadEndStops) {
   }
 }
 
-TEST(ExactEnergy, ALoadThatReachesItsPulleyStopsThere) {
+TEST(ExactEnergy, ALoadStopsAtItsPulley) {
   // 3 kg pull 1 kg up, or with a ratio of 3 fall slower than it rises; the right one may swing.
   for (const double ratio : {0.4, 1.0, 3.0}) {
     for (const char* swing : {"", "velocity = [1.5, 0]\n"}) {
@@ -291,7 +291,7 @@ TEST(ExactEnergy, ALoadThatReachesItsPulleyStopsThere) {
   }
 }
 
-TEST(ExactEnergy, WhatIsPulledThroughAPulleysPointGainsNothing) {
+TEST(ExactEnergy, ABodyPulledPastAPulleyGainsNoEnergy) {
   // Two bodies that motors hold against each other; the rope comes from within reach of one.
   const auto world = ExactWorld(
       PartText("post", "box = [0.4, 0.4]\nanchored = true\nposition = [0, 4]\ngroup = -1") +

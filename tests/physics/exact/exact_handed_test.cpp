@@ -1,5 +1,5 @@
-/// What the engine hands to the exact solver, and it to the engine: blows of continuous collision,
-/// impulses of what is taut, joints that come back open.
+/// Hand-over between the engine and the exact solver: impacts of continuous collision, impulses of
+/// taut joints, joints that return open.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ std::string BouncingPair(const std::string& joint, double restitution, double tu
          "[[joint]]\nname = \"j\"\na = \"a\"\nb = \"b\"\n" + joint + "\n";
 }
 
-TEST(ExactHanded, WhatBouncesDoesNotGetFasterByContinuousCollision) {
+TEST(ExactHandedToEngine, ContinuousCollisionAddsNoSpeedToBouncingBodies) {
   const char* const joints[] = {
       "kind = \"distance\"\nfrequency = 3\ndamping_ratio = 0", "kind = \"distance\"",
       "kind = \"hinge\"\nanchor = [-0.45, 2]", "kind = \"rope\"\nlength = 1.2",
@@ -75,7 +75,7 @@ std::string FlatBridge(int planks, int crates) {
                              std::to_string(crates) + ", 4], step = [0.82, 0.82]}");
 }
 
-TEST(ExactHanded, WhatIsTautBeginsWithoutItsImpulsesAtTheEngine) {
+TEST(ExactHandedToEngine, ATautBridgeBeginsWithoutWarmImpulsesInTheEngine) {
   for (const int planks : {16, 20, 24}) {
     const auto world = SmallWorld(FlatBridge(planks, planks - 5));
     // Nothing falls by more than a few metres.
@@ -83,7 +83,7 @@ TEST(ExactHanded, WhatIsTautBeginsWithoutItsImpulsesAtTheEngine) {
   }
 }
 
-TEST(ExactHanded, ALightChainThatComesBackOpenIsShutNotThrown) {
+TEST(ExactHandedToEngine, ALightChainThatReturnsOpenIsClosedNotThrown) {
   // Almost straight, between an anchor and a heavy load: nearly singular.
   Random random(4);
   for (int i = 0; i < 20; ++i) {

@@ -1,4 +1,4 @@
-/// What is clamped from more sides than it can give way to: no energy comes of it.
+/// Bodies jammed from several sides gain no energy.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ double MassOf(const World& world) {
   return mass;
 }
 
-/// Of a run of so many ticks, J/kg: what energy came in a tick at most, and all in all.
+/// Energy gains of a run, J/kg: the largest within a tick, and the total.
 struct Gains {
   double tick = 0, all = 0;
 };
@@ -61,7 +61,7 @@ double FastestOf(World* world, int ticks) {
   return most;
 }
 
-/// A press whose lower side goes from `high` to `low` and back in 4 s.
+/// A press that moves its lower side from `high` to `low` and back in 4 s.
 std::string PressText(double high, double low) {
   return PartText("press", "box = [3, 0.5]\nanchored = true\nposition = [0, " +
                                FloatDigits(high + 0.25) + "]") +
@@ -91,7 +91,7 @@ TEST(ExactJam, CratesThatOverlapByHalfComeApartAlthoughTheyAreJammed) {
   EXPECT_LT(MiddleOverlap(JamPlace::kPit, 21), 0.25);
 }
 
-TEST(ExactJam, APressThatSqueezesWhatIsJointedThrowsNothing) {
+TEST(ExactJam, APressThatSqueezesJointedPlanksThrowsNothing) {
   // Two planks of 0.3 m, hinged; the press comes down to 0.2 m at 0.4 m/s and goes up again.
   const auto world = ExactWorld(std::string(kGround) + PressText(1, 0.2) +
                                 PartText("plank",
@@ -102,15 +102,15 @@ TEST(ExactJam, APressThatSqueezesWhatIsJointedThrowsNothing) {
   EXPECT_LT(Drift(*world), 1e-4);
 }
 
-TEST(ExactJam, APressOnRandomJamsThrowsNothingFarAway) {
+TEST(ExactJam, APressOnRandomJamsThrowsNoBodyFar) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto world = ExactWorld(JamMaker(seed).Text(JamPlace::kPit, PressText(3, 1)));
     EXPECT_LT(FastestOf(world.get(), 150), 25) << "m/s, seed " << seed;
   }
 }
 
-TEST(ExactJam, AJamThatIsLeftToTheEngineTakesNoImpulsesAlongThatItCannotCarry) {
-  // Cost decides from tick to tick who solves these.
+TEST(ExactJam, AJamLeftToTheEngineDropsImpulsesItCannotCarry) {
+  // Cost decides from tick to tick which solver takes these.
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto world =
         SmallWorld(JamMaker(seed).Text(JamPlace::kWagon), "joints = \"auto\"\nsubsteps = 2\n");

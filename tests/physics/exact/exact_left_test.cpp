@@ -1,6 +1,5 @@
-/// What `auto` leaves to the engine: mechanisms that are too large from the beginning are the
-/// engine's, bit for bit, alone and beside others that are solved exactly; and what takes too much
-/// when it gets into a heap is the engine's for a while.
+/// `auto` leaves mechanisms to the engine: those too large from the start bit for bit, alone and
+/// beside exactly solved ones; and expensive ones in a heap for a while.
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -35,7 +34,7 @@ std::string FarPendulum() {
          HingeText("pivot", "post", "bob", 40, 5);
 }
 
-/// What both worlds have of the first `bodies`, and what hits them, in half a second.
+/// Expects both worlds to have the same first `bodies` and impacts on them for half a second.
 void ExpectTheSame(World* ours, World* engines, int bodies) {
   std::size_t heard = 0;
   for (int tick = 0; tick < 30; ++tick) {
@@ -53,14 +52,14 @@ void ExpectTheSame(World* ours, World* engines, int bodies) {
   EXPECT_GT(heard, 10u) << "it hits the ground";
 }
 
-TEST(ExactLeft, AGridIsTheEngines) {
+TEST(ExactLeftToEngine, AGridIsLeftToTheEngine) {
   const auto ours = SmallWorld(FallingGrid());
   const auto engines = SmallWorld(FallingGrid(), "joints = \"iterative\"\n");
   ExpectTheSame(ours.get(), engines.get(), 196);
   EXPECT_EQ(ours->Hash(), engines->Hash());
 }
 
-TEST(ExactLeft, BesideAnExactPendulumItIsAsWellAndItsBlowsAreHeard) {
+TEST(ExactLeftToEngine, BesideAnExactPendulumAGridIsLeftTooWithItsImpacts) {
   const auto ours = SmallWorld(FallingGrid() + FarPendulum());
   const auto engines = SmallWorld(FallingGrid() + FarPendulum(), "joints = \"iterative\"\n");
   ExpectTheSame(ours.get(), engines.get(), 196);
@@ -93,7 +92,7 @@ double CostOfTicks(World* world) {
   return least;
 }
 
-TEST(ExactLeft, AHeapThatABladeShovesCostsLittleMoreThanTheEngines) {
+TEST(ExactLeftToEngine, AHeapThatABladeShovesCostsLittleMoreThanTheEngines) {
   const auto ours = SmallWorld(ShovedHeap());
   const auto engines = SmallWorld(ShovedHeap(), "joints = \"iterative\"\n");
   for (World* world : {ours.get(), engines.get()}) {
@@ -103,8 +102,8 @@ TEST(ExactLeft, AHeapThatABladeShovesCostsLittleMoreThanTheEngines) {
   EXPECT_LT(CostOfTicks(ours.get()), 1.7 * CostOfTicks(engines.get()));
 }
 
-/// A cart that drives into a heap of crates before a wall: exact joints look through so many
-/// contacts of which those of a crate say more than it has freedom.
+/// A cart that drives into a heap of crates before a wall: the exact solver meets crates with more
+/// contacts than degrees of freedom.
 std::string CartIntoCrates(int columns) {
   const auto wheel = [](const std::string& name, const std::string& x) {
     return PartText(name, "circle = 0.4\nposition = [" + x + ", 0.4]\nfriction = 0.9") +
@@ -120,7 +119,7 @@ std::string CartIntoCrates(int columns) {
                       std::to_string(columns) + ", 3], step = [0.71, 0.71]}");
 }
 
-TEST(ExactLeft, WhatTakesTooMuchInAHeapIsTheEnginesForAWhile) {
+TEST(ExactLeftToEngine, AnExpensiveHeapIsLeftToTheEngineForAWhile) {
   const auto ours = SmallWorld(CartIntoCrates(5));
   const auto exact = SmallWorld(CartIntoCrates(5), kExactJoints);
   int left = 0, begun = 0, steps = 0;
@@ -139,7 +138,7 @@ TEST(ExactLeft, WhatTakesTooMuchInAHeapIsTheEnginesForAWhile) {
   EXPECT_GE(left, 20 * begun) << "what one step found is not found anew after each barrier";
 }
 
-TEST(ExactLeft, AFewCratesAreNoHeap) {
+TEST(ExactLeftToEngine, AFewCratesAreSolvedExactly) {
   const auto world = SmallWorld(CartIntoCrates(1));
   for (int tick = 0; tick < 300; ++tick) {
     world->Step();
@@ -148,7 +147,7 @@ TEST(ExactLeft, AFewCratesAreNoHeap) {
   EXPECT_GT(world->Read(world->BodyOfId(1)).position.x(), 5) << "the cart is among them";
 }
 
-TEST(ExactLeft, WhatBreaksOffHasChangedNothing) {
+TEST(ExactLeftToEngine, AnAbandonedStepChangesNothing) {
   // The step in which it is found is the engine's, of the world as it was.
   const auto ours = SmallWorld(CartIntoCrates(5));
   bool found = false;
@@ -168,9 +167,9 @@ TEST(ExactLeft, WhatBreaksOffHasChangedNothing) {
   EXPECT_TRUE(found);
 }
 
-/// By tick, with a barrier after each: the joints of each step are new, in memory that is full of
-/// `byte`, as far as glibc gives it (a sanitizer has its own). The engine does not say of a new
-/// rod where it points.
+/// Hashes by tick, with a barrier after each: the joints of each step are new, in memory full of
+/// `byte`, as far as glibc allows (a sanitizer has its own). The engine does not initialise a new
+/// rod's direction.
 std::vector<std::uint64_t> HashesInMemoryFullOf(int byte) {
   const std::string trailer =
       PartText("trailer", "circle = 0.5\nposition = [-4, 0.5]\ndensity = 3") +
@@ -190,8 +189,8 @@ std::vector<std::uint64_t> HashesInMemoryFullOf(int byte) {
   return hashes;
 }
 
-TEST(ExactLeft, WhatANewJointsMemoryHeldBeforeIsOfNoMatter) {
-  // As floats: 0, 3.4e38, -1.2e-38 and not a number.
+TEST(ExactLeftToEngine, UninitialisedMemoryDoesNotAffectANewJoint) {
+  // The bytes as floats: 0, 3.4e38, -1.2e-38 and NaN.
   const std::vector<std::uint64_t> zero = HashesInMemoryFullOf(0);
   for (const int byte : {0x7f, 0x80, 0xff}) {
     EXPECT_EQ(HashesInMemoryFullOf(byte), zero) << byte;

@@ -1,4 +1,4 @@
-/// Mechanisms that come to rest, and what wakes them.
+/// Mechanisms that come to rest, and the events that wake them.
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ TEST(ExactRest, AFreeBodyThatHitsASleepingChainWakesIt) {
   EXPECT_TRUE(woke);
 }
 
-TEST(ExactRest, ALinkageOnTheGroundFallsAsleepWithWhatLiesOnIt) {
+TEST(ExactRest, ALinkageOnTheGroundFallsAsleepWithItsLoad) {
   World world(Sleepy(kGround +
                      PartText("plank",
                               "box = [2, 0.2]\nposition = [0, 0.115]\n"
@@ -105,7 +105,7 @@ TEST(ExactRest, ALoadOnASpringFallsAsleep) {
   EXPECT_GT(TicksToSleep(&world, 900), 0);
 }
 
-TEST(ExactRest, AMotorsOrderWakesWhatSleeps) {
+TEST(ExactRest, AMotorsInputWakesItsMechanism) {
   World world(
       Sleepy("[[player]]\nname = \"ann\"\n" + PostText(0, 0) +
              PartText("arm", "box = [2, 0.1]\nposition = [1, 0]") +
@@ -144,10 +144,10 @@ std::string CarAtCrates(double speed) {
   return text;
 }
 
-/// Continuous collision takes a body back to where it hit, and brings its mechanism together there,
-/// with all that touches it. Whoever was agreed to rest would be put back (RestCommit) if it still
+/// Continuous collision moves a body back to its impact and closes its mechanism there, with
+/// everything in contact. A body agreed to be at rest would be put back (RestCommit) if it still
 /// slept, and a replay would not do that.
-TEST(ExactRest, WhatSleepsIsNotMovedWhenAMechanismIsBroughtTogether) {
+TEST(ExactRest, ClosingAMechanismDoesNotMoveSleepers) {
   int moved = 0, struck = 0;
   for (int n = 0; n < 24; ++n) {
     World world(Sleepy(CarAtCrates(12 + 0.25 * n)));

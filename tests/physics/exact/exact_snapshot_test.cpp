@@ -1,4 +1,4 @@
-/// Exact joints in worlds that go back: what is between two steps is all in the snapshot.
+/// Exact joints in worlds that go back: a snapshot holds all state between two steps.
 
 #include <gtest/gtest.h>
 
@@ -53,9 +53,11 @@ void ExpectEqualReplay(JointSolving joints) {
 
 TEST(ExactSnapshot, ReplayIsBitExactWithExactJoints) { ExpectEqualReplay(JointSolving::kExact); }
 
-TEST(ExactSnapshot, ReplayIsBitExactWhereCostDecides) { ExpectEqualReplay(JointSolving::kAuto); }
+TEST(ExactSnapshot, ReplayIsBitExactIfCostChoosesTheSolver) {
+  ExpectEqualReplay(JointSolving::kAuto);
+}
 
-TEST(ExactSnapshot, ReplayIsBitExactWithLedAndKinematicBodies) {
+TEST(ExactSnapshot, ReplayIsBitExactWithPrescribedAndKinematicBodies) {
   for (const Motion motion : {Motion::kPrescribed, Motion::kKinematic}) {
     for (const char* name : {"bridge", "crane-grip", "car-terrain"}) {
       Scene scene = LoadScene(std::string("scenes/hard/") + name + ".toml");
@@ -93,7 +95,7 @@ std::string MechanismAndPile(const char* joints) {
          PartText("ball", "circle = 0.3\nposition = [20.4, 7]\nvelocity = [1, -9]");
 }
 
-TEST(ExactSnapshot, WhatIsFreeHasTheSameBitsBesideAnExactMechanism) {
+TEST(ExactSnapshot, FreeBodiesHaveTheSameBitsBesideAnExactMechanism) {
   World exact(ParseScene(MechanismAndPile("exact"), "s.toml"));
   World stock(ParseScene(MechanismAndPile("iterative"), "s.toml"));
   bool other_chain = false;

@@ -1,4 +1,4 @@
-/// What joints hold, by arithmetic.
+/// The forces that joints hold, by arithmetic.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(ExactStatics, AnAnchorBreaksAtItsStrengthAndNotTwoPercentBelow) {
   }
 }
 
-TEST(ExactStatics, ASwingingLoadStrainsItsAnchorByTheWayRound) {
+TEST(ExactStatics, ASwingingLoadAddsCentripetalForceToItsAnchor) {
   // Let go level with the hinge, a point mass on a rod would pull with 3 m g at the bottom; a rod
   // of 2 m with its mass spread pulls with 2.5 m g there: m g + m w^2 l/2 with w^2 = 3 g / l.
   const double load = 0.2 * 10 * 2.5 + 0.0016 * 10;  // and the hook's own
@@ -118,7 +118,7 @@ TEST(ExactStatics, AMotorStrongerThanItsLoadTurnsAtItsSpeedAndAWeakerOneSinks) {
   EXPECT_LT(sinks->Read(0).angle, -1e-3);
 }
 
-TEST(ExactStatics, ALimitHoldsAnArmAndWhatHangsOnIt) {
+TEST(ExactStatics, ALimitHoldsAnArmAndItsLoad) {
   const auto world =
       ExactWorld(PostText(0, 0) + PartText("arm", "box = [2, 0.1]\nposition = [1, 0]") +
                  PartText("load", "box = [1, 1]\nposition = [2, -1]\ndensity = 100") +
@@ -140,7 +140,7 @@ TEST(ExactStatics, APrismaticLimitHoldsToTheMicrometre) {
   EXPECT_NEAR(world->Read(0).velocity.y(), 0, 1e-5);
 }
 
-TEST(ExactStatics, ASpringCarriesItsLoadWhereHookePutsIt) {
+TEST(ExactStatics, ASpringCarriesItsLoadByHookesLaw) {
   // m g / k below its length; k = m (2 pi f)^2.
   const auto world = ExactWorld(
       PostText(0, 0) + PartText("load", "box = [1, 1]\nposition = [0, -3]\ndensity = 4") +

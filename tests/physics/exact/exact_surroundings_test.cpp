@@ -1,4 +1,4 @@
-/// Mechanisms on things that move them: platforms, belts, water, walls; and what others see of it.
+/// Mechanisms moved by platforms, belts, water and walls; and the impacts that are reported.
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@
 namespace seam {
 namespace exact_surroundings_test {
 
-/// Two planks of 1 m, hinged, flat on what is at height `y`.
+/// Two planks of 1 m, hinged, flat on a surface at height `y`.
 std::string Planks(double y) {
   return PartText("plank", "box = [1, 0.3]\nposition = [0, " + FloatDigits(y + 0.165) +
                                "]\nfriction = 0.8\nrepeat = {count = 2, step = [1, 0]}") +
          HingeText("h", "plank.0", "plank.1", 0.5, y + 0.165);
 }
 
-TEST(ExactSurroundings, AMovingPlatformCarriesWhatIsJointed) {
+TEST(ExactSurroundings, AMovingPlatformCarriesJointedPlanks) {
   const auto world = ExactWorld(
       "[[part]]\nname = \"platform\"\nbox = [6, 0.5]\nposition = [0, 1.75]\nanchored = true\n"
       "friction = 0.8\n"
@@ -36,7 +36,7 @@ TEST(ExactSurroundings, AMovingPlatformCarriesWhatIsJointed) {
   EXPECT_LT(Drift(*world), 1e-5);
 }
 
-TEST(ExactSurroundings, APlatformThatStopsForAWhileWakesWhatSleptOnIt) {
+TEST(ExactSurroundings, APlatformThatMovesAgainWakesItsSleepers) {
   Scene scene = ParseScene(
       std::string("[solver]\n") + kExactJoints +
           "[[part]]\nname = \"platform\"\nbox = [6, 0.5]\nposition = [0, 1.75]\nanchored = true\n"
@@ -64,7 +64,7 @@ TEST(ExactSurroundings, AHingeOnAPlatformGoesWithIt) {
   }
 }
 
-TEST(ExactSurroundings, AConveyorDragsWithMuGUntilAllMovesAsItDoes) {
+TEST(ExactSurroundings, AConveyorDragsWithMuGUntilEverythingMovesWithIt) {
   const auto world = ExactWorld(
       "[[part]]\nname = \"belt\"\nbox = [60, 1]\nposition = [0, -0.5]\nfriction = 0.2\n"
       "conveyor = 3\nanchored = true\n" +
@@ -156,7 +156,7 @@ std::map<int, std::vector<float>> Blows(World* world, int ticks) {
   return blows;
 }
 
-TEST(ExactSurroundings, ABlowIsReportedOncePerBodyWithItsChangeOfSpeed) {
+TEST(ExactSurroundings, AnImpactIsReportedOncePerBodyWithItsChangeOfSpeed) {
   // Flat on the ground from 1 m: 4.47 m/s, no rebound.
   const auto world = ExactWorld(kGround + Planks(1.0));
   const auto blows = Blows(world.get(), 120);
@@ -169,7 +169,7 @@ TEST(ExactSurroundings, ABlowIsReportedOncePerBodyWithItsChangeOfSpeed) {
   EXPECT_NEAR(sum / 2, std::sqrt(2 * 10 * 1.0), 0.35);
 }
 
-TEST(ExactSurroundings, AnElasticBlowOnAMechanismIsReportedToo) {
+TEST(ExactSurroundings, AnElasticImpactOnAMechanismIsReportedToo) {
   const auto world = ExactWorld(
       PartText("plank", "box = [1, 0.3]\nposition = [0, 0]\nrepeat = {count = 2, step = [1, 0]}") +
           HingeText("h", "plank.0", "plank.1", 0.5, 0) +

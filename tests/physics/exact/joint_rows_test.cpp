@@ -1,4 +1,4 @@
-/// The rows of every kind of joint: what multiplies the velocities is the derivative of the error.
+/// The rows of every kind of joint: the Jacobian is the derivative of the error.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ void ExpectSlopes(const std::string& text, int rows, int joint = 0) {
   EXPECT_EQ(with_error, rows);
 }
 
-TEST(JointRows, WhatMultipliesTheVelocitiesIsTheDerivativeOfTheError) {
+TEST(JointRows, TheJacobianIsTheDerivativeOfTheError) {
   const std::string at = "anchor = [0.9, 0.5]\n", sliding = at + "axis = [0.8, 0.6]\n";
   const std::string ends = "anchor_a = [0.5, 0.3]\nanchor_b = [1.3, 0.9]\n";
   ExpectSlopes(Two("kind = \"hinge\"\n" + at), 2);
@@ -124,7 +124,7 @@ std::string GearOn(const std::string& first, const std::string& second) {
          "\n[[joint]]\nname = \"g\"\nkind = \"gear\"\njoints = [\"l\", \"r\"]\nratio = -1.7\n";
 }
 
-TEST(JointRows, AGearsRowIsTheDerivativeOfWhatItCouples) {
+TEST(JointRows, AGearsRowIsTheDerivativeOfItsCoordinates) {
   const std::string hinge = "kind = \"hinge\"", rack = "kind = \"prismatic\"\naxis = [0.6, 0.8]";
   ExpectSlopes(GearOn(hinge, hinge), 1, 2);
   ExpectSlopes(GearOn(rack, hinge), 1, 2);
@@ -139,7 +139,7 @@ const Row* Find(const std::vector<KeptRow>& rows, RowKind kind, std::size_t* at)
   return nullptr;
 }
 
-TEST(JointRows, AMotorsSpeedIsWhatTheEngineCallsTheJointsSpeed) {
+TEST(JointRows, AMotorsSpeedEqualsTheEnginesJointSpeed) {
   const std::string motor = "motor = {speed = 3, torque = 5}\nanchor = [0.9, 0.5]\n";
   const std::string force = "motor = {speed = 3, force = 5}\nanchor = [0.9, 0.5]\n";
   for (const std::string& text :
@@ -191,7 +191,7 @@ TEST(JointRows, ASpringIsImplicit) {
   }
 }
 
-TEST(JointRows, WhatDoesNotMoveFreelyAddsItsSpeed) {
+TEST(JointRows, AFixedBodyAddsItsSpeedToTheRightHandSide) {
   RowsOfScene scene(
       "[[part]]\nname = \"post\"\nbox = [1, 1]\nanchored = true\n"
       "[[part]]\nname = \"load\"\nbox = [1, 1]\nposition = [2, 0]\n"

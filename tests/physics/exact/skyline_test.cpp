@@ -135,7 +135,7 @@ TEST(Skyline, FactorsFromTheFirstRowThatChangedAsIfFromTheBeginning) {
   }
 }
 
-TEST(Skyline, SolvesOneBlockAloneWhereBlocksShareNothing) {
+TEST(Skyline, SolvesIndependentBlocksSeparately) {
   Random random(3);
   const Sample one = RandomSample(9, 4, &random), other = RandomSample(14, 5, &random);
   Sample both;
@@ -157,8 +157,8 @@ TEST(Skyline, SolvesOneBlockAloneWhereBlocksShareNothing) {
   for (std::size_t i = 9; i < 23; ++i) EXPECT_EQ(x[i], whole[i]) << i;
 }
 
-TEST(Skyline, ARowThatOthersImplyGetsNothingAndTheOthersAreSolved) {
-  // The third row is the sum of the first two; the side is what x = (1, 2, 0) gives.
+TEST(Skyline, ARedundantRowGetsZeroAndTheOthersAreSolved) {
+  // The third row is the sum of the first two; the right-hand side is that of x = (1, 2, 0).
   Sample sample;
   sample.first = {0, 0, 0};
   sample.a.resize(3, 3);
@@ -173,7 +173,7 @@ TEST(Skyline, ARowThatOthersImplyGetsNothingAndTheOthersAreSolved) {
   EXPECT_NEAR(x[2], 0, 1e-10);
 }
 
-TEST(Skyline, CountsWhatAFactorisationMultipliesAtMost) {
+TEST(Skyline, CostBoundsTheMultiplicationsOfAFactorisation) {
   EXPECT_EQ(Skyline::Cost({0, 0, 1, 0}), 0 + 2 + 2 + 8);  // widths 1, 2, 2, 4
 }
 

@@ -1,4 +1,4 @@
-/// As it was written at first: every player beside every box. Slow, and plainly what plan.h says.
+/// The first, slow planner: compares every player with every box, as plan.h documents.
 
 #include "tests/support/plan/plan_reference.h"
 
@@ -21,7 +21,7 @@ float DistanceToRegion(const Vec2& p, const PlayerView& player) {
   return DistanceToBox(p, player.region_min, player.region_max);
 }
 
-/// The player whose peer has the mechanism; -1: the server, or a peer that plays nobody.
+/// The player of the mechanism's holder; -1: the server, or a peer without a player.
 int CurrentPlayer(const AuthorityView& view, const MechanismView& mechanism) {
   int current = -1;
   for (std::size_t p = 0; p < view.players.size(); ++p) {
@@ -89,7 +89,7 @@ std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const R
   return {pairs.begin(), pairs.end()};
 }
 
-/// By mechanism: whether it is in a group with one of the peer's.
+/// By mechanism: true if it is in a group with one of the peer's.
 std::vector<bool> WithThoseOf(int peer, const ReferencePlan& plan, const std::vector<int>& group) {
   std::vector<bool> has(plan.size(), false), with(plan.size(), false);
   for (std::size_t m = 0; m < plan.size(); ++m) {
@@ -99,9 +99,8 @@ std::vector<bool> WithThoseOf(int peer, const ReferencePlan& plan, const std::ve
   return with;
 }
 
-/// By mechanism: how far its nearest box is from the player's region or from a box of the peer's,
-/// m. Of what is farther than `near` only the distance from the box around all of the peer's is
-/// known.
+/// By mechanism: distance of its nearest box from the player's region or from a box of the peer's,
+/// m. Beyond `near` only the distance from the box around all of the peer's is known.
 std::vector<float> Distances(const AuthorityView& view, const PlayerView& player,
                              const ReferencePlan& plan, float near) {
   std::vector<float> nearest(plan.size(), FLT_MAX);
@@ -130,7 +129,7 @@ std::vector<float> Distances(const AuthorityView& view, const PlayerView& player
   return nearest;
 }
 
-/// By mechanism: whether it is in a pair with one of the server's.
+/// By mechanism: true if it is in a pair with one of the server's.
 std::vector<bool> WithServers(const ReferencePlan& plan,
                               const std::vector<std::pair<int, int>>& pairs) {
   std::vector<bool> shared(plan.size(), false);
@@ -141,8 +140,8 @@ std::vector<bool> WithServers(const ReferencePlan& plan,
   return shared;
 }
 
-/// Adds the server to what may come into contact with something of its own, or to everything if the
-/// room is small: its copies are what spectators of its view see. Of a large one it is relieved.
+/// Adds the server as a follower of mechanisms that may touch one of its own, or of everything if
+/// the room is small: spectators of its view see its copies. In a large room it is relieved.
 void FollowAtServer(const AuthorityView& view, const std::vector<std::pair<int, int>>& soon,
                     const std::vector<std::pair<int, int>>& later, ReferencePlan* plan) {
   const std::vector<bool> meets_soon = WithServers(*plan, soon);
@@ -174,7 +173,7 @@ std::vector<int> Pressing(const AuthorityView& view) {
   return Components(static_cast<int>(view.mechanisms.size()), pairs);
 }
 
-/// By mechanism: whether its group is a crowd, of which only what is near is followed.
+/// By mechanism: true if its group is a crowd; only its nearby bodies are followed.
 std::vector<bool> InCrowds(const AuthorityView& view, const ReferencePlan& plan,
                            const std::vector<int>& group) {
   std::vector<std::set<int>> holders(plan.size());
@@ -268,7 +267,7 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
 void BringTogether(const AuthorityView& view, ReferencePlan* plan) {
   for (const std::vector<int>& mechanisms : view.together) {
     if (mechanisms.size() < 2) continue;
-    // To whom the owner of either plays; else to whom has the first.
+    // To the peer of either's owner; else to the first's holder.
     int to = (*plan)[static_cast<std::size_t>(mechanisms.front())].authority;
     for (const int m : mechanisms) {
       if (view.mechanisms[static_cast<std::size_t>(m)].owner >= 0) {
@@ -285,7 +284,7 @@ void BringTogether(const AuthorityView& view, ReferencePlan* plan) {
   }
 }
 
-/// What a player may not have is the server's.
+/// A mechanism that its player may not have is the server's.
 void Forbid(const AuthorityView& view, ReferencePlan* plan) {
   for (std::size_t m = 0; m < plan->size(); ++m) {
     ReferenceEntry& planned = (*plan)[m];

@@ -18,7 +18,7 @@ constexpr double kBetweenSeconds = 4, kBetweenSecondsMin = 0.3;
 struct Named {
   const char *mode, *reconcile, *predict;
 };
-/// The default four times: it is what people run.
+/// The default four times: most sessions use it.
 constexpr Named kMethods[] = {{"buffer", "rollback", ""}, {"buffer", "rollback", ""},
                               {"buffer", "rollback", ""}, {"buffer", "retrospect", ""},
                               {"buffer", "rollback", ""}, {"buffer", "fade", ""},
@@ -59,7 +59,7 @@ Fault DrawFault(Random* random, int client, double from_s) {
   return fault;
 }
 
-/// A scene's text without its players' regions: who has what is planned by what is near whom.
+/// A scene's text without its players' regions: authority then follows distance.
 std::string WithoutRegions(const std::string& text) {
   std::istringstream in(text);
   std::string line, without;
@@ -69,7 +69,7 @@ std::string WithoutRegions(const std::string& text) {
   return without;
 }
 
-/// Makes a room narrow. What was drawn, for people.
+/// Makes a room narrow. Returns a description of the drawn limits.
 std::string Narrow(const Scene& scene, Random* random, ClusterConfig* config) {
   char text[160];
   const int parts = static_cast<int>(scene.parts.size());

@@ -14,9 +14,9 @@ namespace {
 /// A hand-over is done, or its holder has to leave, within this long, us: kReleasePatienceUs and
 /// kToldUs.
 constexpr std::int64_t kHandedOverUs = 9000000;
-/// What is nothing to a peer it is told of so much later, us.
+/// A peer hears of bodies outside its interest area so much later, us.
 constexpr std::int64_t kNothingUs = GrantAudience::kGrantPendingDistantS * std::int64_t{1000000};
-/// Edits, states and links that wait: what is more grows without end. A Link gives up at 4096.
+/// Limits of pending edits, states and links: more would grow without end. A Link gives up at 4096.
 constexpr std::size_t kLinkMax = 1500, kEditsMax = 300, kQueueMax = 600;
 /// A body may be faster than the scene's limit for so many ticks on end: a correction of a rule
 /// that does not know joints is over by then, an explosion is not.
@@ -41,7 +41,7 @@ void Invariants::Say(const std::string& what, const std::string& detail) {
   broken.first = at + detail;
 }
 
-/// Whether nothing has been wrong with a client's machine and network for so long.
+/// True if a client's machine and network have been without faults for `for_us`.
 bool Invariants::Well(std::size_t peer, std::int64_t for_us) const {
   if (peer == 0) return true;
   const std::int64_t since_us = faults_.WellSince(static_cast<int>(peer) - 1);
@@ -134,7 +134,7 @@ void Invariants::NoteRecord(const Peer& peer, std::size_t p, const Record& recor
                                           std::to_string(peer.self) + " believed to have it");
   }
   const auto named = named_.find(key);
-  // The server applies many edits in one go: of what it named between two of them nothing is seen.
+  // The server applies many edits in one go: records named between two of them are not seen.
   const bool unseen = named == named_.end() && named_revisions_.count(peer.revision) == 0;
   if (p > 0 && !unseen && (named == named_.end() || named->second != peer.self)) {
     Say("an epoch has one authority",
@@ -151,8 +151,7 @@ void Invariants::NoteRecord(const Peer& peer, std::size_t p, const Record& recor
   }
 }
 
-/// That is all bodies, who is one with whom, and all joints: nothing is lost, nothing is there
-/// twice.
+/// Compares all bodies, their assemblies and all joints: nothing is lost or doubled.
 void Invariants::LookAtCompositions() {
   const Replica& server = *peers_[0].replica;
   for (std::size_t p = 1; p < peers_.size(); ++p) {
@@ -170,7 +169,7 @@ void Invariants::LookAtCompositions() {
   }
 }
 
-/// Who goes on to believe in another owner than the server's.
+/// Finds peers that keep believing in another owner than the server's.
 void Invariants::LookForStrays() {
   const Replica& server = *peers_[0].replica;
   for (std::size_t p = 1; p < peers_.size(); ++p) {
@@ -189,7 +188,7 @@ void Invariants::LookForStrays() {
       const PartId id = server.authority().id(m);
       const auto since = peer.stray_us.find(id);
       stray_us[id] = since == peer.stray_us.end() ? cluster_.now_us() : since->second;
-      // What was nothing to the peer is told of when it comes to concern it, or much later.
+      // The peer hears of a distant body when it becomes relevant, or much later.
       const bool nothing =
           ServerTestAccess::RelevanceOf(cluster_.server(), peer.self, m) == Relevance::kNone;
       const auto rose = peer.stray_relevant_us.find(id);
@@ -225,12 +224,12 @@ void Invariants::LookAtBodies() {
       const bool finite = state.position.allFinite() && state.velocity.allFinite() &&
                           std::isfinite(state.angle) && std::isfinite(state.spin);
       if (!finite) Say("all numbers are finite", who());
-      // What falls out of the world gains what its height was worth.
+      // A body that falls out of the world gains its potential energy.
       const double fallen = std::max(0.0, double{top_} - double{state.position.y()});
       const double limit = double{cluster_.scene().speed_limit};
       const double by_falling = std::sqrt(2 * gravity * fallen);
       fastest_ = std::max(fastest_, speed);
-      // Who joins then cannot be told how fast it falls: States say no more than the limit.
+      // A latecomer cannot receive its speed: States hold no more than the limit.
       const bool beyond_telling = by_falling > limit;
       if (double{speed} <= std::hypot(limit, by_falling) || beyond_telling || strict_) {
         if (!peer.fast_ticks.empty()) peer.fast_ticks.erase(world.id(body));

@@ -1,4 +1,4 @@
-/// Invariants: of rest, and of where bodies are.
+/// Invariants of rest and of poses.
 
 #include <algorithm>
 
@@ -10,11 +10,11 @@
 namespace seam {
 namespace {
 
-/// What rests is known to, if it was lost: RestBlocks finds that out within three seconds, and the
-/// time in which each block has its turn twice.
+/// Time until a lost announcement of rest is known again: RestBlocks finds that out within three
+/// seconds, plus the time in which each block has its turn twice.
 constexpr std::int64_t kRestKnownUs = 7000000, kRestBlockUs = 200000;
-/// Bit for bit the same is what its holder has not moved for so long, us, but where something moves
-/// it here: there it must not come to lie otherwise, us.
+/// A body must be bit for bit the same once its holder has not moved it for so long, us, except
+/// where something moves it here: there it must not come to rest differently, us.
 constexpr std::int64_t kStillUs = 10000000, kStillElsewhereUs = 3000000;
 /// A copy is no farther off than this, m, for longer than this, us.
 constexpr double kFar = 10;
@@ -45,7 +45,7 @@ void Invariants::LookAtRest() {
       const PartId id = world.id(body);
       const std::string who =
           "body " + std::to_string(id) + " at peer " + std::to_string(peer.self);
-      // What has just been told of its motion is about to end its rest.
+      // A state of its motion that has just arrived is about to end its rest.
       const bool lies = !world.awake(body) && world.Read(body).velocity.norm() == 0;
       if (peer.replica->rest().Holds(body) && lies) {
         ++reached_rest_;
@@ -67,7 +67,7 @@ void Invariants::LookAtRest() {
   }
 }
 
-/// Whoever has it, and knows so; nullptr: nobody just now, or one with whom something is wrong.
+/// The holder, if it knows so; nullptr: nobody just now, or a faulty one.
 const Replica* Invariants::HolderOf(PartId body) const {
   const Replica& server = *peers_[0].replica;
   const World& world = server.world();
@@ -82,7 +82,7 @@ const Replica* Invariants::HolderOf(PartId body) const {
   return nullptr;
 }
 
-/// What has not moved by a bit at whoever has it, and since when.
+/// Records bodies that have not moved by a bit at their holder, and since when.
 void Invariants::NoteStill() {
   const World& world = peers_[0].replica->world();
   std::map<PartId, Still> still;
@@ -103,8 +103,8 @@ bool Invariants::Lies(PartId body) const {
   return still != still_.end() && cluster_.now_us() - still->second.since_us >= kStillUs;
 }
 
-/// Whether all lies that touches the body at its holder, or is of its mechanism: a car on its back
-/// whose wheels turn never sleeps, and is told of with the wire's rounding for ever.
+/// True if all bodies of its mechanism or in contact with it at its holder are at rest: a car on
+/// its back with turning wheels never sleeps, and its states keep the wire's rounding for ever.
 bool Invariants::IslandLies(const Replica& holder, int body) const {
   for (const std::vector<int>& island : FindPresentIslands(holder.world())) {
     if (!std::binary_search(island.begin(), island.end(), body)) continue;
@@ -114,8 +114,7 @@ bool Invariants::IslandLies(const Replica& holder, int body) const {
   return true;  // what is absent there touches nothing
 }
 
-/// Of what moves a peer has roughly, and of what has lain still for long exactly, what its holder
-/// has.
+/// A peer has the holder's moving bodies roughly, and those at rest for long exactly.
 void Invariants::LookAtPoses() {
   const Replica& server = *peers_[0].replica;
   const std::int64_t now_us = cluster_.now_us();
@@ -141,10 +140,10 @@ void Invariants::LookAtPoses() {
                Text(peer.replica->rest().record(body)) + "; at its holder " +
                Text(holder->rest().record(body)) + ")";
       };
-      // Of what is nothing to it a peer is told now and then.
+      // A peer hears of distant bodies now and then.
       const int m = server.world().mechanism(body);
-      const bool nothing =
-          p > 0 && ServerTestAccess::RelevanceOf(cluster_.server(), peer.self, m) == Relevance::kNone;
+      const bool nothing = p > 0 && ServerTestAccess::RelevanceOf(cluster_.server(), peer.self,
+                                                                  m) == Relevance::kNone;
       if (lies && !nothing && !SameBits(there, truth) && IslandLies(*holder, body)) {
         const auto seen = peer.still_elsewhere.find(id);
         const bool stays = seen != peer.still_elsewhere.end() && SameBits(seen->second.pose, there);

@@ -20,18 +20,18 @@ namespace {
 
 /// A body may have this multiple of the oracle's hottest body's energy...
 constexpr double kHottest = 2;
-/// ...and besides what it has at this speed, m/s: for what players do that is not known in time...
+/// ...and besides its energy at this speed, m/s: for players' actions that are not known in time...
 constexpr double kUnknown = 3;
 /// ...and, where it is shown, for the glide that hides a correction: 4 m/s and more, on top of it.
 constexpr double kUnknownShown = 7;
-/// Of a room without gravity or loss the sum may be so many times the oracle's.
+/// In a room without gravity or loss the sum may reach this multiple of the oracle's.
 constexpr double kSum = 1.15;
 /// A crash: the oracle's joints are open by more than this, m.
 constexpr double kCrashDrift = 0.005;
 /// A peer that does not know another's input yet may have that crash so many ticks earlier or
 /// later.
 constexpr std::int64_t kCrashTicks = 12;
-/// The engine closes again what a crash has opened, within so many ticks.
+/// The engine closes joints that a crash has opened within so many ticks.
 constexpr int kCrashOpenTicks = 6;
 
 /// J, by the two last poses shown and by the velocities of physics.
@@ -151,7 +151,7 @@ class Check {
     return sum;
   }
 
-  /// Where a view shows exactly the bodies of its revision.
+  /// True if a view shows exactly the bodies of its revision.
   static bool Whole(const View& view, const Meters& meters) {
     return view.id.size() == meters.revision->ids.size() &&
            std::equal(view.id.begin(), view.id.end(), meters.revision->ids.begin());
@@ -183,8 +183,8 @@ class Check {
     for (const auto& [second, all] : seconds) Judge(peer, second, all);
   }
 
-  /// What a peer's engine opens itself in a crash that the oracle has too, only a little otherwise
-  /// since an input was not known, is shown as it is. It is no excuse for more than a blink.
+  /// A joint that a peer's engine opens in a crash that the oracle has too, slightly different
+  /// since an input was unknown, is displayed as it is. That excuses only a blink.
   void LookAtJoints(int peer, std::int64_t tick, double drift, int* open_ticks) {
     const auto crash = crashes_.lower_bound(tick - kCrashTicks);
     const bool crashes = crash != crashes_.end() && *crash <= tick + kCrashTicks;
@@ -215,7 +215,7 @@ class Check {
     found_.energy_sum = std::max(found_.energy_sum, Sum(all) / (kSum * due->second));
   }
 
-  /// What the server shows, and no client does; and where clients show what another one has.
+  /// Finds bodies that the server shows and no client does; and clients' errors of others' bodies.
   void LookForLost() {
     const auto server = recording_.views.find(0);
     if (server == recording_.views.end()) return;

@@ -7,7 +7,7 @@
 namespace seam {
 namespace exact_joints_test {
 
-/// A row of `seam-lab physics`: what is not said is as in all.
+/// A row of `seam-lab physics`; the other columns are as in all rows.
 std::string Row(const std::string& name, const std::string& role, const std::string& joints,
                 int joint_substeps, const std::string& figures) {
   return name + ",formula,m," + role + ",60,1,8,3,on,,on,body," + joints + "," +
@@ -36,7 +36,7 @@ std::vector<std::string> RowOf(const std::string& rows) {
   return table.rows.at(0);
 }
 
-TEST(ExactJoints, ARowSaysErrorOverlapAndCostOfEachSettingAndWhatIsMissed) {
+TEST(ExactJoints, ARowHasErrorOverlapAndCostOfEachSettingAndTheMissedBars) {
   EXPECT_EQ(RowOf(kCrane),
             (std::vector<std::string>{"crane-grip", "m", "2, slipped out / 0 / 1", "0.002 / 0 / 6",
                                       "0.002 / 0.02 / 1.2", "5.0e-04 / 0.004 / 1.6",
@@ -49,7 +49,7 @@ TEST(ExactJoints, OneSettingMustHoldAllOfABar) {
   EXPECT_EQ(RowOf(kCrane + better)[5], "× 4: 5.0e-04 / 0.004 / 1.5");
 }
 
-TEST(ExactJoints, WhatFailedOrIsNoNumberMeetsNothing) {
+TEST(ExactJoints, AFailedOrNanRunMeetsNoBar) {
   const std::string stock = Row("joint-load-hinge", "stock", "iterative", 1, "0.1,,0,0.1,1");
   const auto verdict = [&](const std::string& figures) {
     return RowOf(stock + Row("joint-load-hinge", "exact", "exact", 2, figures)).back();
@@ -60,13 +60,13 @@ TEST(ExactJoints, WhatFailedOrIsNoNumberMeetsNothing) {
   EXPECT_EQ(verdict("1e-6,,0,0,"), "missed: cost (× 2)");
 }
 
-TEST(ExactJoints, WhatMissesMostIsStillNearerThanWhatFails) {
+TEST(ExactJoints, AMissedBarRanksAboveAFailure) {
   const std::string failed = Row("crane-grip", "exact", "exact", 1, "2,slipped out,0,0,1");
   const std::string held = Row("crane-grip", "exact", "exact", 2, "0.1,,0.5,0,9");
   EXPECT_EQ(RowOf(failed + held).back(), "missed: error, overlap, cost (× 2)");
 }
 
-TEST(ExactJoints, DriftIsTheErrorOfMechanismsThatAreJudgedByOtherThings) {
+TEST(ExactJoints, DriftIsTheErrorOfMechanismsThatAreJudgedOtherwise) {
   const std::string rows = Row("scissor-lift", "stock", "iterative", 1, "20,,0,0.5,1") +
                            Row("scissor-lift", "exact", "exact", 1, "0.004,,0.001,5e-6,1");
   EXPECT_EQ(RowOf(rows)[2], "0.5 / 0 / 1");
@@ -84,13 +84,13 @@ TEST(ExactJoints, WithoutABarOfItsOwnStockIsTheBar) {
   EXPECT_EQ(verdict("0.21"), "missed: error (× 2)");
 }
 
-TEST(ExactJoints, WhereThereAreNoJointsTheSceneItselfIsJudged) {
+TEST(ExactJoints, WithoutJointsTheSceneItselfIsJudged) {
   const std::string rows = Row("disc-box-x4", "stock", "iterative", 1, "0.06,,0,0,1") +
                            Row("disc-box-x4", "scene", "iterative", 1, "0.03,,0,0,3");
   EXPECT_EQ(RowOf(rows).back(), "missed: error (no joints)");
 }
 
-TEST(ExactJoints, TheSummaryTakesTheCheapestThatIsNoWorse) {
+TEST(ExactJoints, TheSummaryTakesTheCheapestSettingThatIsNoWorse) {
   const std::string rows = kCrane + Row("tower-10", "stock", "iterative", 1, "0.01,,0,0,1") +
                            Row("tower-10", "scene", "iterative", 1, "0.005,,0,0,0.6") +
                            Row("tower-10", "grid", "iterative", 1, "0.02,,0,0,0.1");

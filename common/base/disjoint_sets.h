@@ -1,17 +1,20 @@
 #pragma once
-/// Disjoint sets (union-find) in one flat array.
+/// Disjoint sets of integers (union-find with path halving) in one flat array. The lowest member
+/// represents a set, so that results do not depend on the order of the unions.
 
+#include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
 namespace seam {
 
-class Unions {
+class DisjointSets {
  public:
   /// Creates the sets {0} to {count - 1}.
-  explicit Unions(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0); }
+  explicit DisjointSets(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0); }
 
-  /// Returns the lowest member of the set.
+  /// Returns the lowest member of the set of `of`.
   int Find(int of) {
     while (At(of) != of) {
       At(of) = At(At(of));
@@ -23,11 +26,7 @@ class Unions {
   void Unite(int a, int b) {
     a = Find(a);
     b = Find(b);
-    if (a < b) {
-      At(b) = a;
-    } else {
-      At(a) = b;
-    }
+    At(std::max(a, b)) = std::min(a, b);
   }
   /// Returns by member: the lowest member of its set.
   std::vector<int> Lowest() {
