@@ -10,7 +10,7 @@
 #include "common/physics/world.h"
 #include "common/sync/authority.h"
 #include "common/sync/mode.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 #include "common/sync/snapshots.h"
 
 namespace seam {

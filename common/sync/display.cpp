@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "common/base/geometry.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/sync/policy/policy.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 

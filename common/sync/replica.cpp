@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "common/scene/mechanism_ids.h"
-#include "common/sync/correct/presses.h"
+#include "common/sync/blend/distrusted_rest.h"
+#include "common/sync/rollback/presses.h"
 
 namespace seam {
 namespace {
@@ -26,7 +27,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       replay_(config_, world_, roles_, drivers_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, presence_, memory_, display_, replay_),
       reach_(config_, world_, roles_, drivers_, inputs_),
-      rest_(config_, world_, roles_, drivers_, memory_, display_, inputs_, reach_),
+      rest_(MakeRestCommit(config_, world_, roles_, drivers_, memory_, display_, inputs_, reach_)),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       queue_(config_.policy->MakeEditQueue()),
       proposals_(config_.tick_hz),
@@ -46,7 +47,7 @@ void Replica::StartAt(std::int64_t tick) {
   if (tick == world_.tick()) return;
   world_.SetTick(tick);
   memory_.StartAnew();
-  rest_.StartAnew();
+  rest_->StartAnew();
   replay_.Forget();
   memory_.Record();
 }
@@ -64,12 +65,12 @@ void Replica::Step() {
   if (presence_.CheckIfRequested()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
   display_.Drive(next, presence_.around());
   corrector_.PullCopies();
-  rest_.BeforeStep();
+  rest_->BeforeStep();
   memory_.ClearUpdated();
   world_.Step();
   memory_.RecordContacts(roles_.table());
   if (config_.policy->SendsCompleteTicks() && next % config_.send_every() == 0) reach_.Look();
-  rest_.AfterStep();
+  rest_->AfterStep();
   impact_reporter_.Note();
   FindEdits();
   ProposeFound();
@@ -172,7 +173,7 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   if (!applied.roles.empty()) {
     drivers_.Look();
     if (corrector_.FollowRoles(BodiesOf(applied.roles))) presence_.Ask();
-    rest_.PutBack();
+    rest_->PutBack();
   }
   return std::move(applied.let_go);
 }
@@ -201,7 +202,7 @@ Received Replica::Receive(const States& states) {
 
 void Replica::Receive(const Rest& rest) {
   ApplyEdits();
-  if (rest_.Receive(rest)) replay_.Forget();  // replays cannot reach the time before it
+  if (rest_->Receive(rest)) replay_.Forget();  // replays cannot reach the time before it
 }
 
 void Replica::Place(const States& states) {

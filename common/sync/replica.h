@@ -24,7 +24,7 @@
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/correct/corrector.h"
-#include "common/sync/correct/replay.h"
+#include "common/sync/rollback/replay.h"
 #include "common/sync/display.h"
 #include "common/sync/edits/edit_queue.h"
 #include "common/sync/impact_reporter.h"
@@ -68,7 +68,7 @@ class Replica {
   /// Call after Set on authority(). Updates motion types to the roles.
   void RolesChanged() {
     FollowRoles();
-    rest_.PutBack();
+    rest_->PutBack();
   }
   /// See Presence::LeaveUnwatched.
   void LeaveUnwatched(std::vector<char> unwatched, const PeerSet& doubtful) {
@@ -152,8 +152,8 @@ class Replica {
   std::vector<States> Everything() const { return scheduler_.Everything(); }
   /// The rest commitments of all authorities (RestCommit): receives them, returns those to send
   /// after a step, and compares them with another peer's.
-  RestCommit& rest() { return rest_; }
-  const RestCommit& rest() const { return rest_; }
+  RestCommit& rest() { return *rest_; }
+  const RestCommit& rest() const { return *rest_; }
   /// Takes rest commitments of another peer.
   void Receive(const Rest& rest);
   /// Returns the view of all bodies, or of those that this peer simulates.
@@ -211,7 +211,7 @@ class Replica {
   Replay replay_;
   Corrector corrector_;
   Reach reach_;
-  RestCommit rest_;
+  std::unique_ptr<RestCommit> rest_;
   SendScheduler scheduler_;
   std::unique_ptr<EditQueue> queue_;
   ProposalQueue proposals_;

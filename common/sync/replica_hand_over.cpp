@@ -54,7 +54,7 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
 BodyState Replica::TakeOver(const ExactStates& exact) {
   ApplyEdits();
   const BodyState off = corrector_.TakeOver(exact);
-  rest_.ProlongHandedOver(exact);
+  rest_->ProlongHandedOver(exact);
   return off;
 }
 

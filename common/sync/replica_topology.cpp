@@ -45,7 +45,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   replay_.GoBackTo(next.tick);
   std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);
-  rest_.MarkEdited();
+  rest_->MarkEdited();
   if (change) {
     Remap(*change);
   } else {
@@ -166,7 +166,7 @@ void Replica::Remap(const BodyRemap& change) {
   roles_.Remap(change.mechanisms);
   presence_.Remap();
   replay_.Remap(change);
-  rest_.Remap(change);
+  rest_->Remap(change);
   FollowRoles();
   if (config_.policy->SendsCompleteTicks()) reach_.Look();  // it indexes mechanisms by number
 }

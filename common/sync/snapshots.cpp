@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 namespace {

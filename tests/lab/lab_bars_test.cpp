@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/report/hurry_section.h"
 

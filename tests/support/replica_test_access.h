@@ -27,7 +27,7 @@ struct ReplicaTestAccess {
             {"edits proposed", replica.proposals_.remembered()},
             {"states let go", replica.released_.size()},
             {"states waiting", replica.corrector_.waiting()},
-            {"rests waiting", replica.rest_.waiting()}};
+            {"rests waiting", replica.rest_->waiting()}};
   }
 };
 

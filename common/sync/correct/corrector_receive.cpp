@@ -1,5 +1,6 @@
 /// Corrector: turns received states into snapshots, corrections or a replay.
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -23,7 +24,8 @@ Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles,
       presence_(presence),
       memory_(memory),
       display_(display),
-      replay_(replay) {}
+      replay_(replay),
+      blender_(config, world, roles, memory, display) {}
 
 Received Corrector::Receive(const States& states) {
   Received result;
@@ -36,7 +38,7 @@ Received Corrector::Receive(const States& states) {
     }
     return result;
   }
-  std::vector<Entry> to_correct;
+  std::vector<Blender::Entry> to_correct;
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (!IsNews(states, i, body, &result)) continue;
@@ -46,10 +48,11 @@ Received Corrector::Receive(const States& states) {
     if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
   }
   ClosePlaced();
-  const std::map<int, BodyState> common = CommonDifferences(states, to_correct);
-  for (const auto& [i, body] : to_correct) {
-    Correct(body, states, i, common.at(world_.mechanism(body)));
+  if (config_.policy->GoesBack(roles_.self())) {
+    const auto asks = [&](const Blender::Entry& e) { return replay_.Ask(e.second, states.tick); };
+    to_correct.erase(std::remove_if(to_correct.begin(), to_correct.end(), asks), to_correct.end());
   }
+  blender_.Correct(states, to_correct);
   if (result.used > 0) display_.AddAge(world_.tick() - states.tick);
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/corrector.h"
+#include "common/sync/correct/way_to.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -159,7 +160,7 @@ bool Corrector::BeginToSimulate(int body) {
   // The display moves bodies through walls: its path proves nothing.
   memory_.track(body).dynamic_since = now;
   if (!memory_.snapshots().falls(body)) {  // a falling one bounces off anchored shapes already
-    state.position = WayTo(body, told, told_tick, state.position);
+    state.position = WayTo(world_, memory_, body, told, told_tick, state.position);
   }
   world_.Write(body, state);
   display_.Moved(body, Minus(state, before));

@@ -6,7 +6,7 @@
 #include "common/base/find_scene.h"
 #include "common/base/process.h"
 #include "common/measure/table.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/fairness/fairness.h"
 #include "tests/lab/report/sessions/fairness_section.h"

@@ -1,6 +1,6 @@
 /// snap: X = Xr. The baseline: always behind by the latency.
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 

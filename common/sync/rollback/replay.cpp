@@ -1,4 +1,4 @@
-#include "common/sync/correct/replay.h"
+#include "common/sync/rollback/replay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/base/geometry.h"
-#include "common/sync/correct/presses.h"
+#include "common/sync/rollback/presses.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {

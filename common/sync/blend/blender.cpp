@@ -1,9 +1,9 @@
-/// Corrector: applies the room's rule to a secondary's copy.
+#include "common/sync/blend/blender.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/sync/correct/corrector.h"
+#include "common/sync/correct/way_to.h"
 #include "common/sync/quantize.h"
 #include "common/sync/state_limits.h"
 
@@ -40,7 +40,7 @@ void FindBlockedDirections(const World& world, int mechanism, ReconcileInput* in
 
 }  // namespace
 
-std::map<int, BodyState> Corrector::CommonDifferences(const States& states,
+std::map<int, BodyState> Blender::CommonDifferences(const States& states,
                                                       const std::vector<Entry>& entries) const {
   std::map<int, BodyState> sums;
   std::map<int, float> masses;
@@ -59,7 +59,7 @@ std::map<int, BodyState> Corrector::CommonDifferences(const States& states,
   return sums;
 }
 
-BodyState Corrector::LikePast(int body, std::int64_t tick, const BodyState& remote) const {
+BodyState Blender::LikePast(int body, std::int64_t tick, const BodyState& remote) const {
   BodyState like = *memory_.ComparablePast(body, tick);
   float least = (remote.velocity - like.velocity).norm();
   if (least < kOtherImpact) return like;
@@ -75,7 +75,14 @@ BodyState Corrector::LikePast(int body, std::int64_t tick, const BodyState& remo
   return like;
 }
 
-void Corrector::Correct(int body, const States& states, std::size_t i, const BodyState& common) {
+void Blender::Correct(const States& states, const std::vector<Entry>& entries) {
+  const std::map<int, BodyState> common = CommonDifferences(states, entries);
+  for (const auto& [i, body] : entries) {
+    CorrectOne(body, states, i, common.at(world_.mechanism(body)));
+  }
+}
+
+void Blender::CorrectOne(int body, const States& states, std::size_t i, const BodyState& common) {
   const int mechanism = world_.mechanism(body);
   ReconcileInput in;
   in.local = world_.Read(body);
@@ -90,7 +97,6 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
     TakeRest(body, in.local, in.remote);
     return;
   }
-  if (replay_.Ask(body, states.tick)) return;
   BodyState like;
   if (then != nullptr) {
     like = LikePast(body, states.tick, in.remote);
@@ -108,9 +114,9 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   FindBlockedDirections(world_, mechanism, &in);
   Correction c = config_.reconcile(in);
   const Vec2 target = in.local.position + c.now.position;
-  const Vec2 there = WayTo(body, in.remote.position, states.tick, target);
+  const Vec2 there = WayTo(world_, memory_, body, in.remote.position, states.tick, target);
   if (there != target) c.now.position = there - in.local.position;
-  if (!Negligible(c.now)) Blend(body, in.local, c, states.tick);
+  if (!Negligible(c.now)) Apply(body, in.local, c, states.tick);
   RecordArrival(body);
 }
 
@@ -118,7 +124,7 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
 /// wire's rounding is left: the Rest message brings the exact pose, and a body woken earlier
 /// continues from the same numbers. The copy is neither woken nor put to sleep: either would
 /// restart the engine's sleep timer for all bodies that it touches.
-void Corrector::TakeRest(int body, const BodyState& local, const BodyState& remote) {
+void Blender::TakeRest(int body, const BodyState& local, const BodyState& remote) {
   memory_.track(body).pull.arrived = -1;
   BodyState moved = Minus(remote, local);
   moved.velocity.setZero();
@@ -130,7 +136,7 @@ void Corrector::TakeRest(int body, const BodyState& local, const BodyState& remo
 }
 
 /// Applies the rule's correction for a message of tick `from`.
-void Corrector::Blend(int body, const BodyState& local, const Correction& c, std::int64_t from) {
+void Blender::Apply(int body, const BodyState& local, const Correction& c, std::int64_t from) {
   const std::int64_t now = world_.tick();
   const BodyState corrected = WithinLimits(PlusScaled(local, c.now, 1), world_.scene().speed_limit);
   if (c.rewrites_history) {

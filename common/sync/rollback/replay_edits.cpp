@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/base/geometry.h"
-#include "common/sync/correct/replay.h"
+#include "common/sync/rollback/replay.h"
 
 namespace seam {
 namespace {

@@ -1,6 +1,6 @@
 /// interleave: X = Xl/2 + Xr/2. After Kevin He (2012), "buffer zone": both results are mixed.
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 

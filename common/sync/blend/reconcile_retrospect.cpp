@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "common/codec/quanta.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 #include "common/base/check.h"
 #include "common/base/nearest.h"

@@ -1,7 +1,7 @@
-/// Corrector: pulls copies in every tick between two messages, for rules that ask for it.
+/// Blender: pulls copies in every tick between two messages.
 
 #include "common/base/geometry.h"
-#include "common/sync/correct/corrector.h"
+#include "common/sync/blend/blender.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -13,18 +13,18 @@ constexpr float kPullReckonMax = 0.3f;
 
 }  // namespace
 
-BodyState Corrector::PullTarget(int body, std::int64_t at) const {
+BodyState Blender::PullTarget(int body, std::int64_t at) const {
   BodyState target = memory_.snapshots().ExtrapolateNewest(body, at, world_.dt(), kPullReckonMax);
   target.angle = UnwrapAngle(target.angle, world_.Read(body).angle);
   return target;
 }
 
-void Corrector::RecordArrival(int body) {
+void Blender::RecordArrival(int body) {
   if (config_.pull == nullptr) return;
   memory_.track(body).pull.arrived = world_.tick();
 }
 
-void Corrector::PullCopies() {
+void Blender::Pull() {
   if (config_.pull == nullptr) return;
   const std::int64_t now = world_.tick();
   PullInput in;

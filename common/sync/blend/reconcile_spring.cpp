@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 namespace {

@@ -1,7 +1,7 @@
 /// compensated: Xr' = Xr + v dt, X = Xl/2 + Xr'/2. After Kevin He (2012), "lag compensation".
 /// Wrong by g dt^2/2 in free fall and by the whole impulse just after an impact.
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 

@@ -6,7 +6,7 @@
 /// This file has the rule for a tick that cannot be reached: the message is older than the kept
 /// barriers, or the copy was not simulated then. Only a copy that is far off is placed.
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 namespace seam {
 namespace {
