@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/command_line.h"
+#include "common/base/process.h"
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
 #include "render/export/formats.h"

@@ -9,6 +9,7 @@
 #include "client/swarm/swarm.h"
 #include "client/top/loads.h"
 #include "common/base/command_line.h"
+#include "common/base/process.h"
 #include "common/base/huge_pages.h"
 #include "common/base/names.h"
 #include "common/base/progress_line.h"

@@ -9,6 +9,7 @@
 #include "client/top/loads.h"
 #include "client/top/top_table.h"
 #include "common/base/command_line.h"
+#include "common/base/process.h"
 #include "common/codec/version_line.h"
 #include "common/net/udp.h"
 

@@ -61,7 +61,7 @@ ClusterConfig Cradle() {
   return config;
 }
 
-TEST(Authority, NeverTwoAuthoritiesAtOnceUnderTwentyPercentLoss) {
+TEST(Authority, ThereAreNeverTwoAuthoritiesUnderTwentyPercentLoss) {
   ClusterConfig config;
   config.scene = "shuttle.toml";
   config.scene_text = kShuttle;

@@ -225,7 +225,7 @@ TEST(Cluster, ForgedHellosDoNotKeepAPlayerOut) {
   EXPECT_EQ(cluster.server().client_count(), 2) << "the forged ones are no sessions";
 }
 
-TEST(Cluster, TheFloorTellsAChaoticSceneFromAnOrderlyOne) {
+TEST(Cluster, TheFloorSeparatesAChaoticSceneFromAnOrderlyOne) {
   const Recording orderly = RunCluster(With("cradle", "oracle"));
   EXPECT_LT(ErrorFloor(orderly, ComputeOracle(orderly)), 1e-4);
   EXPECT_GT(ErrorFloor(orderly, ComputeOracle(orderly)), 0);

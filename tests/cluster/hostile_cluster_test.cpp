@@ -211,7 +211,7 @@ TEST(Hostile, InputsBeforeReadyDoNotCount) {
   EXPECT_EQ(cluster.server().stats().dropped_right, dropped + 1);
 }
 
-TEST(Hostile, AFlooderIsDecodedWithinItsBudgetAndHasToLeave) {
+TEST(Hostile, AFlooderIsDecodedWithinItsBudgetAndRemoved) {
   Cluster cluster(Crossing());
   cluster.RunToTick(60);
   Guest flooder = GuestOf(&cluster, "flood");

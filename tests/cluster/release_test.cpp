@@ -206,7 +206,7 @@ TEST(Release, NoHonestHolderIsAccusedOnATerribleNetwork) {
   }
 }
 
-TEST(Release, LateAnswersDelayAHandOverAndNeverMakeTwoAuthorities) {
+TEST(Release, LateReleasesDelayAHandOverAndNeverMakeTwoAuthorities) {
   for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
     ClusterConfig config = Shuttle("delay=50ms,jitter=10ms,loss=20%,reorder=5%:50ms");
     config.seed = seed;
@@ -231,7 +231,7 @@ TEST(Release, LateAnswersDelayAHandOverAndNeverMakeTwoAuthorities) {
   }
 }
 
-TEST(Release, WithheldUnderLossAndReorderNeverMakesTwoAuthorities) {
+TEST(Release, WithholdingUnderLossAndReorderNeverMakesTwoAuthorities) {
   for (std::int64_t seed = 1; seed <= Soak(30); ++seed) {
     ClusterConfig config = Shuttle("delay=50ms,jitter=10ms,loss=20%,reorder=5%:50ms");
     config.seed = seed;
@@ -250,7 +250,7 @@ TEST(Release, WithheldUnderLossAndReorderNeverMakesTwoAuthorities) {
   }
 }
 
-TEST(Release, AnEditThatOvertakesAHandOverLeavesNobodyWaiting) {
+TEST(Release, AnEditDuringAHandOverLeavesNobodyWaiting) {
   ClusterConfig config = Shuttle("delay=100ms");
   config.scene_text = Pendulums(3);
   Cluster cluster(config);

@@ -51,7 +51,7 @@ TEST_F(SoakCheck, AnOpenJointFailsUnlessTheEngineOpenedIt) {
   EXPECT_GT(Torn(crash_, 1, 2).crashed_m, 0.5);
 }
 
-TEST_F(SoakCheck, TheEngineIsNoExcuseAwayFromACrashOrForLong) {
+TEST_F(SoakCheck, TheEngineExcusesNothingOutsideACrashOrForLong) {
   EXPECT_GT(Torn(crash_ - 40, 1, 2).torn_m, 0.5);
   EXPECT_GT(Torn(crash_, 12, 2).torn_m, 0.5);
 }

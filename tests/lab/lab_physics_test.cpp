@@ -56,7 +56,7 @@ HardCase MadeUp(double seconds) {
   return hard;
 }
 
-TEST(Observe, ABallAtRestSleepsAfterHalfASecondAndNothingIsWrongWithIt) {
+TEST(Observe, ABallAtRestSleepsAfterHalfASecondWithoutFaults) {
   const Scene scene = SceneOf(std::string(kGround) + kBall, "skin = 0.0025");
   const Observation seen = Observe(MadeUp(10), scene, 10);
   EXPECT_EQ(seen.error, 0);
@@ -83,7 +83,7 @@ TEST(Observe, ABodyInSteadyFlightJittersWithItsSpeedAndNeverSleeps) {
   EXPECT_NEAR(*seen.energy_gain, 0, 1e-6);
 }
 
-TEST(Observe, PenetrationIsTheDeepestSeenBeyondThatAtTheStart) {
+TEST(Observe, PenetrationIsTheDeepestBeyondTheInitialOne) {
   // 30 Hz without continuous collision: the first step takes it v h + g h^2 down, from 0.1 m above.
   const std::string diver =
       "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 0.6]\nvelocity = [0, -6]\n";
@@ -98,7 +98,7 @@ TEST(Observe, PenetrationIsTheDeepestSeenBeyondThatAtTheStart) {
   EXPECT_NEAR(*apart.energy_gain, 0.025, 0.003);
 }
 
-TEST(Observe, DriftOfAJointIsThatBeyondTheStart) {
+TEST(Observe, JointDriftIsTheExcessOverTheInitialOne) {
   // The rod is 1 m, the ball is placed 1.3 m away: it is pulled in, and 0.3 m was the start's.
   const Scene scene = SceneOf(
       "[[part]]\nname = \"hook\"\nbox = [0.2, 0.2]\nposition = [0, 5]\nanchored = true\n"
@@ -203,7 +203,7 @@ std::vector<std::string> WithoutCpu(const std::string& line) {
   return fields;
 }
 
-TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
+TEST(PhysicsRow, DependsOnThePointAloneExceptForCpu) {
   HardCase hard = MadeUp(1);
   PhysicsPoint point{&hard, "grid",
                      SceneOf(std::string(kGround) + kBall + "velocity = [2, 0]\n",

@@ -146,7 +146,7 @@ TEST(Digits, AreThreeSignificantOnes) {
   EXPECT_EQ(Digits(std::optional<Quartiles>()), "–");
 }
 
-TEST(Csv, ALineIsReadAsItWasWritten) {
+TEST(Csv, ReadsBackAWrittenLine) {
   const std::vector<std::string> fields = {"a", "", "b, c", "say \"no\"", "two\nlines", "1.5"};
   std::string line;
   for (const std::string& field : fields) line += (line.empty() ? "" : ",") + CsvField(field);

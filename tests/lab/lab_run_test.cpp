@@ -22,7 +22,7 @@ RunCommand Short(const std::string& log) {
   return command;
 }
 
-TEST(LabRun, TheSameSettingsGiveTheSameBytesAndAnotherSeedOthers) {
+TEST(LabRun, TheSameSettingsGiveTheSameBytesAndAnotherSeedDiffers) {
   const LabWorkspace files;
   RunCommand command = Short(files / "a.lcm");
   EXPECT_EQ(RunLog(command), 0);

@@ -206,7 +206,7 @@ TEST(LabTune, PrintsLinesToPasteOrThatNoneReachesIt) {
   OutputOf({"tune", files / "fall.toml", "--error", "1", "--case", "none"}, 2);
 }
 
-TEST(Overhead, TheCoreAndTheEngineAloneEndAlikeWithTheScenesScripts) {
+TEST(Overhead, TheCoreAndTheEngineAloneEndInTheSameState) {
   for (const char* name : {"crossing", "cradle", "stack"}) {
     const Scene scene = LoadScene(std::string("scenes/") + name + ".toml");
     const Overhead o = MeasureOverhead(scene, 250, 1);

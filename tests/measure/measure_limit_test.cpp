@@ -95,7 +95,7 @@ TEST(KnownInputs, AreAsOldAsTheDelayToAndFromTheServer) {
   }
 }
 
-TEST(KnownInputs, AreNoneBeforeTheFirstCame) {
+TEST(KnownInputs, AreUnknownBeforeTheFirstArrives) {
   const auto known = FindKnownInputs(Drive(200, 3 * kTickUs)).at({1, 0});
   ASSERT_EQ(known.size(), 201u);
   EXPECT_EQ(known[5], -1);

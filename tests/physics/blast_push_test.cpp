@@ -142,7 +142,7 @@ TEST(BlastPush, HalfACoverLeavesHalfThePushAndTurnsTheCrate) {
   EXPECT_LT(b.Of("crate").spin, -1) << "pushed to the right above its middle: clockwise";
 }
 
-TEST(BlastPush, ThrowsARingOfDiscsOutwardsAlike) {
+TEST(BlastPush, ThrowsARingOfDiscsOutwardsEqually) {
   std::string text;
   for (int i = 0; i < 8; ++i) {
     const double angle = 0.3 + i * 3.14159265 / 4;
@@ -218,7 +218,7 @@ TEST(BlastPush, BreaksGlueThatBearsLessAndLeavesStrongerGlue) {
   }
 }
 
-TEST(BlastPush, GlueFeelsEachOfManyBlastsOfOneTick) {
+TEST(BlastPush, EachOfManyBlastsOfOneTickLoadsTheGlue) {
   std::string pairs;
   constexpr int kPairs = 12;
   for (int i = 0; i < kPairs; ++i) {

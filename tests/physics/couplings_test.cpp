@@ -40,7 +40,7 @@ double DriftOf(const World& world) {
 
 double AngleOf(const World& world, int body) { return double{world.Read(body).angle}; }
 
-TEST(Couplings, AGearTurnsTheOtherWheelByTheRatioAndFeelsItsMoment) {
+TEST(Couplings, AGearTurnsTheOtherWheelByTheRatioAndTakesItsMoment) {
   const auto world = SmallWorld(Gearbox("motor = {speed = 1000, torque = 6}"), "", kWeightless);
   Steps(world.get(), 120);
   // w1 = -2 w2, so T = (I1 + I2 / 4) alpha1.
@@ -102,7 +102,7 @@ TEST(Couplings, APulleysLengthIsItsOwn) {
   EXPECT_NEAR(left + right, 19, 0.01);
 }
 
-TEST(Couplings, AGearGoesWithOneOfItsJoints) {
+TEST(Couplings, AGearIsRemovedWithOneOfItsJoints) {
   for (const int broken : {0, 1}) {
     const auto world = SmallWorld(Gearbox("motor = {speed = 3, torque = 100}"), "", kWeightless);
     Steps(world.get(), 60);
@@ -116,7 +116,7 @@ TEST(Couplings, AGearGoesWithOneOfItsJoints) {
   }
 }
 
-TEST(Couplings, AGearGoesWithAPartOfItsJoints) {
+TEST(Couplings, AGearIsRemovedWithAPartOfItsJoints) {
   const auto world = SmallWorld(Gearbox(""), "", kWeightless);
   ASSERT_TRUE(world->Apply({Edit(RemoveEdit{1})}).has_value());
   EXPECT_TRUE(world->scene().joints[2].gone);
@@ -210,7 +210,7 @@ bool TearsOff(double strength) {
   return false;
 }
 
-TEST(Couplings, GlueFeelsThePullOfARopeAtEitherEnd) {
+TEST(Couplings, ARopeLoadsTheGlueAtEitherEnd) {
   // 1 kg hold 2 kg in balance by a ratio of 2: the glue bears the lower one's 10 N.
   EXPECT_FALSE(TearsOff(10.2));
   EXPECT_TRUE(TearsOff(9.8));

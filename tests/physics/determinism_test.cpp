@@ -62,7 +62,7 @@ TEST(Determinism, TheSameRunTwiceGivesTheSameBits) {
   }
 }
 
-TEST(Determinism, WorldsSteppedInTurnDoNotFeelEachOther) {
+TEST(Determinism, WorldsSteppedInTurnAreIndependent) {
   for (const char* scene : kScenes) {
     const std::vector<std::uint64_t> alone = Hashes(scene);
     ScriptedWorld one(scene);

@@ -44,7 +44,7 @@ TEST(Faces, AStepMakesTwoAndOtherFrictionStaysApart) {
   EXPECT_EQ(FacesIn(Sheet(4, 4) + slippery).size(), 2u);
 }
 
-TEST(Faces, SmallAssembliesAndTheScenesWishKeepEachPart) {
+TEST(Faces, SmallAssembliesAndASceneSettingKeepEachPart) {
   EXPECT_EQ(FacesIn(Sheet(7, 1)).size(), 7u);
   EXPECT_EQ(FacesIn(Sheet(8, 1)).size(), 1u);
   EXPECT_EQ(FacesIn(Sheet(10, 4), "faces = \"all\"").size(), 40u);

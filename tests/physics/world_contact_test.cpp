@@ -54,7 +54,7 @@ restitution = 0.5
   EXPECT_NEAR(run.Read("two").velocity.x(), impact.dv, 1e-4);
 }
 
-TEST(WorldContact, AnImpactOnTheGroundIsFeltInFull) {
+TEST(WorldContact, AnImpactOnTheGroundCountsInFull) {
   ScriptedWorld run = Simulate(kGround + R"(
 [[part]]
 name = "ball"

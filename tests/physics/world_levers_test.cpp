@@ -26,12 +26,12 @@ float ShotAfter(const std::string& solver) {
   return world.Read(0).position.x();
 }
 
-TEST(Levers, ContinuousCollisionStopsAShotThatWithoutItPassesAThinWall) {
+TEST(SolverSettings, ContinuousCollisionStopsAShotThatWithoutItPassesAThinWall) {
   EXPECT_LT(ShotAfter("continuous = true"), 0);
   EXPECT_GT(ShotAfter("continuous = false"), 10);
 }
 
-TEST(Levers, SubstepsRaiseTheEnginesSpeedLimitOfTwoMetresAStep) {
+TEST(SolverSettings, SubstepsRaiseTheEnginesSpeedLimitOfTwoMetresAStep) {
   for (const int substeps : {1, 2, 4}) {
     Scene scene = ParseScene(std::string("gravity = [0, 0]\n") + kShot, "s.toml");
     scene.solver.substeps = substeps;
@@ -43,7 +43,7 @@ TEST(Levers, SubstepsRaiseTheEnginesSpeedLimitOfTwoMetresAStep) {
   }
 }
 
-TEST(Levers, WeldsAsIterativeJointsBendWhereOneBodyDoesNot) {
+TEST(SolverSettings, WeldsAsIterativeJointsBendWhereOneBodyDoesNot) {
   const std::string beam =
       "[[part]]\nname = \"wall\"\nbox = [1, 1]\nposition = [-0.5, 0]\nanchored = true\n"
       "[[part]]\nname = \"link\"\nbox = [1, 0.2]\nposition = [0.5, 0]\ngroup = -1\n"
@@ -66,7 +66,7 @@ TEST(Levers, WeldsAsIterativeJointsBendWhereOneBodyDoesNot) {
   EXPECT_NEAR(exact.Read(4).position.y(), 0, 1e-6) << "solved as one system they do not bend";
 }
 
-TEST(Levers, WithoutWarmStartingAStackIsSofter) {
+TEST(SolverSettings, WithoutWarmStartingAStackIsSofter) {
   float sunk[2];
   for (const bool warm : {false, true}) {
     std::string parts = "[[part]]\nname = \"ground\"\nchain = [[-9, 0], [9, 0]]\n";

@@ -7,12 +7,13 @@ namespace seam {
 namespace bad_input_test {
 
 TEST_F(BadInput, ScenesAreRefusedByFileAndLine) {
-  std::vector<Mistake> mistakes = {Server({"missing.toml"}, "missing.toml: no such"),
-                                   Server({"folder"}, "no scene \"folder\""),
-                                   Server({"two\nlines.toml"}, "two?lines.toml"),
-                                   Server({"good.lcm"}, "good.lcm"), Server({}, "which scene?")};
+  std::vector<Mistake> mistakes = {ServerMistake({"missing.toml"}, "missing.toml: no such"),
+                                   ServerMistake({"folder"}, "no scene \"folder\""),
+                                   ServerMistake({"two\nlines.toml"}, "two?lines.toml"),
+                                   ServerMistake({"good.lcm"}, "good.lcm"),
+                                   ServerMistake({}, "which scene?")};
   for (const BadScene& scene : BadScenes()) {
-    mistakes.push_back(Server({scene.name, "--record", "new.lcm"}, scene.says));
+    mistakes.push_back(ServerMistake({scene.name, "--record", "new.lcm"}, scene.says));
   }
   Judge(mistakes);
 }
@@ -26,7 +27,7 @@ TEST_F(BadInput, TheServerRefusesWrongFlags) {
         std::count(words.begin(), words.end(), "--port") == 0) {
       words.insert(words.end(), {"--bind", "127.0.0.1:0"});
     }
-    return Server(std::move(words), says);
+    return ServerMistake(std::move(words), says);
   };
   Judge(
       {flags({"--nonsense"}, "--nonsense"),
@@ -95,18 +96,18 @@ TEST_F(BadInput, TheClientRefusesWrongFlags) {
   const std::string nobody = "127.0.0.1:9";  // the discard port: nobody answers
   const auto flags = [&](Words words, const std::string& says) {
     words.insert(words.begin(), {nobody, "--join-timeout", "0.5"});
-    return Client(std::move(words), says);
+    return ClientMistake(std::move(words), says);
   };
-  Judge({Client({}, "which server?"),
-         Client({"127.0.0.1:0"}, "port 0"),
-         Client({"127.0.0.1:65536"}, "65536"),
-         Client({"127.0.0.1:"}, "port"),
-         Client({"127.0.0.1:7777:1"}, "host:port"),
-         Client({"300.1.1.1"}, "300.1.1.1"),
-         Client({":7777"}, "host"),
-         Client({"no.such.host.invalid"}, "no.such.host.invalid"),
-         Client({nobody, "--join-timeout", "0"}, "--join-timeout"),
-         Client({nobody, "--join-timeout", "nan"}, "--join-timeout"),
+  Judge({ClientMistake({}, "which server?"),
+         ClientMistake({"127.0.0.1:0"}, "port 0"),
+         ClientMistake({"127.0.0.1:65536"}, "65536"),
+         ClientMistake({"127.0.0.1:"}, "port"),
+         ClientMistake({"127.0.0.1:7777:1"}, "host:port"),
+         ClientMistake({"300.1.1.1"}, "300.1.1.1"),
+         ClientMistake({":7777"}, "host"),
+         ClientMistake({"no.such.host.invalid"}, "no.such.host.invalid"),
+         ClientMistake({nobody, "--join-timeout", "0"}, "--join-timeout"),
+         ClientMistake({nobody, "--join-timeout", "nan"}, "--join-timeout"),
          flags({"--nonsense"}, "--nonsense"),
          flags({"more"}, "more"),
          flags({"--name", "two words"}, "--name"),

@@ -123,7 +123,7 @@ TEST(LoadMeter, RareTicksAreOverload) {
   EXPECT_EQ(meter.permille(), LoadMeter::kLateLoad);
 }
 
-TEST(LoadMeter, ForgetsThatItWasLate) {
+TEST(LoadMeter, ForgetsPastLateness) {
   LoadMeter meter;
   std::int64_t cpu = 1, now = 0;
   for (; now <= 2000000; now += 16667) meter.Note(now, ++cpu, 1, 80000, 16667);

@@ -210,7 +210,7 @@ TEST_F(PlanIslandsTest, ADensePileBetweenTwoGoesToThePlayerWithMostOfIt) {
   EXPECT_EQ(Of(0), kAnn);
 }
 
-TEST_F(PlanIslandsTest, WithoutItsDriverAVehicleIsLikeEverythingElse) {
+TEST_F(PlanIslandsTest, AVehicleWithoutADriverIsAnOrdinaryBody) {
   view_.players[0].peer = -1;
   EXPECT_EQ(Of(0), kServer);
   Move(0, 20);

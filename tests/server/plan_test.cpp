@@ -77,7 +77,7 @@ TEST(PlanAuthority, ANewHolderKeepsItForTheDwell) {
   EXPECT_EQ(HolderAt(50, 0, 0), kBob) << "from the server at once";
 }
 
-TEST(PlanAuthority, TheOwnersPeerGetsItWhereverItIsWhileItIsHere) {
+TEST(PlanAuthority, AnOwnedMechanismGoesToItsPresentOwnersPeer) {
   AuthorityView view = TwoSides({50});
   view.mechanisms[0].owner = 0;
   EXPECT_EQ(PlanAuthority(view)[0].authority, kAnn);

@@ -219,7 +219,7 @@ TEST(Rules, APickupIsTakenOnceByTheFirstPermittedPlayer) {
   EXPECT_EQ(game.Value("b"), 40) << "no more than the scene gave";
 }
 
-TEST(Rules, ScriptsHearOfTouchesTriggersAndPlayers) {
+TEST(Rules, ScriptsReceiveTouchesTriggersAndPlayers) {
   Game game(Track(R"([[part]]
 name = "wall"
 box = [1, 4]

@@ -185,7 +185,7 @@ TEST(ScriptHostile, DeeplyNestedCodeIsRefused) {
   EXPECT_EQ(room.script.error().rfind("s.toml:10: ", 0), 0u) << room.script.error();
 }
 
-TEST(ScriptHostile, AListThatSeemsEndlessIsNotMoved) {
+TEST(ScriptHostile, AnApparentlyEndlessListIsNotMoved) {
   // Lua looks for a list's end at 8, 16, 32, ...: 2^50 elements to be moved by one.
   std::string list = "local t = {1, 2, 3, 4, [5] = 1";
   for (int k = 3; k <= 50; ++k) list += ", [1 << " + std::to_string(k) + "] = 1";

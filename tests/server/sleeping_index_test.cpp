@@ -47,7 +47,8 @@ MovingBox Around(const AuthorityView& view, int mechanism) {
 }
 
 /// Mechanisms that the plan has to see, ascending.
-std::vector<int> Seen(const AuthorityView& view, const std::vector<char>& lies, Lying* lying) {
+std::vector<int> Seen(const AuthorityView& view, const std::vector<char>& lies,
+                      SleepingIndex* lying) {
   std::vector<int> seen;
   std::vector<MovingBox> boxes;
   for (int m = 0; m < static_cast<int>(lies.size()); ++m) {
@@ -89,7 +90,7 @@ Counts Compare(PlanWorld world, int seeds) {
   for (int seed = 1; seed <= seeds; ++seed) {
     AuthorityView whole = RandomView(world, static_cast<std::uint64_t>(seed));
     const std::vector<char> lies = LayDown(static_cast<std::uint64_t>(seed), &whole);
-    Lying lying;
+    SleepingIndex lying;
     lying.Clear(lies.size());
     for (int m = 0; m < static_cast<int>(lies.size()); ++m) {
       if (lies[static_cast<std::size_t>(m)] != 0) lying.Put(m, Around(whole, m));
@@ -136,7 +137,7 @@ TEST(SleepingIndex, APlanWithoutDistantSleepersEqualsTheFullPlan) {
 TEST(SleepingIndex, MatchesTheFullPlanInACrowdAndFindsNothingWithoutMovers) {
   const Counts crowd = Compare(Room(20, 400, 70, 70), 15);
   EXPECT_EQ(crowd.differ, 0);
-  Lying lying;
+  SleepingIndex lying;
   lying.Clear(500);
   for (int m = 0; m < 500; ++m) {
     MovingBox box;
@@ -156,7 +157,7 @@ TEST(SleepingIndex, MatchesTheFullPlanInACrowdAndFindsNothingWithoutMovers) {
 /// Under insertions and removals it finds the same as an exhaustive search.
 TEST(SleepingIndex, FindsTheSameAfterAnyHistory) {
   Random random(7);
-  Lying lying;
+  SleepingIndex lying;
   constexpr int kCount = 600;
   lying.Clear(kCount);
   std::vector<MovingBox> boxes(kCount);

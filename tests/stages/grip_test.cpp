@@ -70,7 +70,7 @@ bool StepUntilItHolds(ScriptedWorld* run) {
   return !GripsOf(run->world.scene()).empty();
 }
 
-TEST(Grip, ASwimmerHoldsTheWallThatItComesToByItsFingertip) {
+TEST(Grip, ASwimmerHoldsAReachedWallByItsFingertip) {
   ScriptedWorld run(PoolScene());
   ASSERT_TRUE(StepUntilItHolds(&run));
   const Joint& grip =
@@ -102,12 +102,12 @@ TEST(Grip, HoldsTheTouchedTileAmongManyAnchoredOnes) {
   EXPECT_LT(Apart(run.world), 0.05f);
 }
 
-TEST(Grip, WithoutTheKeyNothingIsHeld) {
+TEST(Grip, HoldsNothingWithoutTheKey) {
   ScriptedWorld run(PoolScene(""));
   EXPECT_FALSE(StepUntilItHolds(&run));
 }
 
-TEST(Grip, ItLetsGoWhenThePlayerDoesAndAboveItsStrength) {
+TEST(Grip, ReleasesWithTheKeyAndAboveItsStrength) {
   ScriptedWorld pushed(PoolScene());
   ASSERT_TRUE(StepUntilItHolds(&pushed));
   pushed.world.SetInput(0, {});

@@ -14,7 +14,7 @@ float Most(ScriptedWorld* run) {
   return most;
 }
 
-TEST(Limp, LiftAllTheWayDownSlackensAllAndLettingGoBringsItUpAgain) {
+TEST(Limp, FullLiftDownMakesItLimpAndReleasingItBringsItUp) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n", "[[1, {lift = -1.0}], [3, {}]]"));
   run.StepTo(59);
   EXPECT_TRUE(Look(run).upright());
@@ -113,14 +113,14 @@ bool StandsWithout(CharacterJoint joint) {
   return std::abs(Look(run).lean) < 0.6f && run.Read("hero.torso").position.y() > 1;
 }
 
-TEST(Severed, StandsWithoutAnArmOrAForearmAndFallsWithoutALeg) {
+TEST(SeveredLimbs, StandsWithoutAnArmOrAForearmAndFallsWithoutALeg) {
   EXPECT_TRUE(StandsWithout(kShoulderLeft));
   EXPECT_TRUE(StandsWithout(kElbowRight));
   EXPECT_FALSE(StandsWithout(kHipLeft));
   EXPECT_FALSE(StandsWithout(kKneeRight));
 }
 
-TEST(Severed, ACharacterWithOneArmRunsOnAndLosingEveryLimbIsSafe) {
+TEST(SeveredLimbs, ACharacterWithOneArmRunsOnAndLosingEveryLimbIsSafe) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n", "[[0.5, {drive = 0.6}]]"));
   run.StepTo(60);
   const auto joints = run.world.scene().characters[0].joints;

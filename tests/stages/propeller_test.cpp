@@ -70,7 +70,7 @@ TEST(Propeller, PushesNothingInTheAirAndHalfAsMuchHalfImmersed) {
   EXPECT_GT(less, 0);
 }
 
-TEST(Propeller, PushesNothingThroughWaterThatResistsNothing) {
+TEST(Propeller, PushesNothingInWaterWithoutResistance) {
   const auto world = SmallWorld(
       Sea("drag_normal = 0\ndrag_tangent = 0\nviscosity = 0") + Mounted(-2, 8), "", kBench);
   EXPECT_EQ(Pull(world.get()), 0);

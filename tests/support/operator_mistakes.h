@@ -163,18 +163,18 @@ class BadInput : public ::testing::Test {
 };
 
 /// Makes a mistake of `words` after the program's name; all other arguments are correct.
-inline Mistake Server(Words words, const std::string& says) {
+inline Mistake ServerMistake(Words words, const std::string& says) {
   words.insert(words.begin(), "seam-server");
   if (std::count(words.begin(), words.end(), "--lcm-url") == 0) {
     words.insert(words.end(), {"--lcm-url", "none"});
   }
   return {words, says};
 }
-inline Mistake Client(Words words, const std::string& says) {
+inline Mistake ClientMistake(Words words, const std::string& says) {
   if (std::find(words.begin(), words.end(), "--name") == words.end()) {
     words.insert(words.end(), {"--name", "ann"});
   }
-  Mistake mistake = Server(std::move(words), says);
+  Mistake mistake = ServerMistake(std::move(words), says);
   mistake.command[0] = "seam-client";
   return mistake;
 }

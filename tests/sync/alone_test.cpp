@@ -63,12 +63,12 @@ std::uint64_t HashOfWorld(bool barriers) {
   return world.Hash();
 }
 
-TEST(Alone, AMechanismSimulatedByOnePeerStepsWithoutBarriers) {
+TEST(SharedBarriers, AMechanismSimulatedByOnePeerStepsWithoutBarriers) {
   ASSERT_NE(HashOfWorld(false), HashOfWorld(true)) << "or this shows nothing";
   EXPECT_EQ(HashOf(false), HashOfWorld(false));
 }
 
-TEST(Alone, AFollowedMechanismHasABarrierAtEverySendTick) {
+TEST(SharedBarriers, AFollowedMechanismHasABarrierAtEverySendTick) {
   EXPECT_EQ(HashOf(true), HashOfWorld(true));
 }
 

@@ -112,7 +112,7 @@ void GiveCrate(std::int64_t given, std::int64_t known,
 
 /// Others would apply a state that depends on assumed inputs unchanged, and never reach the pose
 /// that the inputs cause.
-TEST(HandedOver, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
+TEST(HandOverState, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
   const Scene scene = Squeezed();
   const std::vector<std::vector<BodyState>> truth = Truth(scene);
   for (const std::int64_t given : {63, 94, 136}) {  // inputs have just changed
@@ -124,7 +124,7 @@ TEST(HandedOver, SendsTheStateBeforeUnknownInputsThatMayReachIt) {
 
 /// Nothing is assumed about a silent player for up to kDriverSilentUs: a mechanism handed over then
 /// is sent as of the player's last input.
-TEST(HandedOver, SendsTheStateFromTheLastInputOfASilentPlayer) {
+TEST(HandOverState, SendsTheStateFromTheLastInputOfASilentPlayer) {
   const Scene scene = Squeezed();
   constexpr std::int64_t kCut = 60, kGiven = 107, kHeard = 115;
   WiredReplicas room = Room(scene);
@@ -136,7 +136,7 @@ TEST(HandedOver, SendsTheStateFromTheLastInputOfASilentPlayer) {
 }
 
 /// Right after an edit nobody has looked yet how far inputs reach.
-TEST(HandedOver, SendsANewPartNoEarlierThanItsEdit) {
+TEST(HandOverState, SendsANewPartNoEarlierThanItsEdit) {
   WiredReplicas room = Room(Squeezed());
   room.StepTo(120);
   InsertEdit insert;
@@ -159,7 +159,7 @@ TEST(HandedOver, SendsANewPartNoEarlierThanItsEdit) {
 /// While a client loads the room it may be given something and asked for it again: all of that can
 /// come in one datagram, before its first step. And the server plans in its first ticks, of which
 /// it looks at every second.
-TEST(HandedOver, SendsTheCurrentStateIfRevokedBeforeTheFirstStep) {
+TEST(HandOverState, SendsTheCurrentStateIfRevokedBeforeTheFirstStep) {
   Replica ann(Squeezed(), MakeSyncConfig("buffer", "rollback"), 1, 0);
   const int hers = ann.world().mechanism(0);
   const auto grant = [&](int peer, int epoch) {
@@ -180,7 +180,7 @@ TEST(HandedOver, SendsTheCurrentStateIfRevokedBeforeTheFirstStep) {
   EXPECT_EQ(told[0].y[0], 0.5f);
 }
 
-TEST(HandedOver, SendsTheCurrentStateInTheServersFirstTick) {
+TEST(HandOverState, SendsTheCurrentStateInTheServersFirstTick) {
   Replica server(Squeezed(), MakeSyncConfig("buffer", "rollback"), 0, -1);
   server.Step();
   const std::vector<ExactStates> told = server.MakeExact({server.world().mechanism(0)}, 1);

@@ -65,7 +65,7 @@ class Room {
 
 constexpr int kToRest = 90;  // ticks
 
-TEST(Idle, ARestingCrateIsAbsentWhileADiscPassesAtFiveMetres) {
+TEST(AbsentAtRest, ARestingCrateIsAbsentWhileADiscPassesAtFiveMetres) {
   Room room("position = [-5, -4]\nvelocity = [0, 2]\n");
   room.Steps(kToRest);
   for (const int crate : {kFirst, 1, kLast}) EXPECT_FALSE(room.There(crate)) << crate;
@@ -75,7 +75,7 @@ TEST(Idle, ARestingCrateIsAbsentWhileADiscPassesAtFiveMetres) {
 }
 
 /// It does as it does where all are there all the time, to the bit.
-TEST(Idle, AFastDiscFindsItPresent) {
+TEST(AbsentAtRest, AFastDiscFindsItPresent) {
   for (const float speed : {1.0f, 3.0f, 10.0f, 40.0f, 80.0f}) {
     const float away = std::max(8.0f, 2.5f * speed);
     const std::string disc = "position = [" + std::to_string(-away) + ", 0]\nvelocity = [" +
@@ -96,7 +96,7 @@ TEST(Idle, AFastDiscFindsItPresent) {
   }
 }
 
-TEST(Idle, AnUnreliablePeersDiscFindsItPresent) {
+TEST(AbsentAtRest, AnUnreliablePeersDiscFindsItPresent) {
   Room room("position = [-1.2, 0]\n");
   room.Give(kDisc, 1);
   room.replica.RolesChanged();
@@ -111,7 +111,7 @@ TEST(Idle, AnUnreliablePeersDiscFindsItPresent) {
   EXPECT_TRUE(room.There(kDisc));
 }
 
-TEST(Idle, StaysAtRestWhenItReturns) {
+TEST(AbsentAtRest, StaysAtRestWhenItReturns) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
@@ -124,7 +124,7 @@ TEST(Idle, StaysAtRestWhenItReturns) {
   for (int body = 0; body <= kDisc; ++body) EXPECT_TRUE(room.replica.rest().Holds(body)) << body;
 }
 
-TEST(Idle, IsPresentWhenAnEditActs) {
+TEST(AbsentAtRest, IsPresentWhenAnEditActs) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
@@ -156,7 +156,7 @@ repeat = {count = 10, step = [0, 0.71]}
 
 /// Pushed by an edit, it moves to the bit as a tower that was present all the time: its contacts
 /// begin with their old impulses.
-TEST(Idle, ATowerThatReturnsStandsAsBefore) {
+TEST(AbsentAtRest, ATowerThatReturnsStandsAsBefore) {
   const auto push = [](Replica* replica) {
     PushEdit edit;
     edit.part = replica->world().id(9);
@@ -195,7 +195,7 @@ TEST(Idle, ATowerThatReturnsStandsAsBefore) {
   EXPECT_TRUE(woken);
 }
 
-TEST(Idle, IsHandedToAClientAndBack) {
+TEST(AbsentAtRest, IsHandedToAClientAndBack) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));

@@ -41,7 +41,7 @@ TEST_F(InputFeedTest, SendsHeldInputsAlongWithOtherMessages) {
   EXPECT_FALSE(feed.Take(track, acked, tick + 1, true)) << "nothing new, and no change";
 }
 
-TEST_F(InputFeedTest, SendsNoMoreThanIsUnacknowledgedButAFewTicks) {
+TEST_F(InputFeedTest, SendsTheUnacknowledgedTicksAndAtLeastAFew) {
   for (int i = 0; i < 40; ++i) Step({});
   EXPECT_EQ(Step(Drive(1))->drive.size(), 16u) << "the most";
   acked = tick - 7;

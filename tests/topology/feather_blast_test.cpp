@@ -30,7 +30,7 @@ double MassOf(const std::vector<Part>& parts) {
   return mass;
 }
 
-TEST(Blast, FreesTheBricksWithinItsRadiusAsPartsOfTheSameMass) {
+TEST(BrickBlast, FreesTheBricksWithinItsRadiusAsPartsOfTheSameMass) {
   const Freed freed = BlastBricks(Wall(), FeatherStore(Wall()), {Vec2(2, 6), 1.5f, 20});
   // 1.5 m: area 7.07 m^2, bricks of 0.125 m^2 whose middles are inside.
   EXPECT_NEAR(static_cast<double>(freed.bricks.size()), 7.07 / 0.125, 4);
@@ -46,7 +46,7 @@ TEST(Blast, FreesTheBricksWithinItsRadiusAsPartsOfTheSameMass) {
   }
 }
 
-TEST(Blast, IsPossibleWithinItsBoundsOnly) {
+TEST(BrickBlast, IsPossibleWithinItsBoundsOnly) {
   const Blast good{{1e6f, -1e6f}, kBlastRadiusMax, kSpeedMax, kBlastImpulseMax};
   EXPECT_TRUE(Possible(good));
   for (const float far : {-1.1e6f, 3e38f, -3e38f, INFINITY, NAN}) {
@@ -59,7 +59,7 @@ TEST(Blast, IsPossibleWithinItsBoundsOnly) {
   EXPECT_FALSE(Possible(bad));
 }
 
-TEST(Blast, PartsCoverTheFreedBricksExactly) {
+TEST(BrickBlast, PartsCoverTheFreedBricksExactly) {
   const Freed freed = BlastBricks(Wall(), FeatherStore(Wall()), {Vec2(-3, 14), 2, 20});
   FeatherStore store(Wall());
   ASSERT_EQ(store.Remove(freed.bricks), freed.bricks.size()) << "each was there, once";
@@ -75,7 +75,7 @@ TEST(Blast, PartsCoverTheFreedBricksExactly) {
   }
 }
 
-TEST(Blast, NeverMoreThanFortyPiecesTheNearestFirst) {
+TEST(BrickBlast, FreesAtMostFortyPiecesNearestFirst) {
   const Freed freed = BlastBricks(Wall(), FeatherStore(Wall()), {Vec2(0, 7), 7, 30});
   ASSERT_EQ(freed.parts.size(), static_cast<std::size_t>(kBlastPiecesMax));
   float farthest = 0;
@@ -85,7 +85,7 @@ TEST(Blast, NeverMoreThanFortyPiecesTheNearestFirst) {
   EXPECT_LT(farthest, 3) << "40 pieces of four are a disc of 2.5 m";
 }
 
-TEST(Blast, StrongBricksStayAndTakenOnesDoNotComeAgain) {
+TEST(BrickBlast, StrongBricksStayAndTakenOnesDoNotComeAgain) {
   const Blast blast{Vec2(2, 6), 1.5f, 20};
   const Freed weak = BlastBricks(Wall(0), FeatherStore(Wall(0)), blast),
               strong = BlastBricks(Wall(10), FeatherStore(Wall(10)), blast);

@@ -37,7 +37,7 @@ int PartsOf(const Scene& scene, const std::string& bricks) {
                     [&](const Part& part) { return part.name.rfind(bricks + "@", 0) == 0; }));
 }
 
-TEST(Fall, ARoofStaysOnOneWallAndComesDownWithTheSecond) {
+TEST(FallingBricks, ARoofStaysOnOneWallAndComesDownWithTheSecond) {
   Topology topology(ParseScene(kHut, "hut.toml"));
   topology.Apply({At(0.2f, 1, 0.5f)});
   EXPECT_GT(PartsOf(topology.scene(), "left"), 0) << "the blast's, and what hung above it";
@@ -53,13 +53,13 @@ TEST(Fall, ARoofStaysOnOneWallAndComesDownWithTheSecond) {
   EXPECT_FALSE(topology.hanging().has_value());
 }
 
-TEST(Fall, BricksThatBeginInTheAirStay) {
+TEST(FallingBricks, BricksThatBeginInTheAirStay) {
   Topology topology(ParseScene(kGround + Bricks("cloud", 0, 5, 10, 4), "cloud.toml"));
   topology.Apply({At(4, 5.8f, 0.5f)});
   EXPECT_EQ(PartsOf(topology.scene(), "cloud"), 1) << "only what the blast frees";
 }
 
-TEST(Fall, AnEdgeSupportsAndACornerDoesNot) {
+TEST(FallingBricks, AnEdgeSupportsAndACornerDoesNot) {
   const std::string low = Bricks("low", 0, 0, 1, 5);
   for (const auto& [x, falls] : {std::pair{0.4f, true}, std::pair{0.35f, false}}) {
     // The tower over the lower one touches it by a corner, or by 5 cm of an edge; and a post.
@@ -72,7 +72,7 @@ TEST(Fall, AnEdgeSupportsAndACornerDoesNot) {
   }
 }
 
-TEST(Fall, PiecesCoverFallingBricksOnceWithTheirMass) {
+TEST(FallingBricks, PiecesCoverFallingBricksOnceWithTheirMass) {
   const Scene scene = ParseScene(kGround + Bricks("tower", 0, 0, 9, 30, "density = 2\n"), "t.toml");
   Topology topology(scene);
   // Right through the tower, 3.6 m wide, in two blasts.
@@ -88,7 +88,7 @@ TEST(Fall, PiecesCoverFallingBricksOnceWithTheirMass) {
   EXPECT_LE(topology.scene().parts.size(), 1u + 2 * kBlastPiecesMax + 2 * kFallPiecesMax);
 }
 
-TEST(Fall, BricksBeyondOneEditFallByTheNext) {
+TEST(FallingBricks, BricksBeyondOneEditFallByTheNext) {
   // Crosses of narrow bricks make many pieces: columns of every second one hang on one beam.
   std::string text = kGround + Bricks("post", 0, 0, 1, 10) + Bricks("beam", 0, 2, 125, 1);
   for (int i = 0; i < 60; ++i) {
@@ -108,7 +108,7 @@ TEST(Fall, BricksBeyondOneEditFallByTheNext) {
   EXPECT_LT(left.size(), 10u) << "the stump of the post";
 }
 
-TEST(Fall, TheSameEditsMakeTheSamePartsAndTheyComeToRestBelow) {
+TEST(FallingBricks, TheSameEditsMakeTheSamePartsAndTheyComeToRestBelow) {
   World one(ParseScene(kHut, "hut.toml")), two(ParseScene(kHut, "hut.toml"));
   for (int t = 0; t < 600; ++t) {
     for (World* world : {&one, &two}) {
@@ -129,7 +129,7 @@ TEST(Fall, TheSameEditsMakeTheSamePartsAndTheyComeToRestBelow) {
   }
 }
 
-TEST(Fall, APieceLeavesTheHoleThatItFits) {
+TEST(FallingBricks, AFreedPieceDropsOutOfItsHole) {
   // A brick in the ceiling between two others: freed without a speed to speak of, it drops.
   World world(ParseScene(kGround + Bricks("ceiling", -2, 2, 10, 1), "hole.toml"));
   world.Apply({At(0.2f, 2.1f, 0.1f, 0.01f)});

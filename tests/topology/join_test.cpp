@@ -21,7 +21,7 @@ std::string Brick(const std::string& name, double x, double y, const std::string
          "\n";
 }
 
-TEST(Join, APieceThatComesNearJoinsAtTheExactPlaceAndKeepsMomentum) {
+TEST(Connectors, APieceThatComesNearJoinsAtTheExactPlaceAndKeepsMomentum) {
   auto world = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.5, 0.03,
                                                    "angle = 0.05\nvelocity = [-1, 0]\n"
                                                    "density = 2\njoin_strength = 70"),
@@ -40,7 +40,7 @@ TEST(Join, APieceThatComesNearJoinsAtTheExactPlaceAndKeepsMomentum) {
   EXPECT_NEAR(world->mass(0) * world->Read(0).velocity.y(), 0, 1e-5);
 }
 
-TEST(Join, AnInletTakesOneOutlet) {
+TEST(Connectors, AnInletTakesOneOutlet) {
   // Two outlets come to the one inlet of the middle part, which is half taken by the first.
   auto world = SmallWorld(Brick("middle", 0, 0) + Brick("left", -1.3, 0.05, "velocity = [1, 0]") +
                               Brick("late", -1.3, 1.2, "velocity = [0.3, -1]"),
@@ -51,7 +51,7 @@ TEST(Join, AnInletTakesOneOutlet) {
   EXPECT_EQ(bonds, 1);
 }
 
-TEST(Join, MisalignedOrRecedingPiecesDoNotJoin) {
+TEST(Connectors, MisalignedOrRecedingPiecesDoNotJoin) {
   auto turned = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0,
                                                     "angle = 0.5\n"
                                                     "velocity = [-0.5, 0]"),
@@ -64,7 +64,7 @@ TEST(Join, MisalignedOrRecedingPiecesDoNotJoin) {
   EXPECT_TRUE(Live(still.get(), 30).empty());
 }
 
-TEST(Join, BrokenPiecesJoinAgainOnlyAfterASecond) {
+TEST(Connectors, BrokenPiecesJoinAgainOnlyAfterASecond) {
   auto world = SmallWorld(
       Brick("a", 0, 0) + Brick("b", 1, 0) +
           "[[joint]]\nname = \"glue\"\nkind = \"glue\"\na = \"a\"\nb = \"b\"\nstrength = 5\n",
@@ -84,7 +84,7 @@ TEST(Join, BrokenPiecesJoinAgainOnlyAfterASecond) {
   EXPECT_EQ(world->body_count(), 1);
 }
 
-TEST(Join, OnlyBondsOfConnectorsMayBeProposed) {
+TEST(Connectors, OnlyBondsOfConnectorsMayBeProposed) {
   auto world = SmallWorld(Brick("a", 0, 0) + Brick("b", 3, 0) +
                               "[[part]]\nname = \"plain\"\nbox = [1, 1]\nposition = [6, 0]\n",
                           "", kNoGravity);

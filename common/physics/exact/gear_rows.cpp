@@ -78,8 +78,8 @@ GearSides ReadGear(b2GearJoint* gear) {
   return sides;
 }
 
-void FillGear(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
-              double h, Row* row) {
+void FillGear(const ExactJoint& joint, const ExactJointEnds& ends,
+              const std::vector<ExactBody>& bodies, double h, Row* row) {
   row->kind = RowKind::kHard;
   row->ends = 0;
   row->fixed_speed = 0;

@@ -12,7 +12,7 @@ GearSides ReadGear(b2GearJoint* gear);
 
 /// Writes its row, q1 + ratio q2 = 0, with q the angle of a hinge or the shift of a prismatic
 /// joint. A body that belongs to both joints is one end. `h`: duration of a substep, s.
-void FillGear(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
-              double h, Row* row);
+void FillGear(const ExactJoint& joint, const ExactJointEnds& ends,
+              const std::vector<ExactBody>& bodies, double h, Row* row);
 
 }  // namespace seam

@@ -17,7 +17,7 @@ class ExactIsland {
  public:
   struct Held {
     const ExactJoint* joint = nullptr;
-    JointEnds ends;
+    ExactJointEnds ends;
     int row = 0, rows = 0;  // its first row, and their number
   };
 

@@ -21,7 +21,7 @@ double* RangeErrors(const ExactJoint& joint, double at, double* next) {
 
 }  // namespace
 
-bool JointErrors(const ExactJoint& joint, const JointEnds& ends,
+bool JointErrors(const ExactJoint& joint, const ExactJointEnds& ends,
                  const std::vector<ExactBody>& bodies, double* next) {
   const ExactBody& a = bodies[static_cast<std::size_t>(ends.a)];
   const ExactBody& b = bodies[static_cast<std::size_t>(ends.b)];

@@ -23,7 +23,7 @@ constexpr Jacobian kTurnBack{0, 0, 1, 0, 0, -1};
 /// Writes the rows of one joint.
 class Writer {
  public:
-  Writer(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
+  Writer(const ExactJoint& joint, const ExactJointEnds& ends, const std::vector<ExactBody>& bodies,
          const Pace& pace, Row* next)
       : joint_(joint),
         ends_(ends),
@@ -123,7 +123,7 @@ class Writer {
   }
 
   const ExactJoint& joint_;
-  const JointEnds& ends_;
+  const ExactJointEnds& ends_;
   const ExactBody& a_;
   const ExactBody& b_;
   const double h_, step_;     // s: of a substep, of the engine's step
@@ -215,8 +215,8 @@ void Writer::Slide(bool turns) {
 
 }  // namespace
 
-void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
-               const Pace& pace, Row* rows) {
+void FillJoint(const ExactJoint& joint, const ExactJointEnds& ends,
+               const std::vector<ExactBody>& bodies, const Pace& pace, Row* rows) {
   if (joint.type == e_gearJoint) {
     FillGear(joint, ends, bodies, pace.h, rows);
     return;

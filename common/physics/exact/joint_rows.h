@@ -71,7 +71,7 @@ ExactJoint ReadJoint(b2Joint* made);
 void LookAt(double h, ExactJoint* joint);
 
 /// The two bodies of a joint, as indices into the island's list, and the anchors.
-struct JointEnds {
+struct ExactJointEnds {
   int a = 0, b = 0;
   double ax = 0, ay = 0, bx = 0, by = 0;  ///< m, in the body's frame, from the centre of mass
   int base_a = -1, base_b = -1;           ///< gear: bodies that its joints turn or slide on
@@ -98,11 +98,11 @@ inline double LimitTarget(double error, double h) { return std::min(0.0, -error 
 
 /// Writes RowCount rows at `rows` for the current bodies, always in the same order. Leaves impulses
 /// and states alone.
-void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
-               const Pace& pace, Row* rows);
+void FillJoint(const ExactJoint& joint, const ExactJointEnds& ends,
+               const std::vector<ExactBody>& bodies, const Pace& pace, Row* rows);
 
 /// Computes only the errors of its rows, in their order. False if only FillJoint can.
-bool JointErrors(const ExactJoint& joint, const JointEnds& ends,
+bool JointErrors(const ExactJoint& joint, const ExactJointEnds& ends,
                  const std::vector<ExactBody>& bodies, double* errors);
 
 /// Loads `share` of the joint's stored impulses into its rows (warm start) and sets the rows'

@@ -34,7 +34,7 @@ std::optional<double> Risen(const Screen& screen) {
   return std::nullopt;
 }
 
-TEST(JumpSeen, AnotherPlayersScreenShowsItWithin300Ms) {
+TEST(JumpSeen, AnotherPlayersScreenShowsAJumpWithin300Ms) {
   std::string text = std::string(kTwoSides) + kJumper;
   const std::string ann = "name = \"ann\"\n";
   text.insert(text.find(ann) + ann.size(),

@@ -140,7 +140,7 @@ TEST(HardJudge, ReachIsBeyondTheStretchedChain) {
   EXPECT_EQ(judge->Failure(), "came apart at 3.0 s");
 }
 
-TEST(HardJudge, ReachTakesTheShortestWayAndTheLengthsOfRods) {
+TEST(HardJudge, ReachUsesTheShortestPathAndTheLengthsOfRods) {
   // A short cut of 2 m from the hook to the last link's middle: less than the 2.5 m of the chain.
   Puppet p(kChain + std::string("[[joint]]\nname = \"rod\"\nkind = \"distance\"\na = \"hook\"\n"
                                 "b = \"link.2\"\nanchor_a = [0, 0]\nlength = 2\n"));
@@ -214,7 +214,7 @@ TEST(HardJudge, ArrivalIsTheDistanceFromItsGoalAfterItsTime) {
   EXPECT_EQ(judge->Failure(), "is not up at 4.0 s");
 }
 
-TEST(HardJudge, FarIsComparedWithNear) {
+TEST(HardJudge, ADistantRunIsComparedWithTheNearOne) {
   const Vec2 by(8000, 6000);
   Scene scene = ParseScene(kTwoBoxes, "s.toml");
   ShiftScene(by, &scene);

@@ -156,7 +156,7 @@ std::vector<Vec2> ClientsEnd(const std::string& scene, int seed, bool listening)
 }
 
 /// Clients reach the same bits with and without a listener on a bus without views.
-TEST(UnseenServer, IsUnseenOnABusWithoutViews) {
+TEST(UnseenServer, ABusWithoutViewsChangesNoBitsOfClients) {
   for (const char* scene : {"crossing", "obstacle", "heap"}) {
     for (const int seed : {1, 2}) {
       EXPECT_TRUE(ClientsEnd(scene, seed, true) == ClientsEnd(scene, seed, false))

@@ -18,7 +18,7 @@
 namespace seam {
 namespace lab_relief_test {
 
-TEST(LabRelief, ARoomHasSoManyPlayersAndBodies) {
+TEST(LabRelief, ARoomHasTheRequestedPlayersAndBodies) {
   for (const ReliefThings things : {ReliefThings::kCrates, ReliefThings::kBalls}) {
     for (const int players : {1, 2, 30}) {
       for (const int each : {4, 15, 30}) {
@@ -88,7 +88,7 @@ TEST(LabRelief, VerdictsAreMetMissedOrNotValid) {
   EXPECT_EQ(table.rows[4].back(), "–");
 }
 
-TEST(LabRelief, TheReportHasItsTables) {
+TEST(LabRelief, TheReportHasATableOfVerdicts) {
   const LabWorkspace files;
   std::filesystem::create_directory(files / "relief");
   files.Write("relief/server.csv",

@@ -28,13 +28,13 @@ class TitleOfScene : public ::testing::TestWithParam<Title> {
   }
 };
 
-TEST_P(TitleOfScene, IsSeenOnEveryScreenUnder4g) {
+TEST_P(TitleOfScene, IsTrueOnEveryScreenUnder4g) {
   for (int seed = 1; seed <= Soak(2); ++seed) {
     EXPECT_EQ(MissedBy(GetParam(), Play(seed, 0)), "") << "seed " << seed;
   }
 }
 
-TEST_P(TitleOfScene, IsNotKeptYetAfterASecond) {
+TEST_P(TitleOfScene, IsNotTrueYetAfterASecond) {
   EXPECT_NE(MissedBy(GetParam(), Play(1, 1)), "") << "the test would see nothing";
 }
 

@@ -22,7 +22,8 @@ int Moved(const Screen& screen, const std::string& prefix, float far) {
 }
 
 /// The least and the largest x, m, that a part was shown at from a time on, s.
-std::pair<double, double> Reach(const Screen& screen, const std::string& part, double from_s = 0) {
+std::pair<double, double> RangeOf(const Screen& screen, const std::string& part,
+                                  double from_s = 0) {
   std::pair<double, double> reach{1e9, -1e9};
   for (double time_s = from_s; time_s <= screen.end_s(); time_s += 0.1) {
     const std::optional<BodyState> state = screen.Find(part, time_s);
@@ -41,7 +42,7 @@ void JudgeSwarm(const Screen& screen, Claims* claims) {
   const auto there = static_cast<int>(present.size());
   for (const int player : present) {
     const std::string sled = "sled." + std::to_string(player);
-    const auto [least, most] = Reach(screen, sled);
+    const auto [least, most] = RangeOf(screen, sled);
     claims->AtLeast(most - least, 8, "way of " + sled + ", m");
   }
   for (const std::string& sled : screen.All("sled.")) {
@@ -82,7 +83,7 @@ void JudgeDerby(const Screen& screen, Claims* claims) {
 
 void JudgePile(const Screen& screen, Claims* claims) {
   for (const std::string& blade : screen.All("blade.")) {
-    const auto [least, most] = Reach(screen, blade);
+    const auto [least, most] = RangeOf(screen, blade);
     claims->AtLeast(most - least, 0.8, "way of " + blade + ", m");
   }
   int moved = 0;
@@ -94,12 +95,12 @@ void JudgePile(const Screen& screen, Claims* claims) {
 }
 
 void JudgeRelay8(const Screen& screen, Claims* claims) {
-  claims->AtLeast(Reach(screen, "alone").second, 24, "the one alone, farthest right, m");
-  claims->Between(Reach(screen, "alone", 8).first, -33, -24, "and back at the left, m");
-  claims->Between(Reach(screen, "left", 5).first, -33, -24, "the left one, thrown back, m");
-  claims->AtLeast(Reach(screen, "left").second, -4, "the left one in the middle, m");
-  claims->Between(Reach(screen, "right", 5).second, 24, 33, "the right one, thrown back, m");
-  claims->Between(Reach(screen, "right").first, -33, 4, "the right one in the middle, m");
+  claims->AtLeast(RangeOf(screen, "alone").second, 24, "the one alone, farthest right, m");
+  claims->Between(RangeOf(screen, "alone", 8).first, -33, -24, "and back at the left, m");
+  claims->Between(RangeOf(screen, "left", 5).first, -33, -24, "the left one, thrown back, m");
+  claims->AtLeast(RangeOf(screen, "left").second, -4, "the left one in the middle, m");
+  claims->Between(RangeOf(screen, "right", 5).second, 24, 33, "the right one, thrown back, m");
+  claims->Between(RangeOf(screen, "right").first, -33, 4, "the right one in the middle, m");
 }
 
 }  // namespace seam

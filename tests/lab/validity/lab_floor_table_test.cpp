@@ -24,7 +24,7 @@ const char* const kRows =
     "v,wall.toml,strict,,demo,script,1,5,9,9,0.1,0.2,0.05,0.25,plain,\n";
 const char* const kOracleRow = "v,wall.toml,oracle,,perfect,script,1,0,0,0,0.1,0.2,0.05,,plain,\n";
 
-TEST(FloorTable, HasTheFloorsOfASceneAndTheMethodsThatChaosLeavesAlike) {
+TEST(FloorTable, HasAScenesFloorsAndTheMethodsThatChaosMakesEqual) {
   const TextTable table = FloorTable({SweepOf(kRows), SweepOf(kOracleRow)});
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_EQ(table.rows[0],

@@ -116,7 +116,7 @@ TEST(ContactRows, TurningADiscDoesNotMoveItsContactAndTurningABoxDoes) {
   }
 }
 
-TEST(ContactRows, OverlapIsPushedOutSlowlyAndAGapMayShut) {
+TEST(ContactRows, OverlapIsPushedOutSlowlyAndAGapMayClose) {
   RowsOfScene scene(std::string(kFloor) +
                     "[[part]]\nname = \"crate\"\nbox = [1, 0.6]\nposition = [0.2, 0.27]\n");
   const ExactContact contact = ContactOf(&scene);

@@ -23,7 +23,7 @@ std::string Pendulum() {
          HingeText("pivot", "post", "bob", 0, 0);
 }
 
-TEST(ExactEnergy, APendulumKeepsItForAMinute) {
+TEST(ExactEnergy, APendulumKeepsItsEnergyForAMinute) {
   const auto world = ExactWorld(Pendulum());
   // From hanging at rest up to where it began: 0.2 kg by 1 m.
   const double range = 0.2 * 10 * 1;

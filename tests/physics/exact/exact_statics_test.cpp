@@ -72,7 +72,7 @@ bool TearsOff(double strength, const std::string& joint) {
   return !Live(world.get(), 30).empty();
 }
 
-TEST(ExactStatics, GlueFeelsTheLoadThroughEveryKindOfJoint) {
+TEST(ExactStatics, EveryKindOfJointPassesTheLoadToGlue) {
   for (const char* joint :
        {"kind = \"hinge\"\nanchor = [0, -0.5]", "kind = \"distance\"", "kind = \"rope\"",
         "kind = \"prismatic\"\naxis = [1, 0]\nanchor = [0, -0.5]",

@@ -59,12 +59,12 @@ class RowsOfScene {
     b2Body* b = read.made->GetBodyB();
     const b2Vec2 at_a = read.anchor_a - a->GetLocalCenter();
     const b2Vec2 at_b = read.anchor_b - b->GetLocalCenter();
-    JointEnds ends{index(a),
-                   index(b),
-                   static_cast<double>(at_a.x),
-                   static_cast<double>(at_a.y),
-                   static_cast<double>(at_b.x),
-                   static_cast<double>(at_b.y)};
+    ExactJointEnds ends{index(a),
+                        index(b),
+                        static_cast<double>(at_a.x),
+                        static_cast<double>(at_a.y),
+                        static_cast<double>(at_b.x),
+                        static_cast<double>(at_b.y)};
     if (read.type == e_gearJoint) {
       auto& gear = *static_cast<b2GearJoint*>(read.made);
       ends.base_a = index(gear.GetJoint1()->GetBodyA());

@@ -66,7 +66,7 @@ TEST(MechanismJudge, ALoadThatStaysBelowIsNotUp) {
   EXPECT_EQ(judge->Failure(), "");
 }
 
-TEST(MechanismJudge, JointsComeApartAndJourneysMustBeMade) {
+TEST(MechanismJudge, AnOpenJointAndAnIncompleteJourneyFail) {
   Puppet p(kHeld);
   const auto judge = MakeJointDriftJudge({}, 1, {"load", {10, -1}}, p.scene);
   p.ShowAt(0, judge.get());
@@ -191,7 +191,7 @@ TEST(HardMechanism, ElasticBoxesMatchTheirNames) {
   }
 }
 
-TEST(HardMechanism, EachLoadedJointIsAloneWithItsKind) {
+TEST(HardMechanism, EachLoadedJointIsTheOnlyOneOfItsKind) {
   const std::pair<const char*, JointKind> kinds[] = {
       {"joint-load-distance", JointKind::kDistance},   {"joint-load-hinge", JointKind::kRevolute},
       {"joint-load-prismatic", JointKind::kPrismatic}, {"joint-load-rope", JointKind::kRope},

@@ -106,7 +106,7 @@ TEST(ExactJoints, TheSummaryTakesTheCheapestSettingThatIsNoWorse) {
   EXPECT_NE(table.note.find("no better and dearer: none."), std::string::npos) << table.note;
 }
 
-TEST(ExactJoints, LosersAreNamed) {
+TEST(ExactJoints, NamesTheCasesThatExactJointsLose) {
   const std::string rows = Row("joint-grid", "stock", "iterative", 1, "0.4,,0,0,1") +
                            Row("joint-grid", "scene", "auto", 2, "0.02,,0,0,3") +
                            Row("joint-grid", "iterative", "iterative", 1, "0.01,,0,0,1");
