@@ -152,10 +152,7 @@ void Client::StartIfDue(std::int64_t now_us) {
 
 /// Steps without display; messages of these ticks are discarded.
 void Client::CatchUp(std::int64_t tick) {
-  while (replica_->tick() < tick) {
-    RecordKnownInputs();
-    replica_->Step();
-  }
+  for (; replica_->tick() < tick; replica_->Step()) RecordKnownInputs();
   replica_->TakeStates();
   replica_->TakeProposals();
   replica_->TakeImpactReports();
@@ -209,10 +206,9 @@ void Client::RecordOwnInput() {
 }
 
 void Client::RecordKnownInputs() {
-  for (const Inputs& inputs :
-       policy_->KnownInputs(*scene_, replica_->tick() + 1, room_.input_delay_ticks)) {
-    replica_->RecordInputs(inputs);
-  }
+  const std::int64_t next = replica_->tick() + 1;
+  const auto all = policy_->KnownInputs(*scene_, next, room_.input_delay_ticks);
+  for (const Inputs& inputs : all) replica_->RecordInputs(inputs);
 }
 
 bool Client::Quiet() const {

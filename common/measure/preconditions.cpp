@@ -15,7 +15,8 @@ std::string WhyNotValid(const Recording& recording, const Oracle& oracle,
   if (expected.contact && !oracle.contact.value_or(true)) {
     return "no contact between two players' bodies";
   }
-  if (expected.hand_over && PolicyOf(room).PlansAuthority() && measures.handovers == 0) return "no hand-over";
+  if (expected.hand_over && PolicyOf(room).PlansAuthority() && measures.handovers == 0)
+    return "no hand-over";
   if (expected.edit && oracle.edits.empty()) return "no edit";
   return "";
 }

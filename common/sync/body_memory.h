@@ -9,8 +9,8 @@
 #include "common/physics/history.h"
 #include "common/physics/world.h"
 #include "common/sync/authority.h"
-#include "common/sync/mode.h"
 #include "common/sync/blend/reconcile.h"
+#include "common/sync/mode.h"
 #include "common/sync/snapshots.h"
 
 namespace seam {

@@ -31,8 +31,8 @@ MethodNames NamesOf(const SyncConfig& config);
 std::string VariantOf(const MethodNames& names);
 std::string VariantOf(const Room& room);
 
-/// Returns the policy of a recorded room; UnknownPolicy() for an unknown mode. An unknown reconciler
-/// counts as one that does not go back, an unknown prediction as "own".
+/// Returns the policy of a recorded room; UnknownPolicy() for an unknown mode. An unknown
+/// reconciler counts as one that does not go back, an unknown prediction as "own".
 const Policy& PolicyOf(const Room& room);
 
 /// Returns the rules of mode buffer, as --reconcile takes them.

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "common/sync/policy/policy.h"
 #include "common/sync/blend/reconcile.h"
+#include "common/sync/policy/policy.h"
 
 namespace seam {
 
@@ -16,7 +16,7 @@ struct SyncConfig {
   Reconciler reconcile = nullptr;               ///< not null in modes buffer and central
   Puller pull = nullptr;                        ///< of the reconciler, if it acts in every tick
   std::string reconcile_name;
-  int input_delay_ticks = 0;        ///< own inputs act this much later, at every peer; 0..12
+  int input_delay_ticks = 0;  ///< own inputs act this much later, at every peer; 0..12
   int tick_hz = 60;
   int send_hz = 30;                 ///< States per second from each peer; <= tick_hz
   float smooth_rate = kSmoothRate;  ///< rate at which hidden corrections return, 1/s; 0: none are

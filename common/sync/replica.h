@@ -24,7 +24,6 @@
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/correct/corrector.h"
-#include "common/sync/rollback/replay.h"
 #include "common/sync/display.h"
 #include "common/sync/edits/edit_queue.h"
 #include "common/sync/impact_reporter.h"
@@ -36,6 +35,7 @@
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
+#include "common/sync/rollback/replay.h"
 #include "common/sync/send_scheduler.h"
 #include "common/sync/show/strand_view.h"
 
@@ -223,8 +223,8 @@ class Replica {
   std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
   std::vector<Awaited> awaited_;                     // pending proposals; only if this peer rolls
                                                      // back
-  std::vector<ExactStates> released_;                    // states that ApplyGrants released, not
-                                                         // yet sent
+  std::vector<ExactStates> released_;                // states that ApplyGrants released, not
+                                                     // yet sent
 };
 
 }  // namespace seam

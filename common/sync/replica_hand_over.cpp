@@ -1,11 +1,10 @@
 /// Replica: exact states of mechanisms that change hands.
 
-#include "common/sync/replica.h"
-
 #include <algorithm>
 #include <map>
 
 #include "common/scene/mechanism_ids.h"
+#include "common/sync/replica.h"
 
 namespace seam {
 

@@ -57,7 +57,8 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
     for (int& m : mechanisms) m = PlaceOf(m);
   }
   LookAtMechanisms(situation, &view);
-  const bool boxes = config_.policy->PlansFollowers() || (islands_ && config_.policy->PlansAuthority());
+  const bool boxes =
+      config_.policy->PlansFollowers() || (islands_ && config_.policy->PlansAuthority());
   if (boxes) LookAtBoxes(&view);
   view.left_out = seen_.size() < memory_.size()
                       ? static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size()

@@ -71,7 +71,8 @@ struct AuthorityView {
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
   std::vector<MovingBox> boxes;  ///< of all their bodies; group: index of the mechanism
-  /// Bodies left out of the view: the server's, asleep, and far from everything else (SleepingIndex).
+  /// Bodies left out of the view: the server's, asleep, and far from everything else
+  /// (SleepingIndex).
   std::size_t left_out = 0;
   /// Mechanisms that a pending edit will join: each entry should get one common authority.
   std::vector<std::vector<int>> together;

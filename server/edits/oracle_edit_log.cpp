@@ -5,8 +5,8 @@
 namespace seam {
 namespace {
 
-/// Delay of edits from outside (a seat, a rule, a script), s; all peers apply them at the same tick.
-/// A peer that gets its order later than this is behind.
+/// Delay of edits from outside (a seat, a rule, a script), s; all peers apply them at the same
+/// tick. A peer that gets its order later than this is behind.
 constexpr double kAppointSeconds = 0.25;
 
 }  // namespace

@@ -79,8 +79,8 @@ repeat = {count = 2, step = [5, 0]}
   std::vector<InputTrack> inputs;
   Drivers drivers{*world, roles};
   Reach reach{config, *world, roles, drivers, inputs};
-  std::unique_ptr<RestCommit> made = MakeRestCommit(config, *world, roles, drivers, memory, display,
-                                                    inputs, reach);
+  std::unique_ptr<RestCommit> made =
+      MakeRestCommit(config, *world, roles, drivers, memory, display, inputs, reach);
   RestCommit& rest = *made;
 };
 

@@ -41,7 +41,7 @@ void FindBlockedDirections(const World& world, int mechanism, ReconcileInput* in
 }  // namespace
 
 std::map<int, BodyState> Blender::CommonDifferences(const States& states,
-                                                      const std::vector<Entry>& entries) const {
+                                                    const std::vector<Entry>& entries) const {
   std::map<int, BodyState> sums;
   std::map<int, float> masses;
   for (const auto& [i, body] : entries) {

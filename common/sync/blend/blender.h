@@ -1,7 +1,7 @@
 #pragma once
-/// Corrects copies by the room's reconciler: once for each state that arrives, and before every step
-/// if the reconciler is a puller. With rollback, and in mode central, only for states of ticks that
-/// a replay cannot reach.
+/// Corrects copies by the room's reconciler: once for each state that arrives, and before every
+/// step if the reconciler is a puller. With rollback, and in mode central, only for states of ticks
+/// that a replay cannot reach.
 
 #include <cstdint>
 #include <map>

@@ -67,7 +67,8 @@ bool DistrustedRest::ExceedsWakeLimit(int body) {
 void DistrustedRest::HoldIsland(const std::vector<int>& island) {
   bool own_awake = false, others_awake = false, driven = false, only_own = true;
   for (const int body : island) {
-    const bool struck = world().awake(body) && world().Read(body).velocity.norm() > kWakeImpactSpeed;
+    const bool struck =
+        world().awake(body) && world().Read(body).velocity.norm() > kWakeImpactSpeed;
     driven = driven || struck || Driven(body);
     only_own = only_own && Own(body);
     if (Holds(body) || !world().awake(body)) continue;
@@ -97,9 +98,7 @@ bool DistrustedRest::MayCommitAwake(const std::vector<int>& island,
     if (!each(own, [&](int b) { return watch().still(b) > send_every_; })) return false;
     return each(island, [&](int b) { return watch().slow(b) >= Ticks(seconds); });
   };
-  const bool lowest = each(island, [&](int b) {
-    return Holds(b) || AuthorityOf(b) >= self_;
-  });
+  const bool lowest = each(island, [&](int b) { return Holds(b) || AuthorityOf(b) >= self_; });
   return slow(kSlowForAnybody) || (lowest && slow(kSlowFor));
 }
 

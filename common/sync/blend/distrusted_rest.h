@@ -1,7 +1,7 @@
 #pragma once
-/// Rest where the copies of one body differ from peer to peer: mode strict, and the reconcilers that
-/// correct copies. A copy that is corrected pushes what touches it, so the engine's word alone is
-/// not trusted.
+/// Rest where the copies of one body differ from peer to peer: mode strict, and the reconcilers
+/// that correct copies. A copy that is corrected pushes what touches it, so the engine's word alone
+/// is not trusted.
 ///
 /// A held body does not wake from a small disturbance. It wakes when its speed exceeds kWakeShare
 /// times the engine's sleep threshold for some ticks in a row, or from an impact, an edit or an
@@ -21,9 +21,9 @@ namespace seam {
 class DistrustedRest : public RestCommit {
  public:
   /// As RestCommit. `inputs`: by player.
-  DistrustedRest(const SyncConfig& config, World& world, const Roles& roles,
-                 const Drivers& drivers, BodyMemory& memory, Display& display,
-                 const std::vector<InputTrack>& inputs, const Reach& reach)
+  DistrustedRest(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
+                 BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs,
+                 const Reach& reach)
       : RestCommit(config, world, roles, memory, display, reach),
         self_(roles.self()),
         send_every_(config.send_every()),
@@ -41,9 +41,7 @@ class DistrustedRest : public RestCommit {
   double BackAfter() const override;
 
  private:
-  bool Driven(int body) const {
-    return driven_[static_cast<std::size_t>(world().mechanism(body))];
-  }
+  bool Driven(int body) const { return driven_[static_cast<std::size_t>(world().mechanism(body))]; }
   bool ExceedsWakeLimit(int body);
 
   const int self_;

@@ -1,5 +1,5 @@
-/// Mode buffer: each mechanism has one authority; peers near it simulate copies, which rollback keeps
-/// equal by going back, and the other reconcilers by corrections.
+/// Mode buffer: each mechanism has one authority; peers near it simulate copies, which rollback
+/// keeps equal by going back, and the other reconcilers by corrections.
 
 #include "common/sync/policy/policy.h"
 #include "common/sync/roles.h"

@@ -53,8 +53,7 @@ class OracleMode : public Policy {
   }
   bool StampsInputs(int) const override { return true; }
 
-  std::vector<Inputs> KnownInputs(const Scene& scene, std::int64_t tick,
-                                  int delay) const override {
+  std::vector<Inputs> KnownInputs(const Scene& scene, std::int64_t tick, int delay) const override {
     std::vector<Inputs> all;
     for (int player = 0; player < static_cast<int>(scene.players.size()); ++player) {
       const Input in = ScriptedInput(scene, player, tick - delay);

@@ -1,7 +1,7 @@
 #pragma once
-/// Policy: everything that a mode of synchronisation decides. Each mode is one type in a file of its
-/// own; MakeSyncConfig chooses one object by name, and all other code asks that object instead of
-/// testing the mode. Policies have no state.
+/// Policy: everything that a mode of synchronisation decides. Each mode is one type in a file of
+/// its own; MakeSyncConfig chooses one object by name, and all other code asks that object instead
+/// of testing the mode. Policies have no state.
 ///
 ///   mode     simulated by          clients             others' bodies
 ///   oracle   every peer, alone     send nothing        (nobody's)

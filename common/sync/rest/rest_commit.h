@@ -6,11 +6,11 @@
 ///   authority   asleep .25 s --> commit --> Rest --> server (right, epoch) --> all other peers
 ///   receivers   Rest --> written, asleep, held --> a newer state of the authority ends it
 ///
-/// This class trusts the physics: with rollback and in mode central all peers come to the same sleep
-/// and waking from the same inputs, or one peer simulates everything. A held body that the engine
-/// wakes is released. Only sleep of an input-complete tick is committed, because earlier sleep may
-/// rest on an assumed input. A copy woken here goes back to rest if its authority stays silent.
-/// DistrustedRest (common/sync/blend/) serves the modes whose copies differ.
+/// This class trusts the physics: with rollback and in mode central all peers come to the same
+/// sleep and waking from the same inputs, or one peer simulates everything. A held body that the
+/// engine wakes is released. Only sleep of an input-complete tick is committed, because earlier
+/// sleep may rest on an assumed input. A copy woken here goes back to rest if its authority stays
+/// silent. DistrustedRest (common/sync/blend/) serves the modes whose copies differ.
 
 #include <cstdint>
 #include <vector>
@@ -88,8 +88,8 @@ class RestCommit {
   struct Disturbance {
     std::int64_t released_tick = -1;  ///< when it was released here, its authority still silent;
                                       ///< -1: it was not
-    int pushed_ticks = 0;  ///< ticks in a row; DistrustedRest
-    int times = 0;         ///< releases by pushes since its authority last spoke of it
+    int pushed_ticks = 0;             ///< ticks in a row; DistrustedRest
+    int times = 0;                    ///< releases by pushes since its authority last spoke of it
   };
 
   /// Call before the decisions of a step.

@@ -122,7 +122,8 @@ bool RestCommit::Receive(const Rest& rest) {
 /// Returns true if an awake simulated copy was at that pose at `tick`, so that it was woken later:
 /// the commitment merely arrives late.
 bool RestCommit::WokenSince(int body, std::int64_t tick, const BodyState& pose) const {
-  if (!config_.policy->TrustsSleep() || !roles_.Simulates(body) || !world_.awake(body)) return false;
+  if (!config_.policy->TrustsSleep() || !roles_.Simulates(body) || !world_.awake(body))
+    return false;
   const BodyState* then = memory_.history().At(tick, body);
   if (then == nullptr) return false;
   const BodyState off = Minus(pose, *then);

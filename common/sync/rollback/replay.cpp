@@ -63,8 +63,8 @@ Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const
 
 bool Replay::Agrees(const BodyState& d) const {
   if (Negligible(d)) return true;
-  return d.position.norm() < kAgreesPosition && d.velocity.norm() < kAgreesVelocity && std::fabs(d.angle) < kAgreesAngle &&
-         std::fabs(d.spin) < kAgreesSpin;
+  return d.position.norm() < kAgreesPosition && d.velocity.norm() < kAgreesVelocity &&
+         std::fabs(d.angle) < kAgreesAngle && std::fabs(d.spin) < kAgreesSpin;
 }
 
 bool Replay::Ask(int body, std::int64_t tick) {
@@ -108,7 +108,8 @@ bool Replay::IsAlone() const {
 }
 
 void Replay::TakeBarrier() {
-  if (!config_.policy->TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
+  if (!config_.policy->TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0)
+    return;
   // A body that has just fallen asleep is rebuilt once as it lies.
   const bool is_alone = IsAlone(), alone = std::exchange(was_alone_, is_alone) && is_alone;
   const std::int64_t every = alone ? config_.tick_hz / kAlonePart : 0;

@@ -9,8 +9,8 @@
 /// still count. Own bodies are stepped again too: a collision that went differently did so for both
 /// bodies.
 ///
-/// Inputs act at their own ticks (rollback, and clients of mode central), so both sides of a contact
-/// reach the same result from the same inputs; differences of a few quanta are left alone.
+/// Inputs act at their own ticks (rollback, and clients of mode central), so both sides of a
+/// contact reach the same result from the same inputs; differences of a few quanta are left alone.
 
 #include <cstdint>
 #include <deque>

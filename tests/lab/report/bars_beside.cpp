@@ -94,8 +94,8 @@ TextTable ChangeTable(const std::vector<ReportCase>& cases, const Before* before
   TextTable table;
   table.name = "changes";
   table.title = "What each change did to error_others_m";
-  table.header = {"scene",       "before: fade", "before: retrospect", "before: resimulate",
-                  "retrospect",  "rollback, follow=0", "rollback",     "central/own",
+  table.header = {"scene",      "before: fade",       "before: retrospect", "before: resimulate",
+                  "retrospect", "rollback, follow=0", "rollback",           "central/own",
                   "central/all"};
   for (const ReportCase& at : cases) {
     if (!IsPlain(at) || at.Find(kDefaultMethod) == nullptr) continue;
