@@ -96,7 +96,8 @@ void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   const std::string predicts = room.predict.empty() ? "" : "/" + room.predict;
   list.Text(area.x, y, TextStyle::kNumber, method + predicts, kInk);
   y += 16 * scale;
-  list.Text(area.x, y, TextStyle::kBody, playback.policy().about(), kFaintInk);
+  const std::string about = playback.policy().about();
+  list.Text(area.x, y, TextStyle::kBody, about.empty() ? "mode " + room.mode : about, kFaintInk);
   y += 4 * scale;
   const auto figure = [&](const std::string& name, const std::string& value) {
     y += 16 * scale;

@@ -1,7 +1,7 @@
 #pragma once
 /// Corrects the simulated copies of other peers' bodies by the states received. Apart from physics
-/// only two classes also move such bodies: Replay, at the request of Corrector, and RestCommit,
-/// which puts resting bodies at their committed poses.
+/// only three classes also move such bodies: Replay and Blender, at the request of Corrector, and
+/// RestCommit, which puts resting bodies at their committed poses.
 ///
 ///   States --> corrector_receive   filters new states, by body; goes back for them (Replay) or
 ///                                  corrects copies by the room's rule (Blender)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/sync/correct/corrector.h"
+#include "common/sync/correct/way_to.h"
 #include "common/sync/quantize.h"
 #include "common/sync/state_limits.h"
 
@@ -150,7 +151,7 @@ void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, b
     by_now = memory_.MovedOn(body, world_.tick());
     by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
     if (!memory_.snapshots().falls(body)) {  // a falling one bounces off anchored shapes already
-      by_now.position = WayTo(body, remote.position, tick, by_now.position);
+      by_now.position = WayTo(world_, memory_, body, remote.position, tick, by_now.position);
     }
   }
   PlaceBody(body, by_now, asleep);

@@ -2,6 +2,7 @@
 /// body that becomes displayed continues from its current state.
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 

@@ -12,7 +12,6 @@ class Buffer : public Policy {
   explicit Buffer(bool rolls_back) : rolls_back_(rolls_back) {}
 
   const char* mode() const override { return "buffer"; }
-  std::string about() const override { return "mode buffer"; }
   bool Follows(const Roles& peer, int mechanism) const override {
     return peer.table().at(mechanism).secondaries.Has(peer.self());
   }

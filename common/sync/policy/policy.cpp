@@ -6,7 +6,6 @@ namespace {
 class Unknown : public Policy {
  public:
   const char* mode() const override { return "?"; }
-  std::string about() const override { return "mode ?"; }
   bool Follows(const Roles&, int) const override { return false; }
 };
 

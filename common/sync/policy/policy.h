@@ -33,8 +33,8 @@ class Policy {
   virtual const char* mode() const = 0;
   /// Name of the prediction; "" in modes that have none.
   virtual const char* predict() const { return ""; }
-  /// Short description, for pictures.
-  virtual std::string about() const = 0;
+  /// Short description, for pictures; "" if the name says it all.
+  virtual std::string about() const { return ""; }
 
   // Who simulates.
   /// True if a peer simulates a copy of a mechanism of which it is not the authority.
