@@ -55,8 +55,6 @@ Played Play(int clients) {
   return played;
 }
 
-}  // namespace gather_test
-
 TEST(Gather, TwoClientsAreServedAtOnceForAWakeEachAndOneForTheTick) {
   const Played played = Play(2);
   EXPECT_GT(played.taken, 1100u);
@@ -86,4 +84,5 @@ TEST(Gather, StopsGatheringWhenTrafficStops) {
   EXPECT_LE(gather.SleepsUntil(100000), 16000);
 }
 
+}  // namespace gather_test
 }  // namespace seam
