@@ -19,8 +19,10 @@ std::int64_t LateUs(std::int64_t rtt_us) {
 }  // namespace
 
 bool Broadcast::Simulates(int peer, int mechanism) const {
-  if (config_.mode == Mode::kOracle) return true;
-  if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Relevance::kClose;
+  if (simulators_ == Policy::Simulators::kEveryone) return true;
+  if (simulators_ == Policy::Simulators::kNear) {
+    return interest_.Of(peer, mechanism) == Relevance::kClose;
+  }
   const AuthorityRecord& record = replica_.authority().at(mechanism);
   return record.authority == peer || record.secondaries.Has(peer);
 }

@@ -94,8 +94,8 @@ class Broadcast {
   /// once.
   template <class Visit>
   void EachSimulating(int mechanism, const Visit& visit) const {
-    const bool central = config_.mode == Mode::kCentral;
-    if (config_.mode == Mode::kOracle || (central && interest_.small())) {
+    const bool central = simulators_ == Policy::Simulators::kNear;
+    if (simulators_ == Policy::Simulators::kEveryone || (central && interest_.small())) {
       return sessions_.ForEachReady(0, visit);
     }
     const auto visit_peer = [&](int peer) {
@@ -163,11 +163,12 @@ class Broadcast {
   /// silent holder.
   bool SendsToFollowers(std::int64_t now_us, int holder, int body);
   /// True if every client is sent everything: the mode does not use relevance.
-  bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
+  bool Plain() const { return !config_.policy->SelectsTraffic(); }
 
   Publisher publisher_;
   const bool views_;  // views of bodies are published
   const SyncConfig config_;
+  const Policy::Simulators simulators_ = config_.policy->simulators();
   const Replica& replica_;
   SessionTable& sessions_;
   std::int64_t looked_at_;  // BodyTable::renumbered at the last LookAround

@@ -201,8 +201,8 @@ void BodyMemory::Persist(StateArchive& a) {
   a.Section("bodies");
   if (a.reading()) {
     StartAnew();
-    snapshots_ = Snapshots(world_.body_count());
     for (int body = 0; body < world_.body_count(); ++body) {
+      snapshots_.ForgetAfter(body, -1);
       snapshots_.Add(body, world_.tick(), world_.Read(body));
     }
     Record();

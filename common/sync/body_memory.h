@@ -10,8 +10,8 @@
 #include "common/sync/authority.h"
 #include "common/sync/history.h"
 #include "common/sync/mode.h"
-#include "common/sync/reconcile/reconcile.h"
 #include "common/sync/snapshots.h"
+#include "common/sync/state_arithmetic.h"
 #include "common/sync/table/body_column.h"
 #include "common/sync/table/mechanism_column.h"
 
@@ -23,8 +23,6 @@ constexpr std::int64_t kLongAgo = -1000000;
 /// State of a puller between two messages.
 struct PullTrack {
   std::int64_t arrived = -1;  ///< tick at which the newest message arrived; -1: none
-  BodyState arrival;          ///< our copy at that time
-  BodyState target_then;      ///< the authority's state, extrapolated to that time
   PullMemory memory;
 };
 

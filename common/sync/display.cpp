@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "common/base/geometry.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/state_arithmetic.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -113,7 +113,7 @@ void Display::Moved(int body, const BodyState& by) {
 
 void Display::Edited(const BodyRemap& change) {
   joints_.Rebuild();
-  if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
+  if (config_.policy->IsOracle()) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
     smoother_.Moved(static_cast<int>(body), change.jumps[body]);
   }
@@ -216,8 +216,7 @@ void Display::Leave(int body) {
 }
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
-  if (config_.mode == Mode::kOracle) return;  // no body is only displayed
-  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // it has none
+  const double delay = config_.policy->Reckons() ? 0 : delay_.Advance();  // it has none
   reckoner_.Begin(next);
   CheckParked(next, seen);
   leaving_.clear();
@@ -233,7 +232,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
       state.spin = 0;
-    } else if (config_.mode == Mode::kBuffer) {
+    } else if (config_.policy->Reckons()) {
       state = AlongReckoned(body, state);
     } else {
       state = AlongSnapshots(body, snapshots_.Interpolate(body, static_cast<double>(next) - delay),

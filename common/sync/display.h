@@ -44,7 +44,7 @@ class Display {
   const JointCloser& joints() const { return joints_; }
   /// Records that a state was this many ticks old on arrival.
   void AddAge(std::int64_t age_ticks) {
-    if (config_.mode != Mode::kBuffer) delay_.AddAge(age_ticks);
+    if (!config_.policy->Reckons()) delay_.AddAge(age_ticks);
   }
   /// Returns the displayed bodies with joints closed: all of them, or those that the peer
   /// simulates. utime is left 0.

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "common/sync/edits/edit_order.h"
 #include "common/sync/replica.h"
 
 namespace seam {
@@ -23,29 +22,12 @@ void ForgetBonds(const Scene& scene, std::int32_t broken, ProposalQueue* proposa
 
 }  // namespace
 
-bool Replica::Queue(const EditOrder& order) {
-  const Edit edit = ToEdit(order);
-  if (config_.mode == Mode::kOracle) {
-    if (edit.cause == EditCause::kOutside) outside_edits_[order.tick].push_back(edit);
-    return true;
-  }
-  if (order.number != revision() + static_cast<int>(queued_.size())) return false;
-  const std::int64_t after = queued_.empty() ? order.tick : queued_.back().tick;
-  queued_.push_back({edit, std::max(after, order.tick)});
-  return true;
-}
-
-void Replica::QueueOutsideEdits() {
-  while (!outside_edits_.empty() && outside_edits_.begin()->first <= tick()) {
-    for (Edit& edit : outside_edits_.begin()->second) queued_.push_back({std::move(edit), tick()});
-    outside_edits_.erase(outside_edits_.begin());
-  }
-}
+bool Replica::Queue(const EditOrder& order) { return queue_->Take(order, revision()); }
 
 bool Replica::has_queued() const {
-  if (queued_.empty()) return false;
+  if (queue_->empty()) return false;
   // An order of a tick far ahead is not believed.
-  const std::int64_t ahead = queued_.front().tick - replay_.now();
+  const std::int64_t ahead = queue_->front().tick - replay_.now();
   return ahead <= 0 || ahead > config_.tick_hz;
 }
 
@@ -54,8 +36,7 @@ void Replica::ApplyEdits() {
 }
 
 void Replica::ApplyNextEdit() {
-  const QueuedEdit next = std::move(queued_.front());
-  queued_.erase(queued_.begin());
+  const QueuedEdit next = queue_->Pop();
   memory_.UnparkAll();  // the edit may reach any of them
   if (presence_.NeedAll()) {
     corrector_.FollowRoles();
@@ -64,10 +45,11 @@ void Replica::ApplyNextEdit() {
   replay_.GoBackTo(next.tick);
   const std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);
-  rest_.MarkEdited();
+  rest_->MarkEdited();
   if (change) table_.Renumber(*change);
   FollowRoles();  // also if only the player in a seat, and so the predicted mechanisms, changed
-  if (change && config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
+  if (change && config_.policy->SendsCompleteTicks())
+    reach_.Look();  // indexes mechanisms by number
   replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
 }
@@ -76,17 +58,14 @@ void Replica::FindEdits() {
   const std::int64_t now = tick();
   found_.erase(now);  // results of an earlier step of this tick
   for (Edit& edit : world_.ProposeEdits()) {
-    if (config_.mode == Mode::kOracle) {
-      queued_.push_back({std::move(edit), now});
-    } else if (roles_.Proposes(edit)) {
-      found_[now].push_back(std::move(edit));
-    }
+    if (queue_->TakeFound(edit, now) || !roles_.Proposes(edit)) continue;
+    found_[now].push_back(std::move(edit));
   }
 }
 
 void Replica::ProposeFound() {
   if (found_.empty()) return;
-  const bool waits = config_.StampsInputs(roles_.self()) && config_.rolls_back;
+  const bool waits = config_.policy->SendsCompleteTicks();
   if (waits) reach_.Look();
   // In the order of ticks: an edit cannot be ordered for a tick before the previous order's.
   while (!found_.empty()) {
@@ -122,7 +101,7 @@ bool Replica::Propose(Edit edit, std::int64_t found) {
 }
 
 bool Replica::AwaitsOtherEdit(const Edit& edit, std::int64_t found) {
-  if (!config_.GoesBack(roles_.self())) return false;
+  if (!config_.policy->GoesBack(roles_.self())) return false;
   const std::int64_t old = replay_.now() - config_.tick_hz / 2;
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
                                 [&](const Awaited& a) { return a.tick < old; }),

@@ -45,12 +45,13 @@ class Roles {
     const AuthorityRecord& record = table_.at(mechanism);
     return silent_.Has(record.authority) && record.secondaries.Has(self_);
   }
+  /// True if the own player drives a mechanism.
+  bool Drives(int mechanism) const { return Own()[static_cast<std::size_t>(mechanism)]; }
   /// True if another peer simulates any awake body that this peer simulates; always true outside
   /// mode buffer.
   bool Shares() const;
   /// True if this peer is to propose an edit found by physics: the authority of the first affected
-  /// part in a mechanism, or with rollback the server if it follows that mechanism; in mode oracle
-  /// every peer.
+  /// part in a mechanism, or with rollback the server if it follows that mechanism.
   bool Proposes(const Edit& edit) const;
 
   /// Applies a message.

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/state_arithmetic.h"
 
 namespace seam {
 namespace {

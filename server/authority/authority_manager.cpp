@@ -57,7 +57,7 @@ AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config,
         sleeping_index_.Clear(0);
         plan_due_ = true;
       }) {
-  if (config_.mode != Mode::kBuffer) return;
+  if (!config_.policy->PlansFollowers()) return;
   for (int m = 0; m < table().count(); ++m) {
     AuthorityRecord record;
     record.secondaries.Add(0);
@@ -283,7 +283,7 @@ bool AuthorityManager::Awaits(int peer, int body) const {
 
 AuthorityRecord AuthorityManager::WithoutHolder(AuthorityRecord record) const {
   // A peer that releases goes on simulating until the next grant: its copy is the best there is.
-  if (config_.mode == Mode::kBuffer) record.secondaries.Add(record.authority);
+  if (config_.policy->PlansFollowers()) record.secondaries.Add(record.authority);
   record.authority = 0;
   record.epoch += 1;
   return record;

@@ -30,7 +30,7 @@ bool AuthorityManager::MayLeaveOut(const AuthorityView& view) {
     return false;
   }
   const int whole = std::max(view.follow_bodies, view.server_follow);
-  return view.islands && view.mode == Mode::kBuffer && !view.exact && !limited_ &&
+  return view.islands && view.policy->PlansFollowers() && !view.exact && !limited_ &&
          view.rules.capacity == 0 && replica_.world().body_count() > whole;
 }
 

@@ -37,12 +37,12 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   view.players.clear();
   view.mechanisms.clear();
   view.boxes.clear();
-  view.mode = config_.mode;
+  view.policy = config_.policy;
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
   view.gravity = scene_.gravity;
   view.follow_bodies = scene_.follow_bodies;
-  view.exact = config_.GoesBack(0);
+  view.exact = config_.policy->GoesBack(0);
   for (int p = 0; p < static_cast<int>(scene_.players.size()) && view.exact; ++p) {
     view.exact = replica_.drivers().MechanismsOf(p).empty();
   }
@@ -57,7 +57,8 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
     for (int& m : mechanisms) m = PlaceOf(m);
   }
   LookAtMechanisms(situation, &view);
-  const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
+  const bool boxes =
+      config_.policy->PlansFollowers() || (islands_ && config_.policy->PlansAuthority());
   if (boxes) LookAtBoxes(&view);
   view.left_out =
       SeesAll() ? 0 : static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size();

@@ -232,7 +232,7 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
         static_cast<std::size_t>(replica_.authority().at(world.mechanism(body)).authority);
     if (holder > 0 && holder < peers) held_[holder].push_back(body);
   }
-  const bool central = config_.mode == Mode::kCentral;
+  const bool central = config_.policy->simulators() == Policy::Simulators::kNear;
   const float hear = scene_.planner->hear;
   FindMoved();
   FindCells(hear, receivers, &far_);

@@ -186,11 +186,7 @@ void AddNames(Interface* interface) {
   Names names;
   for (const ImpairProfile& profile : Profiles()) names.push_back(profile.name);
   interface->Add("network profile", names);
-  names.clear();
-  for (const Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
-    names.emplace_back(ToString(mode));
-  }
-  interface->Add("mode", names);
+  interface->Add("mode", ModeNames());
   names.clear();
   for (const NamedReconciler& rule : Reconcilers()) names.emplace_back(rule.name);
   interface->Add("reconciler", names);

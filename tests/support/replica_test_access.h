@@ -22,14 +22,13 @@ struct ReplicaTestAccess {
   }
   /// Returns the lengths of the queues of edits, states and rest commits, by name.
   static std::map<std::string, std::size_t> Queues(const Replica& replica) {
-    return {{"edits ordered", replica.queued_.size()},
+    return {{"edits ordered", replica.queue_->size()},
             {"edits found", replica.found_.size()},
             {"edits awaited", replica.awaited_.size()},
             {"edits proposed", replica.proposals_.remembered()},
-            {"edits appointed", replica.outside_edits_.size()},
             {"states let go", replica.released_.size()},
             {"states waiting", replica.corrector_.waiting()},
-            {"rests waiting", replica.rest_.waiting()}};
+            {"rests waiting", replica.rest_->waiting()}};
   }
 };
 

@@ -7,8 +7,8 @@
 #include "client/clock_filter.h"
 #include "common/base/check.h"
 #include "common/base/random.h"
-#include "common/sync/input_source.h"
-#include "common/sync/input_track.h"
+#include "common/sync/inputs/input_source.h"
+#include "common/sync/inputs/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/quantize.h"
 #include "common/sync/smoother.h"
@@ -326,11 +326,11 @@ TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
   EXPECT_EQ(MakeSyncConfig("strict", "").reconcile, nullptr);
   EXPECT_THROW(MakeSyncConfig("strict", "fade"), OperatorError);
   EXPECT_THROW(MakeSyncConfig("lockstep", ""), OperatorError);
-  for (const Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
-    EXPECT_EQ(FindMode(ToString(mode)), mode);
+  for (const std::string& mode : ModeNames()) {
+    EXPECT_EQ(FindPolicy(mode, "", false)->mode(), mode);
   }
   for (const char* name : {"", "lockstep", "Oracle", "buffer "}) {
-    EXPECT_EQ(FindMode(name), std::nullopt) << name;
+    EXPECT_EQ(FindPolicy(name, "", false), nullptr) << name;
   }
 }
 

@@ -122,7 +122,7 @@ void Presence::Start() {
 }
 
 bool Presence::CheckIfDue() {
-  if (config_.mode != Mode::kBuffer) return false;
+  if (!config_.policy->Reckons()) return false;
   // Peers check in different ticks, so that a machine with many peers has even load.
   const int every = std::max(1, config_.tick_hz / kLooksPerSecond);
   if ((world_.tick() + roles_.self()) % every != 0) return false;
@@ -131,7 +131,7 @@ bool Presence::CheckIfDue() {
 }
 
 bool Presence::CheckIfRequested() {
-  if (config_.mode != Mode::kBuffer || !std::exchange(asked_, false)) return false;
+  if (!config_.policy->Reckons() || !std::exchange(asked_, false)) return false;
   Look();
   return true;
 }

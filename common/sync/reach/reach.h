@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/physics/world.h"
-#include "common/sync/input_track.h"
+#include "common/sync/inputs/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/reach/driven.h"
 #include "common/sync/reach/zones.h"

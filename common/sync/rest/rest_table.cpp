@@ -94,8 +94,7 @@ void RestTable::Persist(StateArchive& a, const World& world) {
     a.Tick(&record->tick);
     seam::Persist(a, &record->pose);
   });
-  for (std::size_t i = 0; a.reading() && i < records_.size(); ++i) {
-    const auto body = static_cast<int>(i);
+  for (int body = 0; a.reading() && body < records_.size(); ++body) {
     if (at(body).committed) SetHash(body, HashOfBody(world.id(body), at(body)));
   }
 }

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 #include "tests/lab/experiment/probes.h"
 #include "tests/lab/fairness/fairness.h"
 #include "tests/lab/report/sessions/fairness_section.h"

@@ -4,7 +4,7 @@
 
 #include "common/base/check.h"
 #include "common/net/memory.h"
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 #include "tests/lab/experiment/probes.h"
 #include "tests/lab/fairness/fairness.h"
 #include "tests/lab/fairness/lagging_net.h"

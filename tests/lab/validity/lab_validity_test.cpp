@@ -75,7 +75,7 @@ TEST(Validity, AHandOverIsExpectedOnlyOfModesThatHaveThem) {
 }
 
 TEST(Validity, ARowNamesItsOracle) {
-  EXPECT_EQ(RowOf("", "methods = 'buffer/resimulate'")["oracle"], "barrier");
+  EXPECT_EQ(RowOf("", "methods = 'buffer/rollback'")["oracle"], "barrier");
   EXPECT_EQ(RowOf("", "methods = 'buffer/fade'")["oracle"], "plain");
   EXPECT_EQ(RowOf("", "methods = 'central/all'")["oracle"], "barrier");
   EXPECT_EQ(RowOf("", "methods = 'central/own'")["oracle"], "plain");
