@@ -6,7 +6,7 @@
 #include "common/physics/stage.h"
 #include "common/scene/character.h"
 #include "common/sync/edits/edit_order.h"
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 #include "common/sync/lease.h"
 
 namespace seam {
@@ -124,7 +124,7 @@ std::int64_t Client::LeadTarget() const {
 
 std::int64_t Client::RoomTime(std::int64_t now_us) {
   std::int64_t time = timeline_.At(clock_.ServerTime(now_us));
-  if (mode_ == Mode::kCentral) {
+  if (policy_->RunsAhead()) {
     if (lead_us_ < 0) lead_us_ = static_cast<double>(LeadTarget());
     time += static_cast<std::int64_t>(lead_us_);
   }
@@ -152,7 +152,7 @@ void Client::StartIfDue(std::int64_t now_us) {
 
 /// Steps without display; messages of these ticks are discarded.
 void Client::CatchUp(std::int64_t tick) {
-  while (replica_->tick() < tick) replica_->Step();
+  for (; replica_->tick() < tick; replica_->Step()) RecordKnownInputs();
   replica_->TakeStates();
   replica_->TakeProposals();
   replica_->TakeImpactReports();
@@ -205,6 +205,12 @@ void Client::RecordOwnInput() {
   if (!(input == Input{})) idle_since_ = next;
 }
 
+void Client::RecordKnownInputs() {
+  const std::int64_t next = replica_->tick() + 1;
+  const auto all = policy_->KnownInputs(*scene_, next, room_.input_delay_ticks);
+  for (const Inputs& inputs : all) replica_->RecordInputs(inputs);
+}
+
 bool Client::Quiet() const {
   if (replica_ == nullptr || !started_ || !rest_agrees_ || !replica_->rest().all()) return false;
   const bool idle = replica_->tick() - idle_since_ > kInputKnownAfter * room_.tick_hz;
@@ -222,18 +228,17 @@ bool Client::EditsWait() {
   const int revision = replica_->revision();
   if (edits_wait_revision_ != revision) {
     edits_wait_revision_ = revision;
-    const bool rolls_back = room_.reconcile.empty() || FindReconciler(room_.reconcile).rolls_back;
-    edits_wait_ = rolls_back && ProposesEdits(replica_->world().scene());
+    edits_wait_ = policy_->SendsCompleteTicks() && ProposesEdits(replica_->world().scene());
   }
   return edits_wait_;
 }
 
 void Client::SendInputs(std::int64_t now_us) {
-  if (player_ < 0 || mode_ == Mode::kOracle || Quiet()) return;
+  if (player_ < 0 || policy_->IsOracle() || Quiet()) return;
   const InputTrack& track = replica_->inputs(player_);
   // Where edits wait for all players' inputs, an otherwise silent client must not delay them.
   const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
-  const bool rides = link_->Sends(now_us) || (due && mode_ == Mode::kBuffer && EditsWait());
+  const bool rides = link_->Sends(now_us) || (due && EditsWait());
   const int count = feed_.Take(track, link_->acked(player_), replica_->tick(), rides);
   if (count == 0) return;
   Inputs inputs = track.Export(player_, count);
@@ -243,8 +248,9 @@ void Client::SendInputs(std::int64_t now_us) {
 
 void Client::StepOnce(std::int64_t now_us) {
   RecordOwnInput();
+  RecordKnownInputs();
   replica_->Step();
-  if (mode_ == Mode::kOracle) replica_->ApplyEdits();  // in the tick in which they were found
+  if (policy_->IsOracle()) replica_->ApplyEdits();  // in the tick in which they were found
   for (const FoundEdit& found : replica_->TakeProposals()) {
     EditOrder proposal = ToOrder(found.edit);
     proposal.utime = now_us;

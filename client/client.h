@@ -19,7 +19,7 @@
 #include "common/net/net.h"
 #include "common/record/recorder.h"
 #include "common/sync/edits/topology_snapshot.h"
-#include "common/sync/input_feed.h"
+#include "common/sync/inputs/input_feed.h"
 #include "common/sync/metadata.h"
 #include "common/sync/publish.h"
 #include "common/sync/publisher.h"
@@ -133,6 +133,8 @@ class Client {
   Publish Published(int bodies) const;
   void PublishShown(std::int64_t now_us);
   void RecordOwnInput();
+  /// Records the inputs that every peer knows of the next tick without being told.
+  void RecordKnownInputs();
   void TellRest(std::int64_t now_us);
   void OnStates(const States& states);
   void OnPacked(const PackedStates& packed);
@@ -165,7 +167,7 @@ class Client {
   ClockFilter clock_;
   MetaTable metadata_;
   Room room_;
-  Mode mode_ = Mode::kBuffer;                 // room_.mode, once its scene is loaded
+  const Policy* policy_ = &UnknownPolicy();   // of room_.mode, once its scene is loaded
   std::unique_ptr<SnapshotReader> snapshot_;  // a snapshot that arrives in parts
   JoinBuffer held_;                           // received states until the start
   Bytes room_bytes_;

@@ -182,7 +182,7 @@ void Client::OnSnapshot(const Snapshot& part) {
 void Client::MakeReplica(const Topology* become) {
   edits_wait_revision_ = -1;
   SyncConfig sync = MakeSyncConfig(MethodNames{room_.mode, room_.reconcile, room_.predict});
-  mode_ = sync.mode;
+  policy_ = sync.policy;
   sync.tick_hz = room_.tick_hz;
   sync.send_hz = room_.send_hz;
   sync.smooth_rate = config_.smooth_rate;

@@ -3,7 +3,7 @@
 #include "common/base/check.h"
 #include "common/base/nearest.h"
 #include "common/base/progress_count.h"
-#include "common/sync/mode.h"
+#include "common/sync/method.h"
 #include "render/scene_recording.h"
 
 namespace seam {
@@ -18,7 +18,7 @@ LoadedLog LoadLog(const std::string& path, const RenderOptions& options) {
     GivenOracle truth = LoadOracle(options.oracle);
     RequireOracleOf(truth.room, truth.path, recording.room, path);
     oracle = std::move(truth.oracle);
-  } else if (FindMode(recording.room.mode) == Mode::kOracle) {
+  } else if (PolicyOf(recording.room).IsOracle()) {
     oracle = OracleFromRecording(recording);
   } else {
     oracle = ComputeOracle(recording, JudgeOf(recording.room));
@@ -66,7 +66,7 @@ int PeerNamed(const Playback& playback, const std::string& name) {
 }
 
 void RequirePeer(const Playback& playback, int peer) {
-  if (playback.PeerOr(peer) == peer || playback.mode() == Mode::kOracle) return;
+  if (playback.PeerOr(peer) == peer || playback.policy().IsOracle()) return;
   std::string known;
   for (int p : playback.peers()) known += (known.empty() ? "" : ", ") + std::to_string(p);
   throw OperatorError("--view " + std::to_string(peer) + ": the recording has views of " + known);

@@ -87,14 +87,6 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1}, {1, kFrame, 0});
 }
 
-std::string Explained(const std::string& name) {
-  const std::optional<Mode> mode = FindMode(name);
-  if (mode == Mode::kOracle) return "one world: the truth";
-  if (mode == Mode::kStrict) return "no buffer zone";
-  if (mode == Mode::kCentral) return "server simulates all";
-  return "mode " + name;
-}
-
 /// Draws mode, reconciler and the run's key figures, left of its row.
 void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   const float scale = list.font().scale();
@@ -104,14 +96,15 @@ void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   const std::string predicts = room.predict.empty() ? "" : "/" + room.predict;
   list.Text(area.x, y, TextStyle::kNumber, method + predicts, kInk);
   y += 16 * scale;
-  list.Text(area.x, y, TextStyle::kBody, Explained(room.mode), kFaintInk);
+  const std::string about = playback.policy().about();
+  list.Text(area.x, y, TextStyle::kBody, about.empty() ? "mode " + room.mode : about, kFaintInk);
   y += 4 * scale;
   const auto figure = [&](const std::string& name, const std::string& value) {
     y += 16 * scale;
     list.Text(area.x, y, TextStyle::kBody, name, kFaintInk);
     list.Text(area.right(), y, TextStyle::kStrong, value, kInk, Align::kRight);
   };
-  if (!playback.measures() || playback.mode() == Mode::kOracle) return;
+  if (!playback.measures() || playback.policy().IsOracle()) return;
   const Measures& measures = *playback.measures();
   if (measures.rebound) figure("rebound", FormatNumber(*measures.rebound, 2));
   figure("error RMS", FormatLength(measures.error_rms_m));

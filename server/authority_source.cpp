@@ -17,7 +17,8 @@ AuthoritySource::AuthoritySource(const Replica& replica, const AuthorityManager&
     : replica_(replica),
       authority_(authority),
       stats_(stats),
-      trail_(replica.world().body_count()) {}
+      trail_(replica.table()),
+      forget_blows_(replica.table(), [this](const BodyRemap&) { blows_.clear(); }) {}
 
 void AuthoritySource::NoteStates(const States& accepted) {
   for (std::size_t i = 0; i < accepted.id.size(); ++i) {
@@ -86,11 +87,6 @@ void AuthoritySource::NoteReported(const ImpactReport& report, std::size_t i) {
   } else {
     blows_.push_back(blow);
   }
-}
-
-void AuthoritySource::Remap(const std::vector<BodyOrigin>& bodies) {
-  trail_.Remap(bodies);
-  blows_.clear();  // their body indices are stale
 }
 
 BodyState AuthoritySource::Read(int body) const {

@@ -9,6 +9,7 @@
 
 #include "common/codec/messages.h"
 #include "common/sync/replica.h"
+#include "common/sync/table/body_table.h"
 #include "server/authority/authority_manager.h"
 #include "server/rules/rule_source.h"
 #include "server/rules/state_trail.h"
@@ -27,8 +28,6 @@ class AuthoritySource : public RuleSource {
   void NoteReport(int peer, const ImpactReport& report);
   /// To be called after each step of the replica.
   void NoteTick();
-  /// Renumbers bodies after an edit.
-  void Remap(const std::vector<BodyOrigin>& bodies);
 
   /// Saves the newest state of each body. Reports since the last tick are not saved.
   void Persist(StateArchive& a) { trail_.Persist(a); }
@@ -51,6 +50,7 @@ class AuthoritySource : public RuleSource {
   StateTrail trail_;
   std::vector<Blow> blows_;                                     // since the last TakeBlows
   std::set<std::tuple<std::int64_t, PartId, PartId>> counted_;  // tick, struck, by
+  EditHook forget_blows_;                                       // their body indices are stale
 };
 
 }  // namespace seam

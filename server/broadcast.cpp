@@ -19,8 +19,10 @@ std::int64_t LateUs(std::int64_t rtt_us) {
 }  // namespace
 
 bool Broadcast::Simulates(int peer, int mechanism) const {
-  if (config_.mode == Mode::kOracle) return true;
-  if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Relevance::kClose;
+  if (simulators_ == Policy::Simulators::kEveryone) return true;
+  if (simulators_ == Policy::Simulators::kNear) {
+    return interest_.Of(peer, mechanism) == Relevance::kClose;
+  }
   const AuthorityRecord& record = replica_.authority().at(mechanism);
   return record.authority == peer || record.secondaries.Has(peer);
 }
@@ -234,7 +236,8 @@ void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool steppe
 }
 
 void Broadcast::LookAround(std::int64_t now_us) {
-  const bool anew = std::exchange(stale_, false);
+  const bool anew = stale();
+  looked_at_ = replica_.table().renumbered();
   if (Plain()) return;
   if (anew || std::exchange(peer_became_ready_, false) || followers_.empty()) FindFollowers();
   std::vector<Interest::Receiver> receivers;
@@ -259,14 +262,6 @@ void Broadcast::LookAround(std::int64_t now_us) {
   sessions_.ForEachSentRoom([&](Session& session) {
     Send(now_us, session, grant_audience_.Owed(session.peer, GrantAudience::Which::kNear));
   });
-}
-
-void Broadcast::Remap(const BodyRemap& change) {
-  newest_.Remap(change.bodies);
-  interest_.Remap();
-  grant_audience_.Remap(change.mechanisms);
-  rest_audience_.Remap(change.mechanisms);
-  stale_ = true;
 }
 
 void Broadcast::Say(std::int64_t now_us, const std::string& text) {

@@ -30,7 +30,8 @@ class Broadcast {
         config_(config),
         replica_(replica),
         sessions_(sessions),
-        newest_(replica.world(), config.tick_hz),
+        looked_at_(replica.table().renumbered()),
+        newest_(replica.world(), replica.table(), config.tick_hz),
         interest_(scene, config_, replica),
         grant_audience_(replica, interest_),
         rest_audience_(replica) {}
@@ -85,18 +86,16 @@ class Broadcast {
   /// be called every tick.
   void RefreshDistant(std::int64_t now_us);
   int ticks_per_look() const { return std::max(1, config_.tick_hz / kInterestHz); }
-  /// Renumbers after an edit; LookAround is due then.
-  void Remap(const BodyRemap& change);
-  /// True if there was no LookAround since the last Remap.
-  bool stale() const { return stale_; }
+  /// True if there was no LookAround since an edit changed bodies: it is due then.
+  bool stale() const { return looked_at_ != replica_.table().renumbered(); }
   /// True if a peer simulates or predicts a mechanism: it then needs the inputs that move it.
   bool Simulates(int peer, int mechanism) const;
   /// Calls `visit(Session&)` for each ready client that simulates the mechanism, maybe more than
   /// once.
   template <class Visit>
   void EachSimulating(int mechanism, const Visit& visit) const {
-    const bool central = config_.mode == Mode::kCentral;
-    if (config_.mode == Mode::kOracle || (central && interest_.small())) {
+    const bool central = simulators_ == Policy::Simulators::kNear;
+    if (simulators_ == Policy::Simulators::kEveryone || (central && interest_.small())) {
       return sessions_.ForEachReady(0, visit);
     }
     const auto visit_peer = [&](int peer) {
@@ -164,14 +163,15 @@ class Broadcast {
   /// silent holder.
   bool SendsToFollowers(std::int64_t now_us, int holder, int body);
   /// True if every client is sent everything: the mode does not use relevance.
-  bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
+  bool Plain() const { return !config_.policy->SelectsTraffic(); }
 
   Publisher publisher_;
   const bool views_;  // views of bodies are published
   const SyncConfig config_;
+  const Policy::Simulators simulators_ = config_.policy->simulators();
   const Replica& replica_;
   SessionTable& sessions_;
-  bool stale_ = false;
+  std::int64_t looked_at_;  // BodyTable::renumbered at the last LookAround
   NewestStates newest_;
   Interest interest_;
   GrantAudience grant_audience_;
@@ -180,7 +180,8 @@ class Broadcast {
   std::vector<Due> due_;                     // in Relay, by peer; else empty
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
   bool peer_became_ready_ = false;           // a peer became ready: followers_ is out of date
-  std::vector<std::vector<int>> followers_;  // by mechanism: peers; large rooms only
+  // Peers, in large rooms only.
+  std::vector<std::vector<int>> followers_;  // rebuilt by FindFollowers, by mechanism
   std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_
 };

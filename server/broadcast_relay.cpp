@@ -105,7 +105,7 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
   hearing_.clear();
   if (interest_.small() || interest_.unknown()) {
     FindDueOfAny(from_peer);
-  } else if (config_.mode == Mode::kCentral) {
+  } else if (simulators_ == Policy::Simulators::kNear) {
     FindDueByRelevance(from_peer);
   } else {
     FindDue(from_peer);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/sync/input_source.h"
 #include "common/sync/lease.h"
 #include "common/sync/method.h"
 #include "server/authority_source.h"
@@ -18,9 +17,6 @@ namespace {
 constexpr int kStepsMax = 2;
 /// Radius of the blast that lets hanging bricks fall, m.
 constexpr float kLetFallRadius = 0.5f;
-/// Mode oracle: delay of edits decided outside the physics (a seat, a rule, a script), s; all peers
-/// apply them in the same tick. Must exceed an order's latency: else a peer applies it late.
-constexpr double kAppointSeconds = 0.25;
 
 Room MakeRoom(const Scene& scene, const ServerConfig& config) {
   Room room;
@@ -52,18 +48,6 @@ Message At(std::int64_t now_us, Message message) {
   return message;
 }
 
-/// Mode oracle: returns a player's scripted inputs for a tick, delayed by `delay` ticks.
-Inputs Scripted(const Scene& scene, int player, std::int64_t tick, int delay) {
-  const Input in = ScriptedInput(scene, player, tick - delay);
-  Inputs inputs;
-  inputs.player = player;
-  inputs.first_tick = tick;
-  inputs.drive.push_back(in.drive);
-  inputs.lift.push_back(in.lift);
-  inputs.buttons.push_back(in.buttons);
-  return inputs;
-}
-
 }  // namespace
 
 Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder,
@@ -84,15 +68,15 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
                 net, entropy, config.client_bytes_per_s),
       authority_(scene_, config.sync, replica_),
-      edits_(replica_.world(), authority_, config.sync.tick_hz),
+      edits_(MakeEditLog(*config.sync.policy, replica_.world(), authority_, config.sync.tick_hz)),
       bounds_(replica_),
-      filter_(scene_, replica_, authority_, edits_, stats_.counters),
+      filter_(scene_, replica_, authority_, *edits_, stats_.counters),
       broadcast_(recorder, config.room, config.publish != Publish::kNone, config.sync, scene_,
                  replica_, sessions_),
       clock_(config.sync.tick_hz) {
   replica_.OnCorrected([this](int body) { NoteCorrected(body); });
   if (!Rules::Needed(scene_)) return;
-  commands_ = std::make_unique<ServerCommands>(replica_, edits_, sessions_);
+  commands_ = std::make_unique<ServerCommands>(replica_, *edits_, sessions_);
   rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
   rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *commands_, rule_source_.get());
 }
@@ -169,15 +153,15 @@ void Server::StartIfReady(std::int64_t now_us) {
 }
 
 void Server::StepOnce(std::int64_t now_us) {
-  const auto players = static_cast<int>(scene_.players.size());
-  for (int p = 0; config_.sync.mode == Mode::kOracle && p < players; ++p) {
-    broadcast_.Publish(
-        At(now_us, Scripted(scene_, p, replica_.tick() + 1, config_.sync.input_delay_ticks)));
+  for (const Inputs& inputs : config_.sync.policy->KnownInputs(scene_, replica_.tick() + 1,
+                                                               config_.sync.input_delay_ticks)) {
+    replica_.RecordInputs(inputs);
+    broadcast_.Publish(At(now_us, inputs));
   }
   ApplyEdits(now_us);
   replica_.Step();
-  if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);
-  for (const FoundEdit& found : replica_.TakeProposals()) edits_.Add(found.edit, found.tick);
+  ApplyQueued(now_us);  // edits of this very tick
+  for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);
   RunSeats();
   RemoveOutside(now_us);
   UpdateAuthority(now_us);
@@ -203,29 +187,12 @@ void Server::PublishShown(std::int64_t now_us) {
   if (!impacts.id_a.empty()) broadcast_.Publish(At(now_us, impacts));
 }
 
-/// Mode oracle: sends edits that every peer applies by itself, after the same tick.
-void Server::AppointEdits(std::int64_t now_us) {
-  const auto ahead = static_cast<std::int64_t>(kAppointSeconds * config_.sync.tick_hz);
-  for (const Edit& edit : edits_.TakePending()) {
-    EditOrder order = ToOrder(edit);
-    order.utime = now_us;
-    order.tick = std::max<std::int64_t>(0, replica_.tick()) + ahead;
-    order.number = 0;  // no repair (BeginAnew); edits are counted as they are applied
-    sessions_.SendToAll(Encode(order));
-    replica_.Queue(order);
-  }
-}
-
 void Server::ApplyEdits(std::int64_t now_us) {
-  if (config_.sync.mode == Mode::kOracle) {
-    AppointEdits(now_us);
-    ApplyQueued(now_us);
-    return;
-  }
-  const EditLog::Batch batch = edits_.OrderPending(now_us);
+  const EditLog::Batch batch = edits_->OrderPending(now_us);
   stats_.counters.dropped_stale += batch.stale;
   for (const EditOrder& order : batch.orders) {
-    broadcast_.ToAll(order);
+    if (batch.numbered) broadcast_.Publish(order);
+    sessions_.SendToAll(Encode(order));
     replica_.Queue(order);
   }
   ApplyQueued(now_us);
@@ -237,26 +204,19 @@ void Server::LetFall(const Edit& applied, bool hung) {
   const std::optional<Vec2>& hanging = replica_.world().topology().hanging();
   // While something hangs, each blast adds the next one.
   if (!hanging || (hung && applied.As<BlastEdit>() == nullptr)) return;
-  edits_.Add(Edit(BlastEdit{*hanging, kLetFallRadius, 0, 0}, EditCause::kOutside));
+  edits_->Add(Edit(BlastEdit{*hanging, kLetFallRadius, 0, 0}, EditCause::kOutside));
 }
 
 void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
     const Edit edit = replica_.next_queued();
     const bool hung = replica_.world().topology().hanging().has_value();
-    const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
+    replica_.ApplyNextEdit();
     bounds_.NoteApplied(edit);
-    if (config_.sync.mode == Mode::kOracle) {
-      broadcast_.Publish(edits_.RecordLocalEdit(edit, now_us));
-    } else {
-      edits_.NoteApplied();
+    if (const std::optional<EditOrder> order = edits_->NoteApplied(edit, now_us)) {
+      broadcast_.Publish(*order);
     }
     LetFall(edit, hung);
-    if (!change) continue;
-    authority_.Remap(change->mechanisms);
-    filter_.Remap(change->bodies);
-    broadcast_.Remap(*change);
-    if (rule_source_ != nullptr) rule_source_->Remap(change->bodies);
   }
 }
 
@@ -274,7 +234,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     situation.load.push_back(session != nullptr ? session->load : -1.0f);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
-  situation.together = edits_.WaitingMechanisms();
+  situation.together = edits_->WaitingMechanisms();
   situation.shown = broadcast_.ShowsViews();
   situation.falls = [this](PartId id) { return broadcast_.Falls(id); };
   const std::vector<Grants> grants = authority_.Update(now_us, situation);
@@ -308,7 +268,7 @@ void Server::RunRules(std::int64_t now_us) {
 
 void Server::RemoveOutside(std::int64_t now_us) {
   const std::vector<Edit> edits = bounds_.Next(filter_.TakeOutside());
-  for (const Edit& edit : edits) edits_.Add(edit);
+  for (const Edit& edit : edits) edits_->Add(edit);
   if (edits.empty()) return;
   const PartId first = edits.front().As<RemoveEdit>()->part;
   std::string what = replica_.world().scene().parts[static_cast<std::size_t>(first)].name;

@@ -16,7 +16,7 @@
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
 #include "server/broadcast.h"
-#include "server/edits/edit_log.h"
+#include "server/edits/oracle_edit_log.h"
 #include "server/room_clock.h"
 #include "server/rules/bounds_watch.h"
 #include "server/rules/seats.h"
@@ -91,7 +91,7 @@ class Server {
   std::int32_t speed_ppm() const { return clock_.speed_ppm(); }
   const Replica& replica() const { return replica_; }
   /// Adds an edit from outside; see EditLog::Add.
-  bool Order(const Edit& edit) { return edits_.Add(edit); }
+  bool Order(const Edit& edit) { return edits_->Add(edit); }
   /// Returns the operator's warnings since the last call, such as a stopped script. One line each.
   std::vector<std::string> TakeWarnings();
   /// Returns lines for people about clients that came and went, since the last call; the first 256.
@@ -155,7 +155,6 @@ class Server {
   void WatchClock(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
-  void AppointEdits(std::int64_t now_us);
   void LetFall(const Edit& applied, bool hung);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
@@ -179,7 +178,7 @@ class Server {
   Replica replica_;
   SessionTable sessions_;
   AuthorityManager authority_;
-  EditLog edits_;
+  std::unique_ptr<EditLog> edits_;
   SeatBonds seat_bonds_;
   BoundsWatch bounds_;
   StateFilter filter_;

@@ -91,8 +91,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   session.revision = ping.revision;
   if (session.ending_us < 0) session.link.SendUnreliable(Encode(pong));
   const bool more = session.link.reliable_pending();
-  if (config_.sync.mode == Mode::kOracle) return;  // each peer edits by its own clock
-  if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping, more)) return;
+  if (session.stage != SessionStage::kReady || !edits_->NeedsRepair(ping, more)) return;
   // Not again too soon: the messages of the last repair must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;
   session.repaired_us = now_us;
@@ -100,7 +99,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
                              ") has another composition after " + std::to_string(ping.revision) +
                              " edits: repaired");
   ++stats_.counters.dropped_implausible;
-  session.link.SendReliable(Encode(edits_.BeginAnew(now_us)));
+  session.link.SendReliable(Encode(edits_->BeginAnew(now_us)));
   SendWorld(now_us, session);
 }
 
@@ -329,7 +328,7 @@ void Server::OnProposal(Session& session, const EditOrder& proposal) {
     ++stats.dropped_right;
     return;
   }
-  switch (edits_.Propose(session.peer, proposal)) {
+  switch (edits_->Propose(session.peer, proposal)) {
     case EditLog::Verdict::kTaken: break;
     case EditLog::Verdict::kStale: ++stats.dropped_stale; break;
     case EditLog::Verdict::kNoRight: ++stats.dropped_right; break;

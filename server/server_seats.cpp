@@ -14,14 +14,14 @@ void Server::RunSeats() {
   std::set<int> taken;  // the first in the order of players gets it
   for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
     const int pressed = replica_.TakePressed(p);
-    for (const Edit& edit : SeatEdits(world, p, pressed, &taken)) edits_.Add(edit);
+    for (const Edit& edit : SeatEdits(world, p, pressed, &taken)) edits_->Add(edit);
   }
   int heard = replica_.revision();
-  if (config_.sync.mode != Mode::kOracle) {  // in mode oracle all peers act at the same tick
+  if (!config_.sync.policy->IsOracle()) {  // in mode oracle all peers act at the same tick
     // Waits for joining clients, too.
     sessions_.ForEachSentRoom([&](const Session& s) { heard = std::min(heard, s.revision); });
   }
-  for (const Edit& edit : seat_bonds_.Next(world, heard)) edits_.Add(edit);
+  for (const Edit& edit : seat_bonds_.Next(world, heard)) edits_->Add(edit);
 }
 
 }  // namespace seam

@@ -102,7 +102,7 @@ void Server::ReleaseSilentDrivers(std::int64_t now_us) {
 /// Adds an input without drive and lift: otherwise the player's last input would drive on for ever.
 void Server::LetGo(std::int64_t now_us, int player, std::int16_t buttons) {
   const InputTrack& track = replica_.inputs(player);
-  if (config_.sync.mode == Mode::kOracle || track.newest() < 0) return;
+  if (config_.sync.policy->IsOracle() || track.newest() < 0) return;
   Inputs nothing;
   nothing.player = player;
   nothing.first_tick = std::max(track.newest(), replica_.tick()) + 1;

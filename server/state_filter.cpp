@@ -51,9 +51,13 @@ void AddMotion(const Message& from, std::size_t i, Message* to) {
 
 StateFilter::StateFilter(const Scene& scene, const Replica& replica,
                          const AuthorityManager& authority, const EditLog& edits, Stats& stats)
-    : scene_(scene), replica_(replica), authority_(authority), edits_(edits), stats_(stats) {
-  accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
-}
+    : scene_(scene),
+      replica_(replica),
+      authority_(authority),
+      edits_(edits),
+      stats_(stats),
+      accepted_(replica.table(), BodyRule::kSame),
+      outside_(replica.table(), BodyRule::kSame) {}
 
 bool StateFilter::HeaderAcceptable(int peer, const States& states) {
   const double hz = scene_.solver.tick_hz;
@@ -81,7 +85,7 @@ bool StateFilter::Plausible(int body, std::int64_t tick, const BodyState& state)
 }
 
 bool StateFilter::Reachable(int body, std::int64_t tick, const Vec2& position, float times) const {
-  const LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
+  const LastAccepted& last = accepted_[body];
   if (last.tick < 0) return true;
   const float seconds =
       static_cast<float>(std::max<std::int64_t>(1, tick - last.tick)) * replica_.world().dt();
@@ -93,7 +97,7 @@ bool StateFilter::Reachable(int body, std::int64_t tick, const Vec2& position, f
 /// rest commit is sent once. So it counts in a newer epoch even if its tick is older, since the
 /// clock of the holder before may have been ahead; and it may be repeated for the same tick.
 bool StateFilter::Outdated(int body, const Claim& claim) const {
-  const LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
+  const LastAccepted& last = accepted_[body];
   if (!claim.rests) return claim.tick <= last.tick;
   return claim.epoch <= last.epoch && claim.tick < last.tick;
 }
@@ -128,7 +132,10 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
   if (!Plausible(body, claim.tick, claim.state)) {
     const Vec2& at = claim.state.position;
     // A body in long free fall exceeds the speed limit, so none of its states is accepted.
-    if (OutsideBounds(scene_, at) && Reachable(body, claim.tick, at, 2)) outside_.push_back(body);
+    if (OutsideBounds(scene_, at) && Reachable(body, claim.tick, at, 2)) {
+      outside_[body] = 1;
+      any_outside_ = true;
+    }
     ++stats_.dropped_implausible;
     return false;
   }
@@ -144,8 +151,7 @@ const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& sta
     const Claim claim{states.peer,     states.tick,          states.revision,
                       states.epoch[i], Unpack(states, i, 0), false};
     if (!MayMove(body, claim)) continue;
-    accepted_[static_cast<std::size_t>(body)] = {states.tick, states.epoch[i],
-                                                 claim.state.position};
+    accepted_[body] = {states.tick, states.epoch[i], claim.state.position};
     passed_.push_back(i);
   }
   KeepOf(states, passed_, &kept);
@@ -189,7 +195,7 @@ Rest StateFilter::Keep(std::int64_t now_us, int peer, const Rest& rest) {
     pose.position = Vec2(rest.x[i], rest.y[i]);
     pose.angle = rest.angle[i];
     if (!MayMove(body, {peer, rest.tick, rest.revision, rest.epoch[i], pose, true})) continue;
-    accepted_[static_cast<std::size_t>(body)] = {rest.tick, rest.epoch[i], pose.position};
+    accepted_[body] = {rest.tick, rest.epoch[i], pose.position};
     AddPose(rest, i, &kept);
   }
   return kept;
@@ -205,7 +211,7 @@ bool StateFilter::MayRelease(int peer, int body, const ExactStates& exact, std::
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
   }
-  if (exact.tick < accepted_[static_cast<std::size_t>(body)].tick) {
+  if (exact.tick < accepted_[body].tick) {
     ++stats_.dropped_stale;
     return false;
   }
@@ -230,28 +236,20 @@ ExactStates StateFilter::KeepExact(int peer, const ExactStates& exact) {
   for (std::size_t i = 0; i < exact.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(exact.id[i]);
     if (!MayRelease(peer, body, exact, i)) continue;
-    accepted_[static_cast<std::size_t>(body)] = {
-        exact.tick, exact.epoch[i], {exact.x[i], exact.y[i]}};
+    accepted_[body] = {exact.tick, exact.epoch[i], {exact.x[i], exact.y[i]}};
     AddPose(exact, i, &kept);
     AddMotion(exact, i, &kept);
   }
   return kept;
 }
 
-void StateFilter::Remap(const std::vector<BodyOrigin>& bodies) {
-  std::vector<LastAccepted> accepted;
-  for (const BodyOrigin& origin : bodies) {
-    accepted.push_back(origin.same ? accepted_[static_cast<std::size_t>(origin.body)]
-                                   : LastAccepted{});
+std::vector<int> StateFilter::TakeOutside() {
+  std::vector<int> bodies;
+  if (!std::exchange(any_outside_, false)) return bodies;
+  for (int body = 0; body < outside_.size(); ++body) {
+    if (std::exchange(outside_[body], 0) != 0) bodies.push_back(body);
   }
-  accepted_ = std::move(accepted);
-  std::vector<int> outside;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (bodies[b].same && std::count(outside_.begin(), outside_.end(), bodies[b].body) > 0) {
-      outside.push_back(static_cast<int>(b));
-    }
-  }
-  outside_ = std::move(outside);
+  return bodies;
 }
 
 }  // namespace seam

@@ -9,6 +9,7 @@
 
 #include "common/codec/messages.h"
 #include "common/sync/replica.h"
+#include "common/sync/table/body_column.h"
 #include "server/authority/authority_manager.h"
 #include "server/edits/edit_log.h"
 
@@ -29,9 +30,7 @@ class StateFilter {
   ExactStates KeepExact(int peer, const ExactStates& exact);
   /// Returns the bodies with a state, since the last call, that was dropped because it was outside
   /// the scene's bounds, but no farther away than twice the speed limit explains.
-  std::vector<int> TakeOutside() { return std::exchange(outside_, {}); }
-  /// Renumbers bodies after an edit.
-  void Remap(const std::vector<BodyOrigin>& bodies);
+  std::vector<int> TakeOutside();
 
  private:
   /// True if the message's header is acceptable.
@@ -66,8 +65,9 @@ class StateFilter {
   const AuthorityManager& authority_;
   const EditLog& edits_;
   Stats& stats_;
-  std::vector<LastAccepted> accepted_;  // by body
-  std::vector<int> outside_;
+  BodyColumn<LastAccepted> accepted_;
+  BodyColumn<char> outside_;  // 1: for TakeOutside
+  bool any_outside_ = false;  // a body may be
   // Results for the last message; members so that their memory is reused.
   States kept_;
   std::vector<std::size_t> passed_;  // indices of the accepted entries

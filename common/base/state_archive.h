@@ -89,9 +89,12 @@ class StateArchive {
   /// The same for a list of a length that both sides know.
   template <class List, class Each>
   void Exactly(List* list, const Each& each) {
-    const std::size_t count = Count(list->size(), list->size());
-    Require(count == list->size(), "a list has another length");
-    for (std::size_t i = 0; ok() && i < count; ++i) each(&(*list)[i]);
+    const auto size = static_cast<std::size_t>(list->size());
+    Require(Count(size, size) == size, "a list has another length");
+    for (auto& item : *list) {
+      if (!ok()) return;
+      each(&item);
+    }
   }
   /// A map: calls `key(K*)` and `value(V*)` for each entry.
   template <class Map, class Key, class Value>

@@ -11,7 +11,7 @@
 #include "common/measure/revisions.h"
 #include "common/physics/world.h"
 #include "common/scene/expected.h"
-#include "common/sync/mode.h"
+#include "common/sync/method.h"
 
 namespace seam {
 namespace {
@@ -49,15 +49,7 @@ int SendEvery(const Room& room) {
 
 }  // namespace
 
-bool JudgedByBarriers(const Room& room) {
-  const std::optional<Mode> mode = FindMode(room.mode);
-  if (mode == Mode::kCentral) return room.predict == "all";
-  if (mode != Mode::kBuffer) return false;
-  for (const NamedReconciler& rule : Reconcilers()) {
-    if (rule.name == room.reconcile) return rule.resimulates;
-  }
-  return false;
-}
+bool JudgedByBarriers(const Room& room) { return PolicyOf(room).TakesBarriers(0); }
 
 OracleOptions WithBarriers(const Room& room) {
   OracleOptions options;

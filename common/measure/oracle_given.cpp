@@ -6,14 +6,14 @@
 #include "common/measure/oracle.h"
 #include "common/measure/revisions.h"
 #include "common/sync/edits/edit_order.h"
-#include "common/sync/mode.h"
+#include "common/sync/method.h"
 
 namespace seam {
 
 std::vector<std::string> OracleMismatches(const Room& truth, const std::string& truth_path,
                                           const Room& measured, const std::string& path) {
   std::vector<std::string> lines;
-  if (FindMode(truth.mode) != Mode::kOracle) {
+  if (!PolicyOf(truth).IsOracle()) {
     lines.push_back(truth_path + ": made in mode " + truth.mode +
                     ", so it is no oracle (seam-server --mode oracle)");
   }
@@ -39,7 +39,7 @@ void RequireOracleOf(const Room& truth, const std::string& truth_path, const Roo
 }
 
 Oracle OracleFromRecording(const Recording& recording, const Recording* measured) {
-  if (FindMode(recording.room.mode) != Mode::kOracle) {
+  if (!PolicyOf(recording.room).IsOracle()) {
     throw OperatorError("the oracle's recording was made with --mode " + recording.room.mode +
                         ", not --mode oracle");
   }

@@ -1,18 +1,9 @@
 #include "common/measure/preconditions.h"
 
 #include "common/scene/expected.h"
-#include "common/sync/mode.h"
+#include "common/sync/method.h"
 
 namespace seam {
-namespace {
-
-/// True if authority changes hands in the room's mode.
-bool HandsOver(const Room& room) {
-  const std::optional<Mode> mode = FindMode(room.mode);
-  return mode == Mode::kBuffer || mode == Mode::kStrict;
-}
-
-}  // namespace
 
 std::string WhyNotValid(const Recording& recording, const Oracle& oracle,
                         const Measures& measures) {
@@ -24,7 +15,8 @@ std::string WhyNotValid(const Recording& recording, const Oracle& oracle,
   if (expected.contact && !oracle.contact.value_or(true)) {
     return "no contact between two players' bodies";
   }
-  if (expected.hand_over && HandsOver(room) && measures.handovers == 0) return "no hand-over";
+  if (expected.hand_over && PolicyOf(room).PlansAuthority() && measures.handovers == 0)
+    return "no hand-over";
   if (expected.edit && oracle.edits.empty()) return "no edit";
   return "";
 }

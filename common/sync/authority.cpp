@@ -6,9 +6,39 @@
 #include "common/base/state_archive.h"
 
 namespace seam {
-AuthorityTable::AuthorityTable(const Composition& composition) {
-  for (const Mechanism& m : composition.mechanisms) ids_.push_back(m.id);
-  records_.resize(ids_.size());
+namespace {
+
+/// Returns the entry of a mechanism made of these.
+AuthorityRecord Merged(const std::vector<const AuthorityRecord*>& before,
+                       const AuthorityRecord& fresh) {
+  if (before.empty()) return fresh;
+  AuthorityRecord record = *before.front();
+  if (before.size() == 1) return record;
+  for (std::size_t i = 1; i < before.size(); ++i) {
+    record.epoch = std::max(record.epoch, before[i]->epoch);
+    record.secondaries.Add(before[i]->secondaries);
+    record.secondaries.Add(before[i]->authority);
+  }
+  record.epoch += 1;
+  record.secondaries.Remove(record.authority);
+  return record;
+}
+
+}  // namespace
+
+AuthorityTable::AuthorityTable(const Composition& composition, const BodyTable& table,
+                               const AuthorityRecord& fresh)
+    : records_(table,
+               [fresh](int, const std::vector<const AuthorityRecord*>& before) {
+                 return Merged(before, fresh);
+               }),
+      ids_(table, [&composition](int mechanism, const std::vector<const PartId*>&) {
+        return composition.mechanisms[static_cast<std::size_t>(mechanism)].id;
+      }) {
+  SEAM_ASSERT(count() == static_cast<int>(composition.mechanisms.size()));
+  for (int m = 0; m < count(); ++m) {
+    ids_[m] = composition.mechanisms[static_cast<std::size_t>(m)].id;
+  }
 }
 
 int AuthorityTable::IndexOf(PartId id) const {
@@ -18,35 +48,7 @@ int AuthorityTable::IndexOf(PartId id) const {
 
 void AuthorityTable::Set(int mechanism, const AuthorityRecord& record) {
   SEAM_ASSERT(record.epoch >= at(mechanism).epoch);
-  records_[static_cast<std::size_t>(mechanism)] = record;
-}
-
-void AuthorityTable::Remap(const Composition& composition,
-                           const std::vector<std::vector<int>>& from,
-                           const AuthorityRecord& fresh) {
-  SEAM_ASSERT(from.size() == composition.mechanisms.size());
-  std::vector<AuthorityRecord> records;
-  ids_.clear();
-  for (std::size_t m = 0; m < from.size(); ++m) {
-    ids_.push_back(composition.mechanisms[m].id);
-    AuthorityRecord h = fresh;
-    for (std::size_t i = 0; i < from[m].size(); ++i) {
-      const AuthorityRecord& then = at(from[m][i]);
-      if (i == 0) {
-        h = then;
-        continue;
-      }
-      h.epoch = std::max(h.epoch, then.epoch);
-      h.secondaries.Add(then.secondaries);
-      h.secondaries.Add(then.authority);
-    }
-    if (from[m].size() > 1) {
-      h.epoch += 1;
-      h.secondaries.Remove(h.authority);
-    }
-    records.push_back(h);
-  }
-  records_ = std::move(records);
+  records_[mechanism] = record;
 }
 
 std::vector<int> AuthorityTable::Apply(const Grants& grants) {
@@ -59,7 +61,7 @@ std::vector<int> AuthorityTable::Apply(const Grants& grants) {
     for (int n = 0; n < grants.followers[i]; ++n) next.secondaries.Add(grants.follower[follower++]);
     const int index = IndexOf(grants.mechanism[i]);
     if (index < 0) continue;
-    AuthorityRecord& now = records_[static_cast<std::size_t>(index)];
+    AuthorityRecord& now = records_[index];
     if (next.epoch < now.epoch) continue;
     if (next.authority == now.authority && next.epoch == now.epoch &&
         next.secondaries == now.secondaries) {
@@ -73,9 +75,15 @@ std::vector<int> AuthorityTable::Apply(const Grants& grants) {
 
 std::vector<Grants> AuthorityTable::Export(std::int64_t utime, std::int64_t tick,
                                            const std::vector<int>& mechanisms) const {
+  return Export(utime, tick, mechanisms, [this](int m) { return at(m); });
+}
+
+std::vector<Grants> AuthorityTable::Export(
+    std::int64_t utime, std::int64_t tick, const std::vector<int>& mechanisms,
+    const std::function<AuthorityRecord(int)>& record_of) const {
   std::vector<Grants> out;
-  for (int m : mechanisms) {
-    const AuthorityRecord& record = at(m);
+  for (const int m : mechanisms) {
+    const AuthorityRecord record = record_of(m);
     const auto followers = static_cast<std::size_t>(record.secondaries.size());
     const bool full = out.empty() || out.back().mechanism.size() >= kGrantsMax ||
                       out.back().follower.size() + followers > kGrantFollowersMax;

@@ -3,11 +3,13 @@
 /// grants.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "common/codec/messages.h"
 #include "common/scene/assembly.h"
 #include "common/sync/peer_set.h"
+#include "common/sync/table/mechanism_column.h"
 
 namespace seam {
 
@@ -18,37 +20,39 @@ struct AuthorityRecord {
 };
 
 /// One entry per mechanism of the composition, by index. Initially the server has authority over
-/// all.
+/// all. After an edit each mechanism has the entry of the first mechanism that it comes from. A
+/// merger of several has their highest epoch plus one, because earlier states belong to other
+/// mechanisms.
 class AuthorityTable {
  public:
-  explicit AuthorityTable(const Composition& composition);
+  /// `fresh`: entry of mechanisms that an edit has made anew. The composition is the one of the
+  /// table's world, and must outlive this.
+  AuthorityTable(const Composition& composition, const BodyTable& table,
+                 const AuthorityRecord& fresh = AuthorityRecord());
 
-  int count() const { return static_cast<int>(records_.size()); }
-  const AuthorityRecord& at(int mechanism) const {
-    return records_[static_cast<std::size_t>(mechanism)];
-  }
-  PartId id(int mechanism) const { return ids_[static_cast<std::size_t>(mechanism)]; }
+  int count() const { return records_.size(); }
+  const AuthorityRecord& at(int mechanism) const { return records_[mechanism]; }
+  PartId id(int mechanism) const { return ids_[mechanism]; }
   /// Returns the mechanism of an id, or -1.
   int IndexOf(PartId id) const;
 
   /// Sets one entry; the server plans with this. The epoch must not decrease (asserted).
   void Set(int mechanism, const AuthorityRecord& record);
   void Persist(StateArchive& a);
-  /// Rebuilds the table after an edit. Each mechanism takes the entry of the first mechanism that
-  /// it comes from, or `fresh` if it is new. A merger of several takes their highest epoch plus
-  /// one, because earlier states belong to other mechanisms.
-  void Remap(const Composition& composition, const std::vector<std::vector<int>>& from,
-             const AuthorityRecord& fresh);
   /// Applies a message; ignores unknown mechanisms and older epochs. Returns the indices of the
   /// mechanisms with a changed entry.
   std::vector<int> Apply(const Grants& grants);
   /// Packs these mechanisms' entries into as few messages as fit datagrams.
   std::vector<Grants> Export(std::int64_t utime, std::int64_t tick,
                              const std::vector<int>& mechanisms) const;
+  /// Like the above, with `record_of(mechanism)` in place of the entries.
+  std::vector<Grants> Export(std::int64_t utime, std::int64_t tick,
+                             const std::vector<int>& mechanisms,
+                             const std::function<AuthorityRecord(int)>& record_of) const;
 
  private:
-  std::vector<AuthorityRecord> records_;
-  std::vector<PartId> ids_;
+  MechanismColumn<AuthorityRecord> records_;
+  MechanismColumn<PartId> ids_;
 };
 
 }  // namespace seam

@@ -22,13 +22,22 @@ constexpr float kThrown = 1, kThrownSpeed = 0.5f;
 
 }  // namespace
 
-BodyMemory::BodyMemory(const SyncConfig& config, const World& world)
+BodyMemory::BodyMemory(const SyncConfig& config, const World& world, const BodyTable& table)
     : config_(config),
       world_(world),
-      history_(world.body_count(), kHistory * config.tick_hz),
-      snapshots_(world.body_count()),
-      bodies_(static_cast<std::size_t>(world.body_count())),
-      mechanisms_(world.composition().mechanisms.size()) {
+      table_(table),
+      history_(table, kHistory * config.tick_hz, [&world](int body) { return world.Read(body); }),
+      snapshots_(table),
+      bodies_(table, [this](int, const BodyOrigin& origin,
+                            BodyTrack* before) { return AfterEdit(origin, before); }),
+      mechanisms_(table,
+                  [](const MechanismTrack& before, MechanismTrack* track) {
+                    track->last_coupled_tick =
+                        std::max(track->last_coupled_tick, before.last_coupled_tick);
+                  }),
+      noted_(table, BodyRule::kFresh),
+      parked_(table, BodyRule::kFresh),
+      edited_(table, [this](const BodyRemap& change) { Edited(change); }) {
   for (int body = 0; body < world.body_count(); ++body) snapshots_.Add(body, 0, world.Read(body));
   // In an edited initial topology the age of each body is unknown.
   for (BodyTrack& track : bodies_) track.changed_at = world.topology().revision();
@@ -41,8 +50,7 @@ const BodyState* BodyMemory::ComparablePast(int body, std::int64_t tick) const {
 }
 
 bool BodyMemory::Coupled(int mechanism) const {
-  return mechanisms_[static_cast<std::size_t>(mechanism)].last_coupled_tick >=
-         world_.tick() - config_.tick_hz / kCoupledPart;
+  return mechanisms_[mechanism].last_coupled_tick >= world_.tick() - config_.tick_hz / kCoupledPart;
 }
 
 bool BodyMemory::Struck(int body) const {
@@ -78,8 +86,8 @@ void BodyMemory::RecordContacts(const AuthorityTable& table) {
     const int a = world_.mechanism(touch.body_a);
     const int b = world_.mechanism(touch.body_b);
     if (table.at(a).authority == table.at(b).authority) continue;
-    mechanisms_[static_cast<std::size_t>(a)].last_coupled_tick = world_.tick();
-    mechanisms_[static_cast<std::size_t>(b)].last_coupled_tick = world_.tick();
+    mechanisms_[a].last_coupled_tick = world_.tick();
+    mechanisms_[b].last_coupled_tick = world_.tick();
   }
 }
 
@@ -100,7 +108,7 @@ void BodyMemory::Record() {
   // A body that has lain still for the whole recorded past has the same pose at every tick.
   std::size_t left = 0;
   for (const int body : open_) {
-    Noted& noted = noted_[static_cast<std::size_t>(body)];
+    Noted& noted = noted_[body];
     const std::uint64_t still = world_.still(body);
     if (still == 0 || noted.still != still) {
       noted.still = still;
@@ -119,22 +127,22 @@ void BodyMemory::Record() {
 
 /// Unparks all bodies and records all.
 void BodyMemory::Tend() {
-  parked_.assign(bodies_.size(), {});
-  noted_.assign(bodies_.size(), {});
+  parked_.Reset();
+  noted_.Reset();
   open_.clear();
-  for (std::size_t body = 0; body < bodies_.size(); ++body) Open(static_cast<int>(body));
+  for (int body = 0; body < table_.bodies(); ++body) Open(body);
   news_.clear();
-  tended_.resize(bodies_.size());
+  tended_.resize(static_cast<std::size_t>(table_.bodies()));
   std::iota(tended_.begin(), tended_.end(), 0);
 }
 
 void BodyMemory::Park(int body) {
-  parked_[static_cast<std::size_t>(body)] = {world_.tick(), world_.Read(body)};
+  parked_[body] = {world_.tick(), world_.Read(body)};
   tended_.erase(std::lower_bound(tended_.begin(), tended_.end(), body));
 }
 
 void BodyMemory::FillPast(int body) {
-  const Parked& parked = parked_[static_cast<std::size_t>(body)];
+  const Parked& parked = parked_[body];
   const std::int64_t first = std::max(parked.since + 1, history_.oldest());
   for (std::int64_t tick = first; tick <= history_.newest(); ++tick) {
     *history_.At(tick, body) = parked.pose;
@@ -144,8 +152,8 @@ void BodyMemory::FillPast(int body) {
 void BodyMemory::Unpark(int body) {
   if (!parked(body)) return;
   FillPast(body);
-  parked_[static_cast<std::size_t>(body)].since = -1;
-  Noted& noted = noted_[static_cast<std::size_t>(body)];
+  parked_[body].since = -1;
+  Noted& noted = noted_[body];
   noted.still = 0;
   noted.ticks = 0;
   Open(body);
@@ -153,9 +161,9 @@ void BodyMemory::Unpark(int body) {
 }
 
 void BodyMemory::UnparkAll() {
-  if (tended_.size() == bodies_.size()) return;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (parked(static_cast<int>(i))) FillPast(static_cast<int>(i));
+  if (static_cast<int>(tended_.size()) == table_.bodies()) return;
+  for (int body = 0; body < table_.bodies(); ++body) {
+    if (parked(body)) FillPast(body);
   }
   Tend();
 }
@@ -166,51 +174,35 @@ void BodyMemory::StartAnew() {
   history_.Clear();
 }
 
-void BodyMemory::Remap(const BodyRemap& change) {
-  UnparkAll();
-  std::vector<BodyState> now;
-  for (int body = 0; body < world_.body_count(); ++body) now.push_back(world_.Read(body));
-  history_.Remap(change.bodies, now);
-  snapshots_.Remap(change.bodies);
+BodyTrack BodyMemory::AfterEdit(const BodyOrigin& origin, const BodyTrack* before) const {
+  BodyTrack track = before == nullptr ? BodyTrack{} : *before;
+  if (origin.same) return track;
+  track.changed_at = world_.topology().revision();
+  // Our body now and the authority's body then are different: no comparison until both are the
+  // same.
+  track.dynamic_since = world_.tick();
+  track.pull = PullTrack{};
+  track.asleep_since = -1;
+  return track;
+}
 
-  std::vector<BodyTrack> bodies;
-  for (std::size_t i = 0; i < change.bodies.size(); ++i) {
-    const BodyOrigin& origin = change.bodies[i];
-    bodies.push_back(origin.body < 0 ? BodyTrack{} : track(origin.body));
-    if (origin.body >= 0 && origin.same) continue;
-    BodyTrack& changed = bodies.back();
-    changed.changed_at = world_.topology().revision();
-    // Our body now and the authority's body then are different: no comparison until both are the
-    // same.
-    changed.dynamic_since = world_.tick();
-    changed.pull = PullTrack{};
-    changed.asleep_since = -1;
-    const int body = static_cast<int>(i);
+void BodyMemory::Edited(const BodyRemap& change) {
+  for (int body = 0; body < table_.bodies(); ++body) {
+    if (change.bodies[static_cast<std::size_t>(body)].same) continue;
+    const BodyState now = world_.Read(body);
     snapshots_.ForgetAfter(body, world_.tick());
-    if (!snapshots_.has(body)) snapshots_.Add(body, world_.tick(), now[i]);
-    if (BodyState* past = history_.At(world_.tick(), body)) *past = now[i];
+    if (!snapshots_.has(body)) snapshots_.Add(body, world_.tick(), now);
+    if (BodyState* past = history_.At(world_.tick(), body)) *past = now;
   }
-  bodies_ = std::move(bodies);
   Tend();
-
-  std::vector<MechanismTrack> mechanisms;
-  for (const std::vector<int>& from : change.mechanisms) {
-    MechanismTrack joined;
-    for (const int then : from) {
-      joined.last_coupled_tick = std::max(
-          joined.last_coupled_tick, mechanisms_[static_cast<std::size_t>(then)].last_coupled_tick);
-    }
-    mechanisms.push_back(joined);
-  }
-  mechanisms_ = std::move(mechanisms);
 }
 
 void BodyMemory::Persist(StateArchive& a) {
   a.Section("bodies");
   if (a.reading()) {
     StartAnew();
-    snapshots_ = Snapshots(world_.body_count());
     for (int body = 0; body < world_.body_count(); ++body) {
+      snapshots_.ForgetAfter(body, -1);
       snapshots_.Add(body, world_.tick(), world_.Read(body));
     }
     Record();

@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "common/physics/history.h"
 #include "common/physics/world.h"
 #include "common/sync/authority.h"
+#include "common/sync/history.h"
 #include "common/sync/mode.h"
-#include "common/sync/reconcile/reconcile.h"
 #include "common/sync/snapshots.h"
+#include "common/sync/state_arithmetic.h"
+#include "common/sync/table/body_column.h"
+#include "common/sync/table/mechanism_column.h"
 
 namespace seam {
 
@@ -21,8 +23,6 @@ constexpr std::int64_t kLongAgo = -1000000;
 /// State of a puller between two messages.
 struct PullTrack {
   std::int64_t arrived = -1;  ///< tick at which the newest message arrived; -1: none
-  BodyState arrival;          ///< our copy at that time
-  BodyState target_then;      ///< the authority's state, extrapolated to that time
   PullMemory memory;
 };
 
@@ -52,11 +52,14 @@ struct MechanismTrack {
 
 class BodyMemory {
  public:
-  /// Starts with the scene's state at tick 0, which counts as heard. The world must outlive this.
-  BodyMemory(const SyncConfig& config, const World& world);
+  /// Starts with the scene's state at tick 0, which counts as heard. The world and the table of its
+  /// bodies must outlive this.
+  BodyMemory(const SyncConfig& config, const World& world, const BodyTable& table);
 
-  BodyTrack& track(int body) { return bodies_[static_cast<std::size_t>(body)]; }
-  const BodyTrack& track(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
+  /// The table that the columns of this peer's bodies register with.
+  const BodyTable& table() const { return table_; }
+  BodyTrack& track(int body) { return bodies_[body]; }
+  const BodyTrack& track(int body) const { return bodies_[body]; }
   History& history() { return history_; }
   const History& history() const { return history_; }
   Snapshots& snapshots() { return snapshots_; }
@@ -85,16 +88,17 @@ class BodyMemory {
   // also its past. Per-tick loops skip it.
   /// Bodies that are not parked, ascending.
   const std::vector<int>& tended() const { return tended_; }
-  bool parked(int body) const { return parked_[static_cast<std::size_t>(body)].since >= 0; }
+  bool parked(int body) const { return parked_[body].since >= 0; }
   /// Parks the body where the world has it, from the next tick on. Requires that it is absent.
   void Park(int body);
   /// Call before the body is written to or becomes present. Does nothing if it is not parked.
   void Unpark(int body);
+  /// Call before an edit as well.
   void UnparkAll();
   /// Call after a parked body was written to anyway: it stays parked there, as if it always had
   /// been. Does nothing if it is not parked.
   void MoveParked(int body) {
-    if (parked(body)) parked_[static_cast<std::size_t>(body)].pose = world_.Read(body);
+    if (parked(body)) parked_[body].pose = world_.Read(body);
   }
   /// Marks that the body was heard of or moved along its path: only then does an absent body need
   /// checking.
@@ -105,43 +109,46 @@ class BodyMemory {
 
   /// Forgets all poses. Call when the world was set to another tick.
   void StartAnew();
-  /// Carries the records over after an edit.
-  void Remap(const BodyRemap& change);
   /// Requires that no body is parked. Reading: call when the world is at its tick. The past and the
   /// states heard are not saved; both begin with the world's poses.
   void Persist(StateArchive& a);
 
  private:
-  const SyncConfig& config_;
-  const World& world_;
-  History history_;
-  Snapshots snapshots_;
-  std::vector<BodyTrack> bodies_;
-  std::vector<MechanismTrack> mechanisms_;
   struct Parked {
     std::int64_t since = -1;  // tick up to which its past is recorded; -1: not parked
     BodyState pose;
   };
-  void Tend();
-  void FillPast(int body);
-  /// Records the body's pose at every tick from now on, until it has lain still for long.
-  void Open(int body) {
-    if (std::exchange(noted_[static_cast<std::size_t>(body)].open, true)) return;
-    open_.push_back(body);
-  }
-  void OpenChanged();
   struct Noted {
     std::uint64_t still = 0;  // World::still at the last recording
     int ticks = 0;            // consecutive recordings with that value
     bool open = false;        // the body is in open_
   };
-  std::vector<Noted> noted_;    // by body
-  std::vector<int> open_;       // bodies that Record checks: all tended ones except those that have
-                                // lain still for the whole recorded past
-  std::uint64_t change_ = 0;    // World::last_change at the last OpenChanged
-  std::vector<int> changed_;    // for OpenChanged
-  std::vector<Parked> parked_;  // by body
+  BodyTrack AfterEdit(const BodyOrigin& origin, const BodyTrack* before) const;
+  void Edited(const BodyRemap& change);
+  void Tend();
+  void FillPast(int body);
+  /// Records the body's pose at every tick from now on, until it has lain still for long.
+  void Open(int body) {
+    if (std::exchange(noted_[body].open, true)) return;
+    open_.push_back(body);
+  }
+  void OpenChanged();
+
+  const SyncConfig& config_;
+  const World& world_;
+  const BodyTable& table_;
+  History history_;
+  Snapshots snapshots_;
+  BodyColumn<BodyTrack> bodies_;
+  MechanismColumn<MechanismTrack> mechanisms_;
+  BodyColumn<Noted> noted_;
+  std::vector<int> open_;     // bodies that Record checks: all tended ones except those that have
+                              // lain still for the whole recorded past
+  std::uint64_t change_ = 0;  // World::last_change at the last OpenChanged
+  std::vector<int> changed_;  // for OpenChanged
+  BodyColumn<Parked> parked_;
   std::vector<int> tended_, news_;
+  EditHook edited_;
 };
 
 /// A change of velocity that counts as a major impact, m/s. A driven wheel feels up to 2.6 m/s from

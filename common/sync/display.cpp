@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "common/base/geometry.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/state_arithmetic.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -83,12 +83,15 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory)
       world_(world),
       memory_(memory),
       snapshots_(memory.snapshots()),
-      smoother_(world.body_count(), config.smooth_rate),
+      smoother_(memory.table(), config.smooth_rate),
       delay_(config.send_every()),
       joints_(world),
       reckoner_(world, memory.snapshots(), joints_),
-      corrected_until_(world.composition().mechanisms.size(), 0),
-      far_(world.composition().mechanisms.size(), Nowhere()) {}
+      seats_(memory.table()),
+      corrected_until_(memory.table(), MechanismRule::kFresh, 0),
+      far_(memory.table(), MechanismRule::kFresh, Nowhere()),
+      poses_(memory.table(), BodyRule::kScratch),
+      edited_(memory.table(), [this](const BodyRemap& change) { Edited(change); }) {}
 
 /// Returns the visible part of a jump. The angle of a wheel that spins, or did before, cannot be
 /// seen, and gliding over its jump would show a wrong angle for longer.
@@ -105,18 +108,12 @@ BodyState Display::Visible(int body, BodyState jump) const {
 void Display::Moved(int body, const BodyState& by) {
   if (!Negligible(by)) on_corrected_(body);
   smoother_.Moved(body, Visible(body, by));
-  corrected_until_[static_cast<std::size_t>(world_.mechanism(body))] = glides_ + kCorrectedTicks;
+  corrected_until_[world_.mechanism(body)] = glides_ + kCorrectedTicks;
 }
 
-void Display::Remap(const BodyRemap& change) {
-  std::vector<int> from;
-  for (const BodyOrigin& origin : change.bodies) from.push_back(origin.body);
-  smoother_.Remap(from);
+void Display::Edited(const BodyRemap& change) {
   joints_.Rebuild();
-  seats_.Forget();
-  corrected_until_.assign(world_.composition().mechanisms.size(), 0);
-  far_.assign(world_.composition().mechanisms.size(), Nowhere());
-  if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
+  if (config_.policy->IsOracle()) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
     smoother_.Moved(static_cast<int>(body), change.jumps[body]);
   }
@@ -142,17 +139,19 @@ void Display::Glide(const Roles& roles) {
 /// Adds the moves made by closing joints to the offsets, so that they return too. If torn poses
 /// were closed anew in every tick, the view would jump whenever the simulated state does.
 void Display::KeepClosed(const Roles& roles) {
-  const std::vector<BodyState>& poses = ShownPoses(roles, config_.shows_far);
+  const BodyColumn<BodyState>& poses = ShownPoses(roles, config_.shows_far);
   for (const int m : seats_.gentle()) {
     const bool simulated = roles.RoleOf(m) != kRoleRemote;
     if (!simulated && !config_.shows_far) continue;
     const std::vector<int>& bodies = joints_.bodies(m);
-    if (seats_.HoldBack(world_, bodies, &poses_)) joints_.Close(m, simulated, &poses_);
-    seats_.Shown(world_, bodies, poses_);
+    if (seats_.HoldBack(world_, bodies, &poses_.values())) {
+      joints_.Close(m, simulated, &poses_.values());
+    }
+    seats_.Shown(world_, bodies, poses_.values());
   }
   EachShown(roles, config_.shows_far, [&](int body) {
     if (!joints_.jointed(world_.mechanism(body))) return;
-    smoother_.Set(body, Minus(poses[static_cast<std::size_t>(body)], world_.Read(body)));
+    smoother_.Set(body, Minus(poses[body], world_.Read(body)));
   });
 }
 
@@ -178,7 +177,7 @@ MovingBox Display::FarBox(int mechanism) const {
 }
 
 void Display::CheckParkedMechanism(int mechanism, const MovingBox& seen) {
-  MovingBox& far = far_[static_cast<std::size_t>(mechanism)];
+  MovingBox& far = far_[mechanism];
   if (!Overlap(far, seen)) return;
   far = Nowhere();
   for (const int body : joints_.bodies(mechanism)) {
@@ -200,7 +199,7 @@ void Display::CheckParked(std::int64_t next, const MovingBox& seen) {
   for (const int body : memory_.news()) {
     if (!memory_.parked(body)) continue;
     const int m = world_.mechanism(body);
-    far_[static_cast<std::size_t>(m)] = FarBox(m);
+    far_[m] = FarBox(m);
     CheckParkedMechanism(m, seen);
   }
   std::sort(back_.begin(), back_.end());
@@ -213,12 +212,11 @@ void Display::Leave(int body) {
   still.spin = 0;
   world_.Write(body, still, false);
   memory_.Park(body);
-  far_[static_cast<std::size_t>(m)] = FarBox(m);
+  far_[m] = FarBox(m);
 }
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
-  if (config_.mode == Mode::kOracle) return;  // no body is only displayed
-  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // it has none
+  const double delay = config_.policy->Reckons() ? 0 : delay_.Advance();  // it has none
   reckoner_.Begin(next);
   CheckParked(next, seen);
   leaving_.clear();
@@ -234,7 +232,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
       state.spin = 0;
-    } else if (config_.mode == Mode::kBuffer) {
+    } else if (config_.policy->Reckons()) {
       state = AlongReckoned(body, state);
     } else {
       state = AlongSnapshots(body, snapshots_.Interpolate(body, static_cast<double>(next) - delay),
@@ -286,7 +284,7 @@ BodyState Display::AlongReckoned(int body, BodyState state) {
 
 bool Display::IsOff(int mechanism) const {
   const std::vector<int>& bodies = joints_.bodies(mechanism);
-  return corrected_until_[static_cast<std::size_t>(mechanism)] > glides_ ||
+  return corrected_until_[mechanism] > glides_ ||
          std::any_of(bodies.begin(), bodies.end(),
                      [&](int body) { return smoother_.active(body); });
 }
@@ -302,11 +300,9 @@ void Display::EachShown(const Roles& roles, bool all, const Visit& visit) const 
   }
 }
 
-const std::vector<BodyState>& Display::ShownPoses(const Roles& roles, bool all) const {
-  std::vector<BodyState>& poses = poses_;
-  poses.resize(static_cast<std::size_t>(world_.body_count()));
+const BodyColumn<BodyState>& Display::ShownPoses(const Roles& roles, bool all) const {
   EachShown(roles, all, [&](int body) {
-    BodyState& pose = poses[static_cast<std::size_t>(body)];
+    BodyState& pose = poses_[body];
     pose = world_.Read(body);
     pose.position += smoother_.offset(body);
     pose.angle += smoother_.angle_offset(body);
@@ -316,20 +312,20 @@ const std::vector<BodyState>& Display::ShownPoses(const Roles& roles, bool all) 
     if (!joints_.jointed(m) || joints_.bodies(m).front() != body) return;
     const bool simulated = roles.Simulates(body);
     // A simulated mechanism without corrections is displayed at its simulated poses.
-    if (!simulated || IsOff(m)) joints_.Close(m, simulated, &poses);
+    if (!simulated || IsOff(m)) joints_.Close(m, simulated, &poses_.values());
   });
-  return poses;
+  return poses_;
 }
 
 View Display::MakeView(const Roles& roles, bool all) const {
-  const std::vector<BodyState>& poses = ShownPoses(roles, all);
+  const BodyColumn<BodyState>& poses = ShownPoses(roles, all);
   View view;
   view.peer = roles.self();
   view.tick = world_.tick();
   view.revision = world_.topology().revision();
   EachShown(roles, all, [&](int body) {
     const int m = world_.mechanism(body);
-    const BodyState& s = poses[static_cast<std::size_t>(body)];
+    const BodyState& s = poses[body];
     view.id.push_back(world_.id(body));
     view.role.push_back(roles.RoleOf(m));
     view.authority.push_back(static_cast<std::int16_t>(roles.table().at(m).authority));

@@ -17,6 +17,8 @@
 #include "common/sync/show/seat_glide.h"
 #include "common/sync/smoother.h"
 #include "common/sync/snapshots.h"
+#include "common/sync/table/body_column.h"
+#include "common/sync/table/mechanism_column.h"
 
 namespace seam {
 
@@ -42,25 +44,23 @@ class Display {
   const JointCloser& joints() const { return joints_; }
   /// Records that a state was this many ticks old on arrival.
   void AddAge(std::int64_t age_ticks) {
-    if (config_.mode != Mode::kBuffer) delay_.AddAge(age_ticks);
+    if (!config_.policy->Reckons()) delay_.AddAge(age_ticks);
   }
-  /// Carries the visual offsets over after an edit.
-  void Remap(const BodyRemap& change);
-
   /// Returns the displayed bodies with joints closed: all of them, or those that the peer
   /// simulates. utime is left 0.
   View MakeView(const Roles& roles, bool all) const;
 
  private:
+  void Edited(const BodyRemap& change);
   BodyState Visible(int body, BodyState jump) const;
   BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
   BodyState AlongReckoned(int body, BodyState state);
   void KeepClosed(const Roles& roles);
   /// True if a simulated mechanism may be displayed differently from its simulated poses.
   bool IsOff(int mechanism) const;
-  /// Returns the displayed poses (by body) of all bodies, or of mechanisms that the peer simulates;
+  /// Returns the displayed poses of all bodies, or of mechanisms that the peer simulates;
   /// velocities are the simulated ones.
-  const std::vector<BodyState>& ShownPoses(const Roles& roles, bool all) const;
+  const BodyColumn<BodyState>& ShownPoses(const Roles& roles, bool all) const;
   /// Calls `visit(body)` for each body that ShownPoses covers, ascending.
   template <class Visit>
   void EachShown(const Roles& roles, bool all, const Visit& visit) const;
@@ -79,12 +79,12 @@ class Display {
   Reckoner reckoner_;
   SeatGlide seats_;
   std::function<void(int)> on_corrected_ = [](int) {};
-  std::int64_t glides_ = 0;                    // number of Glide calls
-  std::vector<std::int64_t> corrected_until_;  // by mechanism, in glides: joints may be torn until
-                                               // then
-  std::vector<MovingBox> far_;                 // by mechanism: where a parked one may have moved to
-  std::vector<int> driven_, leaving_, back_;   // bodies, in this Drive
-  mutable std::vector<BodyState> poses_;       // memory for ShownPoses, by body
+  std::int64_t glides_ = 0;                        // number of Glide calls
+  MechanismColumn<std::int64_t> corrected_until_;  // in glides: joints may be torn until then
+  MechanismColumn<MovingBox> far_;                 // where a parked one may have moved to
+  std::vector<int> driven_, leaving_, back_;       // bodies, in this Drive
+  mutable BodyColumn<BodyState> poses_;            // memory for ShownPoses
+  EditHook edited_;
 };
 
 }  // namespace seam

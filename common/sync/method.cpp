@@ -3,25 +3,12 @@
 #include "common/base/check.h"
 
 namespace seam {
-namespace {
-
-Predict ParsePredict(const std::string& name) {
-  for (const Predict predict : {Predict::kOwn, Predict::kAll}) {
-    if (name == ToString(predict)) return predict;
-  }
-  throw OperatorError("unknown prediction \"" + name + "\": use own or all");
-}
-
-}  // namespace
-
-const char* ToString(Predict predict) { return predict == Predict::kOwn ? "own" : "all"; }
-
 MethodNames SplitMethod(const std::string& method) {
   const std::size_t slash = method.find('/');
   MethodNames names;
   names.mode = method.substr(0, slash);
   if (slash == std::string::npos) return names;
-  const bool central = names.mode == ToString(Mode::kCentral);
+  const bool central = names.mode == CentralPolicy(true).mode();
   (central ? names.predict : names.reconcile) = method.substr(slash + 1);
   return names;
 }
@@ -29,16 +16,18 @@ MethodNames SplitMethod(const std::string& method) {
 SyncConfig MakeSyncConfig(const MethodNames& names) {
   SyncConfig config = MakeSyncConfig(names.mode, names.reconcile);
   if (names.predict.empty()) return config;
-  if (config.mode != Mode::kCentral) {
+  if (*config.policy->predict() == '\0') {
     throw OperatorError("--predict belongs to --mode central, not to --mode " + names.mode);
   }
-  config.predict = ParsePredict(names.predict);
+  config.policy = FindPolicy(names.mode, names.predict, false);
+  if (config.policy->predict() != names.predict) {
+    throw OperatorError("unknown prediction \"" + names.predict + "\": use own or all");
+  }
   return config;
 }
 
 MethodNames NamesOf(const SyncConfig& config) {
-  const bool central = config.mode == Mode::kCentral;
-  return {ToString(config.mode), config.reconcile_name, central ? ToString(config.predict) : ""};
+  return {config.policy->mode(), config.reconcile_name, config.policy->predict()};
 }
 
 std::string VariantOf(const MethodNames& names) {
@@ -47,6 +36,15 @@ std::string VariantOf(const MethodNames& names) {
 
 std::string VariantOf(const Room& room) {
   return VariantOf(MethodNames{room.mode, room.reconcile, room.predict});
+}
+
+const Policy& PolicyOf(const Room& room) {
+  bool rolls_back = false;
+  for (const NamedReconciler& rule : Reconcilers()) {
+    if (rule.name == room.reconcile) rolls_back = rule.rolls_back;
+  }
+  const Policy* policy = FindPolicy(room.mode, room.predict, rolls_back);
+  return policy != nullptr ? *policy : UnknownPolicy();
 }
 
 std::vector<std::string> ReconcilerNames() {

@@ -9,8 +9,6 @@
 
 namespace seam {
 
-const char* ToString(Predict predict);
-
 struct MethodNames {
   std::string mode;
   std::string reconcile;  ///< of mode buffer; "": its default
@@ -32,6 +30,10 @@ MethodNames NamesOf(const SyncConfig& config);
 /// in other modes.
 std::string VariantOf(const MethodNames& names);
 std::string VariantOf(const Room& room);
+
+/// Returns the policy of a recorded room; UnknownPolicy() for an unknown mode. An unknown
+/// reconciler counts as one that does not go back, an unknown prediction as "own".
+const Policy& PolicyOf(const Room& room);
 
 /// Returns the rules of mode buffer, as --reconcile takes them.
 std::vector<std::string> ReconcilerNames();

@@ -7,30 +7,6 @@
 
 namespace seam {
 
-const char* ToString(Mode mode) {
-  switch (mode) {
-    case Mode::kOracle: return "oracle";
-    case Mode::kCentral: return "central";
-    case Mode::kStrict: return "strict";
-    case Mode::kBuffer: return "buffer";
-  }
-  return "?";
-}
-
-std::optional<Mode> FindMode(const std::string& name) {
-  for (Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
-    if (name == ToString(mode)) return mode;
-  }
-  return std::nullopt;
-}
-
-Mode ParseMode(const std::string& name) {
-  if (const std::optional<Mode> mode = FindMode(name)) return *mode;
-  throw OperatorError("unknown mode \"" + name + "\"" +
-                      DidYouMean(name, {"oracle", "central", "strict", "buffer"}) +
-                      ": use oracle, central, strict or buffer");
-}
-
 float ParseSmoothRate(const std::string& text) {
   if (text == "on") return kSmoothRate;
   if (text == "off") return 0;
@@ -45,21 +21,25 @@ float ParseSmoothRate(const std::string& text) {
 
 SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile) {
   SyncConfig config;
-  config.mode = ParseMode(mode);
-  if (config.mode != Mode::kBuffer) {
+  const Policy* policy = FindPolicy(mode, "all", false);
+  if (policy == nullptr) {
+    throw OperatorError("unknown mode \"" + mode + "\"" + DidYouMean(mode, ModeNames()) +
+                        ": use oracle, central, strict or buffer");
+  }
+  config.policy = policy;
+  if (!policy->PlansFollowers()) {
     if (!reconcile.empty()) {
       throw OperatorError("--reconcile belongs to --mode buffer, not to --mode " + mode);
     }
     // A client of mode central rolls back to the server's states; the server never rolls back.
-    if (config.mode == Mode::kCentral) config.reconcile = ReconcileResimulate;
+    if (policy->RunsAhead()) config.reconcile = ReconcileRollback;
     return config;
   }
   config.reconcile_name = reconcile.empty() ? kDefaultReconciler : reconcile;
   const NamedReconciler& rule = FindReconciler(config.reconcile_name);
   config.reconcile = rule.rule;
   config.pull = rule.pull;
-  config.resimulates = rule.resimulates;
-  config.rolls_back = rule.rolls_back;
+  config.policy = &BufferPolicy(rule.rolls_back);
   return config;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/scene/mechanism_ids.h"
-#include "common/sync/correct/presses.h"
-#include "common/sync/input_source.h"
+#include "common/sync/blend/distrusted_rest.h"
+#include "common/sync/rollback/presses.h"
 
 namespace seam {
 namespace {
@@ -17,9 +17,10 @@ constexpr std::size_t kImpactsSentMax = 64;
 Replica::Replica(const Topology& topology, const SyncConfig& config, int self, int own_player)
     : config_(config),
       world_(topology),
-      roles_(config_, self, own_player, world_),
+      table_(world_),
+      roles_(config_, self, own_player, world_, table_),
       drivers_(world_, roles_),
-      memory_(config_, world_),
+      memory_(config_, world_, table_),
       presence_(config_, world_, roles_, memory_),
       inputs_(topology.scene().players.size()),
       display_(config_, world_, memory_),
@@ -27,8 +28,9 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       replay_(config_, world_, roles_, drivers_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, presence_, memory_, display_, replay_),
       reach_(config_, world_, roles_, drivers_, inputs_),
-      rest_(config_, world_, roles_, drivers_, memory_, display_, inputs_, reach_),
+      rest_(MakeRestCommit(config_, world_, roles_, drivers_, memory_, display_, inputs_, reach_)),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
+      queue_(config_.policy->MakeEditQueue()),
       proposals_(config_.tick_hz),
       impact_reporter_(world_, roles_),
       pressed_now_(topology.scene().players.size(), 0),
@@ -46,7 +48,7 @@ void Replica::StartAt(std::int64_t tick) {
   if (tick == world_.tick()) return;
   world_.SetTick(tick);
   memory_.StartAnew();
-  rest_.StartAnew();
+  rest_->StartAnew();
   replay_.Forget();
   memory_.Record();
 }
@@ -64,16 +66,16 @@ void Replica::Step() {
   if (presence_.CheckIfRequested()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
   display_.Drive(next, presence_.around());
   corrector_.PullCopies();
-  rest_.BeforeStep();
+  rest_->BeforeStep();
   memory_.ClearUpdated();
   world_.Step();
   memory_.RecordContacts(roles_.table());
-  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
-  rest_.AfterStep();
+  if (config_.policy->SendsCompleteTicks() && next % config_.send_every() == 0) reach_.Look();
+  rest_->AfterStep();
   impact_reporter_.Note();
   FindEdits();
   ProposeFound();
-  QueueOutsideEdits();
+  queue_->AfterStep(tick());
   scheduler_.Collect();
   memory_.Record();
   if (presence_.CheckIfDue()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
@@ -110,7 +112,7 @@ void Replica::RecordInputs(const Inputs& inputs) {
   }
   track.Note(inputs);
   heard_players_.push_back(inputs.player);
-  if (!config_.StampsInputs(roles_.self())) return;
+  if (!config_.policy->GoesBack(roles_.self())) return;
   if (wrong >= 0 && drivers_.Concerns(inputs.player)) replay_.AskFrom(wrong - 1);
   for (const std::int64_t t : late) {
     if (t > replay_.oldest()) continue;
@@ -119,13 +121,6 @@ void Replica::RecordInputs(const Inputs& inputs) {
 }
 
 void Replica::ApplyInputs(std::int64_t next) {
-  if (config_.mode == Mode::kOracle) {
-    for (int player = 0; player < static_cast<int>(inputs_.size()); ++player) {
-      inputs_[static_cast<std::size_t>(player)].Note(
-          next, ScriptedInput(world_.scene(), player, next - config_.input_delay_ticks));
-      heard_players_.push_back(player);
-    }
-  }
   // Players who move a mechanism here, and players heard of: buttons count even if they move
   // nothing.
   std::vector<int>& players = heard_players_;
@@ -154,17 +149,14 @@ void Replica::NeedDriven(int player) {
 
 /// Performs a player's button actions. Where inputs are stamped, every peer that simulates the
 /// pushed mechanism pushes it at that tick; else only the authority does, when it hears of the
-/// press (in the oracle every peer).
+/// press.
 void Replica::ApplyPresses(int player, std::int64_t next) {
   const auto p = static_cast<std::size_t>(player);
   const std::int16_t heard = inputs_[p].TakePresses(next);
   pressed_now_[p] |= heard;
-  const bool stamped = config_.StampsInputs(roles_.self());
+  const bool stamped = config_.policy->StampsInputs(roles_.self());
   EachAction(world_, player, stamped ? inputs_[p].PressedAt(next) : heard, [&](int a, int m) {
-    const bool all = config_.mode == Mode::kOracle;
-    if (stamped ? roles_.RoleOf(m) == kRoleRemote : !all && !roles_.IsAuthority(m)) return;
-    world_.Act(player, a);
-    replay_.RecordAction(next, player, a);
+    if (stamped ? roles_.RoleOf(m) != kRoleRemote : roles_.IsAuthority(m)) world_.Act(player, a);
   });
   if (pressed_missed_[p] != 0) NeedDriven(player);
   EachAction(world_, player, std::exchange(pressed_missed_[p], 0), [&](int a, int m) {
@@ -173,7 +165,7 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
 }
 
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
-  for (QueuedEdit& edit : queued_) edit.tick = std::min(edit.tick, tick());
+  queue_->Hurry(tick());
   ApplyEdits();  // the grants refer to the topology after the edits
   GrantsApplied applied = roles_.Apply(grants);
   // Before motion follows the roles: the holder's last simulated states.
@@ -182,7 +174,7 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   if (!applied.roles.empty()) {
     drivers_.Look();
     if (corrector_.FollowRoles(BodiesOf(applied.roles))) presence_.Ask();
-    rest_.PutBack();
+    rest_->PutBack();
   }
   return std::move(applied.let_go);
 }
@@ -211,7 +203,7 @@ Received Replica::Receive(const States& states) {
 
 void Replica::Receive(const Rest& rest) {
   ApplyEdits();
-  if (rest_.Receive(rest)) replay_.Forget();  // replays cannot reach the time before it
+  if (rest_->Receive(rest)) replay_.Forget();  // replays cannot reach the time before it
 }
 
 void Replica::Place(const States& states) {

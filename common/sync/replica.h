@@ -16,17 +16,17 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/correct/corrector.h"
-#include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
+#include "common/sync/edits/edit_queue.h"
 #include "common/sync/impact_reporter.h"
-#include "common/sync/input_track.h"
+#include "common/sync/inputs/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
 #include "common/sync/reach/driven.h"
@@ -34,8 +34,10 @@
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
+#include "common/sync/rollback/replay.h"
 #include "common/sync/send_scheduler.h"
 #include "common/sync/show/strand_view.h"
+#include "common/sync/table/body_table.h"
 
 namespace seam {
 
@@ -65,13 +67,16 @@ class Replica {
   void Persist(StateArchive& a);
 
   const World& world() const { return world_; }
+  /// The table of the world's bodies and mechanisms, for columns of readers. They must not outlive
+  /// this.
+  const BodyTable& table() const { return table_; }
   const AuthorityTable& authority() const { return roles_.table(); }
   /// The server plans here; clients only apply grants.
   AuthorityTable& authority() { return roles_.table(); }
   /// Call after Set on authority(). Updates motion types to the roles.
   void RolesChanged() {
     FollowRoles();
-    rest_.PutBack();
+    rest_->PutBack();
   }
   /// See Presence::LeaveUnwatched.
   void LeaveUnwatched(std::vector<char> unwatched, const PeerSet& doubtful) {
@@ -104,21 +109,18 @@ class Replica {
   /// else, each after the tick that its order names. A peer that rolls back goes back to that tick;
   /// other peers, and orders too old for a replay, apply it now; an order of a future tick waits.
   /// Returns false, and ignores the order, if it is not the next one.
-  /// In mode oracle every peer edits alone: Step queues edits found by physics, the server's orders
-  /// of these are ignored, and an edit from outside is queued by the Step of its tick.
   bool Queue(const EditOrder& order);
   /// True if the next queued edit is due.
   bool has_queued() const;
   /// The next edit to apply. Requires has_queued().
-  const Edit& next_queued() const { return queued_.front().edit; }
+  const Edit& next_queued() const { return queue_->front().edit; }
   /// Applies all queued edits that are due.
   void ApplyEdits();
-  /// Applies the next queued edit. Returns the remap of bodies, or nullopt if they are unchanged.
-  /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
+  /// Applies the next queued edit; if it changes bodies, renumbers all columns of table(). Each
+  /// merger of mechanisms begins a new epoch, so all peers apply edits one by one: a peer that
   /// applied two at once would stay an epoch behind. Requires has_queued().
-  std::optional<BodyRemap> ApplyNextEdit();
-  /// Returns the edits that this peer found as the authority of the affected bodies; in mode oracle
-  /// all that physics finds.
+  void ApplyNextEdit();
+  /// Returns the edits that this peer found as the authority of the affected bodies.
   std::vector<FoundEdit> TakeProposals() { return proposals_.Take(); }
   /// True if the body has had the same parts since revision `edits`.
   bool SameBody(int body, int edits) const { return memory_.track(body).changed_at <= edits; }
@@ -158,8 +160,8 @@ class Replica {
   std::vector<States> Everything() const { return scheduler_.Everything(); }
   /// The rest commitments of all authorities (RestCommit): receives them, returns those to send
   /// after a step, and compares them with another peer's.
-  RestCommit& rest() { return rest_; }
-  const RestCommit& rest() const { return rest_; }
+  RestCommit& rest() { return *rest_; }
+  const RestCommit& rest() const { return *rest_; }
   /// Takes rest commitments of another peer.
   void Receive(const Rest& rest);
   /// Returns the view of all bodies, or of those that this peer simulates.
@@ -175,11 +177,6 @@ class Replica {
  private:
   friend struct ReplicaTestAccess;
 
-  /// An edit to be applied after a tick.
-  struct QueuedEdit {
-    Edit edit;
-    std::int64_t tick = 0;
-  };
   /// A proposal whose order is pending, with its parts and tick.
   struct Awaited {
     EditKey key{};
@@ -190,7 +187,6 @@ class Replica {
   void FollowRoles();
   /// Returns body indices, ascending.
   std::vector<int> BodiesOf(const std::vector<int>& mechanisms) const;
-  void QueueOutsideEdits();
   /// Call after a step, also one of a replay. Finds edits proposed by physics.
   void FindEdits();
   /// True if another edit of the edit's mechanism is pending: this one was found in a world without
@@ -202,7 +198,6 @@ class Replica {
   bool IsComplete(const Edit& edit, std::int64_t found) const;
   /// Returns true if the edit was queued.
   bool Propose(Edit edit, std::int64_t found);
-  void Remap(const BodyRemap& change);
   /// Returns false, with an error in `a`, if the world cannot continue from `now`.
   bool LoadWorld(const WorldSnapshot& now, StateArchive& a);
   void PersistEdits(StateArchive& a);
@@ -216,6 +211,7 @@ class Replica {
   // Order matters: each uses members above it.
   SyncConfig config_;
   World world_;
+  BodyTable table_;
   Roles roles_;
   Drivers drivers_;
   BodyMemory memory_;
@@ -226,22 +222,20 @@ class Replica {
   Replay replay_;
   Corrector corrector_;
   Reach reach_;
-  RestCommit rest_;
+  std::unique_ptr<RestCommit> rest_;
   SendScheduler scheduler_;
+  std::unique_ptr<EditQueue> queue_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
   std::vector<int> heard_players_;                   // players with new or future inputs
   std::vector<int> pressed_now_;                     // by player
   std::vector<int> pressed_missed_;                  // by player: presses that came too late for a
                                                      // replay
-  std::vector<QueuedEdit> queued_;                   // ordered, not yet applied; ticks ascend
   std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
   std::vector<Awaited> awaited_;                     // pending proposals; only if this peer rolls
                                                      // back
-  std::map<std::int64_t, std::vector<Edit>>
-      outside_edits_;                                    // mode oracle: edits from outside, by tick
-  std::vector<ExactStates> released_;                    // states that ApplyGrants released, not
-                                                         // yet sent
+  std::vector<ExactStates> released_;                // states that ApplyGrants released, not
+                                                     // yet sent
 };
 
 }  // namespace seam

@@ -21,7 +21,7 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
   // Every peer writes these states as they are. If a state rested on an assumed input, the effect
   // of the real input would be lost.
   const auto final_tick = [&](int m) {
-    if (!config_.rolls_back) return tick();
+    if (!config_.policy->SendsCompleteTicks()) return tick();
     const std::int64_t complete = std::min(reach_.CompleteTick(m), replay_.settled());
     bool known = true;
     EachIdOf(world_.composition(), m, [&](PartId id) {
@@ -61,7 +61,7 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
 BodyState Replica::TakeOver(const ExactStates& exact) {
   ApplyEdits();
   const BodyState off = corrector_.TakeOver(exact);
-  rest_.ProlongHandedOver(exact);
+  rest_->ProlongHandedOver(exact);
   return off;
 }
 
@@ -79,7 +79,7 @@ void Replica::EachDifference(const States& states,
 void Replica::Persist(StateArchive& a) {
   WorldSnapshot now;
   if (!a.reading()) {
-    SEAM_ASSERT(queued_.empty());
+    SEAM_ASSERT(queue_->empty());
     memory_.UnparkAll();
     if (presence_.NeedAll()) {
       corrector_.FollowRoles();
@@ -94,7 +94,7 @@ void Replica::Persist(StateArchive& a) {
   memory_.Persist(a);
   roles_.table().Persist(a);
   presence_.Persist(a);
-  rest_.Persist(a);
+  rest_->Persist(a);
   replay_.Persist(a, now);
   PersistEdits(a);
   if (!a.ok()) return;
@@ -102,7 +102,7 @@ void Replica::Persist(StateArchive& a) {
     FollowRoles();
     for (int body = 0; body < world_.body_count(); ++body) display_.Reset(body);
   }
-  if (config_.rolls_back) reach_.Look();
+  if (config_.policy->SendsCompleteTicks()) reach_.Look();
 }
 
 bool Replica::LoadWorld(const WorldSnapshot& now, StateArchive& a) {

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "common/sync/edits/edit_order.h"
 #include "common/sync/replica.h"
 
 namespace seam {
@@ -23,29 +22,12 @@ void ForgetBonds(const Scene& scene, std::int32_t broken, ProposalQueue* proposa
 
 }  // namespace
 
-bool Replica::Queue(const EditOrder& order) {
-  const Edit edit = ToEdit(order);
-  if (config_.mode == Mode::kOracle) {
-    if (edit.cause == EditCause::kOutside) outside_edits_[order.tick].push_back(edit);
-    return true;
-  }
-  if (order.number != revision() + static_cast<int>(queued_.size())) return false;
-  const std::int64_t after = queued_.empty() ? order.tick : queued_.back().tick;
-  queued_.push_back({edit, std::max(after, order.tick)});
-  return true;
-}
-
-void Replica::QueueOutsideEdits() {
-  while (!outside_edits_.empty() && outside_edits_.begin()->first <= tick()) {
-    for (Edit& edit : outside_edits_.begin()->second) queued_.push_back({std::move(edit), tick()});
-    outside_edits_.erase(outside_edits_.begin());
-  }
-}
+bool Replica::Queue(const EditOrder& order) { return queue_->Take(order, revision()); }
 
 bool Replica::has_queued() const {
-  if (queued_.empty()) return false;
+  if (queue_->empty()) return false;
   // An order of a tick far ahead is not believed.
-  const std::int64_t ahead = queued_.front().tick - replay_.now();
+  const std::int64_t ahead = queue_->front().tick - replay_.now();
   return ahead <= 0 || ahead > config_.tick_hz;
 }
 
@@ -53,43 +35,37 @@ void Replica::ApplyEdits() {
   while (has_queued()) ApplyNextEdit();
 }
 
-std::optional<BodyRemap> Replica::ApplyNextEdit() {
-  const QueuedEdit next = std::move(queued_.front());
-  queued_.erase(queued_.begin());
+void Replica::ApplyNextEdit() {
+  const QueuedEdit next = queue_->Pop();
   memory_.UnparkAll();  // the edit may reach any of them
   if (presence_.NeedAll()) {
     corrector_.FollowRoles();
     world_.Settle();
   }
   replay_.GoBackTo(next.tick);
-  std::optional<BodyRemap> change = world_.Apply({next.edit});
+  const std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);
-  rest_.MarkEdited();
-  if (change) {
-    Remap(*change);
-  } else {
-    FollowRoles();  // the player in a seat determines the predicted mechanisms
-  }
+  rest_->MarkEdited();
+  if (change) table_.Renumber(*change);
+  FollowRoles();  // also if only the player in a seat, and so the predicted mechanisms, changed
+  if (change && config_.policy->SendsCompleteTicks())
+    reach_.Look();  // indexes mechanisms by number
   replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
-  return change;
 }
 
 void Replica::FindEdits() {
   const std::int64_t now = tick();
   found_.erase(now);  // results of an earlier step of this tick
   for (Edit& edit : world_.ProposeEdits()) {
-    if (config_.mode == Mode::kOracle) {
-      queued_.push_back({std::move(edit), now});
-    } else if (roles_.Proposes(edit)) {
-      found_[now].push_back(std::move(edit));
-    }
+    if (queue_->TakeFound(edit, now) || !roles_.Proposes(edit)) continue;
+    found_[now].push_back(std::move(edit));
   }
 }
 
 void Replica::ProposeFound() {
   if (found_.empty()) return;
-  const bool waits = config_.StampsInputs(roles_.self()) && config_.rolls_back;
+  const bool waits = config_.policy->SendsCompleteTicks();
   if (waits) reach_.Look();
   // In the order of ticks: an edit cannot be ordered for a tick before the previous order's.
   while (!found_.empty()) {
@@ -125,7 +101,7 @@ bool Replica::Propose(Edit edit, std::int64_t found) {
 }
 
 bool Replica::AwaitsOtherEdit(const Edit& edit, std::int64_t found) {
-  if (!config_.GoesBack(roles_.self())) return false;
+  if (!config_.policy->GoesBack(roles_.self())) return false;
   const std::int64_t old = replay_.now() - config_.tick_hz / 2;
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
                                 [&](const Awaited& a) { return a.tick < old; }),
@@ -180,17 +156,6 @@ void Replica::GoOnFrom(const World& before) {
     memory_.snapshots().Add(body, tick(), state);
     if (BodyState* past = memory_.history().At(tick(), body)) *past = state;
   }
-}
-
-void Replica::Remap(const BodyRemap& change) {
-  memory_.Remap(change);
-  display_.Remap(change);
-  roles_.Remap(change.mechanisms);
-  presence_.Remap();
-  replay_.Remap(change);
-  rest_.Remap(change);
-  FollowRoles();
-  if (config_.rolls_back) reach_.Look();  // it indexes mechanisms by number
 }
 
 }  // namespace seam

@@ -8,25 +8,31 @@
 #include "common/sync/reach/driven.h"
 
 namespace seam {
+namespace {
 
-Roles::Roles(const SyncConfig& config, int self, int own_player, const World& world)
+/// Every peer simulates a new mechanism, such as pieces freed from bricks, until its grant arrives:
+/// a displayed body flies through walls, and its holder would begin behind them.
+AuthorityRecord FreshRecord(const SyncConfig& config, int self) {
+  AuthorityRecord fresh;
+  if (!config.policy->PlansFollowers()) return fresh;
+  fresh.secondaries.Add(0);
+  fresh.secondaries.Add(self);
+  return fresh;
+}
+
+}  // namespace
+
+Roles::Roles(const SyncConfig& config, int self, int own_player, const World& world,
+             const BodyTable& bodies)
     : config_(config),
       self_(self),
       own_player_(own_player),
       world_(world),
-      table_(world.composition()) {}
+      table_(world.composition(), bodies, FreshRecord(config, self)) {}
 
 std::int8_t Roles::RoleOf(int mechanism) const {
-  const AuthorityRecord& h = table_.at(mechanism);
-  if (config_.mode == Mode::kOracle) return self_ == 0 ? kRoleAuthority : kRoleSecondary;
-  if (h.authority == self_) return kRoleAuthority;
-  if (config_.mode == Mode::kCentral) {
-    if (own_player_ < 0) return kRoleRemote;
-    if (config_.predict == Predict::kAll) return kRoleSecondary;
-    return Own()[static_cast<std::size_t>(mechanism)] ? kRoleSecondary : kRoleRemote;
-  }
-  if (config_.mode == Mode::kBuffer && h.secondaries.Has(self_)) return kRoleSecondary;
-  return kRoleRemote;
+  if (IsAuthority(mechanism)) return kRoleAuthority;
+  return config_.policy->Follows(*this, mechanism) ? kRoleSecondary : kRoleRemote;
 }
 
 const std::vector<bool>& Roles::Own() const {
@@ -39,7 +45,7 @@ const std::vector<bool>& Roles::Own() const {
 }
 
 bool Roles::Shares() const {
-  if (config_.mode != Mode::kBuffer) return true;
+  if (!config_.policy->PlansFollowers()) return true;
   const std::vector<int>& present = world_.present();
   return std::any_of(present.begin(), present.end(), [this](int body) {
     if (!world_.awake(body)) return false;
@@ -50,11 +56,10 @@ bool Roles::Shares() const {
 }
 
 bool Roles::Proposes(const Edit& edit) const {
-  if (config_.mode == Mode::kOracle) return true;
   for (const PartId part : world_.topology().PartsOf(edit)) {
     const int m = MechanismOf(world_, part);
     if (m < 0) continue;
-    const bool server = config_.rolls_back && table_.at(m).secondaries.Has(0);
+    const bool server = config_.policy->SendsCompleteTicks() && table_.at(m).secondaries.Has(0);
     return server ? self_ == 0 : IsAuthority(m);
   }
   return false;
@@ -82,17 +87,6 @@ void Roles::ReleaseAll() {
     h.authority = 0;
     table_.Set(m, h);
   }
-}
-
-void Roles::Remap(const std::vector<std::vector<int>>& from) {
-  // Every peer simulates a new mechanism, such as pieces freed from bricks, until its grant
-  // arrives: a displayed body flies through walls, and its holder would begin behind them.
-  AuthorityRecord fresh;
-  if (config_.mode == Mode::kBuffer) {
-    fresh.secondaries.Add(0);
-    fresh.secondaries.Add(self_);
-  }
-  table_.Remap(world_.composition(), from, fresh);
 }
 
 }  // namespace seam

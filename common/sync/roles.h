@@ -20,8 +20,9 @@ struct GrantsApplied {
 class Roles {
  public:
   /// `self`: peer number. `own_player`: the player whose vehicle this peer predicts in mode
-  /// central, or -1. Config and world must outlive this.
-  Roles(const SyncConfig& config, int self, int own_player, const World& world);
+  /// central, or -1. Config, world and the table of its bodies must outlive this.
+  Roles(const SyncConfig& config, int self, int own_player, const World& world,
+        const BodyTable& bodies);
 
   int self() const { return self_; }
   int own_player() const { return own_player_; }
@@ -44,20 +45,19 @@ class Roles {
     const AuthorityRecord& record = table_.at(mechanism);
     return silent_.Has(record.authority) && record.secondaries.Has(self_);
   }
+  /// True if the own player drives a mechanism.
+  bool Drives(int mechanism) const { return Own()[static_cast<std::size_t>(mechanism)]; }
   /// True if another peer simulates any awake body that this peer simulates; always true outside
   /// mode buffer.
   bool Shares() const;
   /// True if this peer is to propose an edit found by physics: the authority of the first affected
-  /// part in a mechanism, or with rollback the server if it follows that mechanism; in mode oracle
-  /// every peer.
+  /// part in a mechanism, or with rollback the server if it follows that mechanism.
   bool Proposes(const Edit& edit) const;
 
   /// Applies a message.
   GrantsApplied Apply(const Grants& grants);
   /// Returns all authority of this peer to the server.
   void ReleaseAll();
-  /// Carries the table over after an edit; `from` as in BodyRemap::mechanisms.
-  void Remap(const std::vector<std::vector<int>>& from);
 
  private:
   /// By mechanism: true if the own player drives it.
@@ -69,7 +69,7 @@ class Roles {
   const World& world_;
   AuthorityTable table_;
   PeerSet silent_;
-  mutable std::vector<bool> own_;  // for revision own_of_revision_
+  mutable std::vector<bool> own_;  // rebuilt for each revision, by mechanism
   mutable int own_of_revision_ = -1;
 };
 

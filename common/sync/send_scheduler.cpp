@@ -32,7 +32,7 @@ SendScheduler::SendScheduler(const SyncConfig& config, World& world, const Roles
 
 void SendScheduler::Collect() {
   outgoing_.clear();
-  if (config_.mode == Mode::kOracle || world_.tick() % config_.send_every() != 0) return;
+  if (config_.policy->IsOracle() || world_.tick() % config_.send_every() != 0) return;
   std::map<std::pair<std::int64_t, int>, std::vector<WireBody>> told;  // by tick and authority
   for (const int body : ChooseBodies()) {
     const int authority = roles_.table().at(world_.mechanism(body)).authority;
@@ -54,14 +54,14 @@ void SendScheduler::Collect() {
 std::int64_t SendScheduler::TickToSend(int body) const {
   const std::int64_t now = world_.tick();
   const int m = world_.mechanism(body);
-  if (!config_.rolls_back || !roles_.IsAuthority(m)) return now;
+  if (!config_.policy->SendsCompleteTicks() || !roles_.IsAuthority(m)) return now;
   const std::int64_t complete = FinalTick(m);
   return memory_.ComparablePast(body, complete) != nullptr ? complete : now;
 }
 
 /// Returns the newest tick for which no future input can change our state.
 std::int64_t SendScheduler::FinalTick(int mechanism) const {
-  if (!config_.rolls_back) return world_.tick();
+  if (!config_.policy->SendsCompleteTicks()) return world_.tick();
   return std::min(reach_.CompleteTick(mechanism), replay_.settled());
 }
 

@@ -8,11 +8,11 @@
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
-#include "common/sync/correct/replay.h"
 #include "common/sync/mode.h"
 #include "common/sync/quantize.h"
 #include "common/sync/reach/reach.h"
 #include "common/sync/roles.h"
+#include "common/sync/rollback/replay.h"
 
 namespace seam {
 

@@ -14,16 +14,8 @@ constexpr float kVelocityShare = 0.5f;
 
 }  // namespace
 
-Smoother::Smoother(int body_count, float rate)
-    : rate_(rate), offsets_(static_cast<std::size_t>(body_count)) {}
-
-void Smoother::Remap(const std::vector<int>& origins) {
-  std::vector<VisualOffset> offsets;
-  for (const int from : origins) {
-    offsets.push_back(from < 0 ? VisualOffset{} : offsets_[static_cast<std::size_t>(from)]);
-  }
-  offsets_ = std::move(offsets);
-}
+Smoother::Smoother(const BodyTable& table, float rate)
+    : rate_(rate), offsets_(table, BodyRule::kOrigin) {}
 
 void Smoother::Moved(int body, const BodyState& by) {
   if (rate_ <= 0) return;
@@ -52,12 +44,8 @@ void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodie
   ReturnTogether(world.dt(), rate_, together, gentle);
 }
 
-const Vec2& Smoother::offset(int body) const {
-  return offsets_[static_cast<std::size_t>(body)].position;
-}
+const Vec2& Smoother::offset(int body) const { return offsets_[body].position; }
 
-float Smoother::angle_offset(int body) const {
-  return offsets_[static_cast<std::size_t>(body)].angle;
-}
+float Smoother::angle_offset(int body) const { return offsets_[body].angle; }
 
 }  // namespace seam

@@ -6,6 +6,7 @@
 #include "common/physics/world.h"
 #include "common/scene/types.h"
 #include "common/sync/show/visual_offset.h"
+#include "common/sync/table/body_column.h"
 
 namespace seam {
 
@@ -17,7 +18,7 @@ namespace seam {
 class Smoother {
  public:
   /// `rate` of the return, 1/s; 0: nothing is hidden.
-  Smoother(int body_count, float rate);
+  Smoother(const BodyTable& table, float rate);
 
   /// Reports that the simulated state of `body` changed by this much.
   void Moved(int body, const BodyState& by);
@@ -31,19 +32,16 @@ class Smoother {
   /// rigidly, the view returns rigidly. `gentle`: no faster than 2 m/s.
   void AdvanceTogether(const World& world, const std::vector<int>& bodies, bool gentle = false);
 
-  /// Carries the offsets over after an edit; origins[i] is the former body of body i, -1 for none.
-  void Remap(const std::vector<int>& origins);
-
   const Vec2& offset(int body) const;
   float angle_offset(int body) const;
   /// True if the body is displayed anywhere but at its simulated pose.
   bool active(int body) const { return angle_offset(body) != 0 || offset(body) != Vec2(0, 0); }
 
  private:
-  VisualOffset& At(int body) { return offsets_[static_cast<std::size_t>(body)]; }
+  VisualOffset& At(int body) { return offsets_[body]; }
 
   float rate_;
-  std::vector<VisualOffset> offsets_;
+  BodyColumn<VisualOffset> offsets_;
 };
 
 }  // namespace seam

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/state_arithmetic.h"
 
 namespace seam {
 namespace {
@@ -37,7 +37,10 @@ Vec2 ShiftGained(const Vec2& acceleration, float forward) {
   return acceleration * (lasts * (forward - lasts / 2));
 }
 
-Snapshots::Snapshots(int body_count) : rings_(static_cast<std::size_t>(body_count)) {}
+Snapshots::Snapshots(const BodyTable& table)
+    : rings_(table, [](int, const BodyOrigin& origin, Ring* before) {
+        return AfterEdit(origin, before);
+      }) {}
 
 void Snapshots::Ring::Push(const Stamped& stamped) {
   const bool needed = size_ == 0 || FromNewest(size_ - 1u).tick > stamped.tick - kKeptTicks;
@@ -66,30 +69,28 @@ void Snapshots::Ring::Grow() {
 }
 
 void Snapshots::Add(int body, std::int64_t tick, const BodyState& state, bool falls) {
-  Ring& ring = rings_[static_cast<std::size_t>(body)];
+  Ring& ring = rings_[body];
   if (ring.size() != 0 && ring.newest_tick() >= tick) return;
   ring.Push({tick, state});
   ring.falls = falls;
 }
 
-void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
-  std::vector<Ring> rings(origins.size());
-  for (std::size_t i = 0; i < origins.size(); ++i) {
-    if (origins[i].body < 0) continue;
-    rings[i] = rings_[static_cast<std::size_t>(origins[i].body)];
-    rings[i].Change([&](const BodyState& state) { return Carried(origins[i], state); });
-    rings[i].falls = rings[i].falls && origins[i].same;
-  }
-  rings_ = std::move(rings);
+Snapshots::Ring Snapshots::AfterEdit(const BodyOrigin& origin, Ring* before) {
+  if (before == nullptr) return Ring();
+  if (origin.same) return std::move(*before);
+  Ring ring = *before;
+  ring.Change([&](const BodyState& state) { return Carried(origin, state); });
+  ring.falls = false;
+  return ring;
 }
 
 void Snapshots::ForgetAfter(int body, std::int64_t tick) {
-  Ring& ring = rings_[static_cast<std::size_t>(body)];
+  Ring& ring = rings_[body];
   while (ring.size() > 0 && ring.newest_tick() > tick) ring.DropNewest();
 }
 
 const BodyState* Snapshots::At(int body, std::int64_t tick) const {
-  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  const Ring& ring = rings_[body];
   for (std::size_t k = 0; k < ring.size() && ring.FromNewest(k).tick >= tick; ++k) {
     if (ring.FromNewest(k).tick == tick) return &ring.FromNewest(k).state;
   }
@@ -97,7 +98,7 @@ const BodyState* Snapshots::At(int body, std::int64_t tick) const {
 }
 
 BodyState Snapshots::Interpolate(int body, double tick) const {
-  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  const Ring& ring = rings_[body];
   SEAM_ASSERT(ring.size() > 0);
   if (tick >= static_cast<double>(ring.newest_tick())) return ring.newest();
   for (std::size_t k = 1; k < ring.size(); ++k) {
@@ -124,7 +125,7 @@ Vec2 Snapshots::AccelerationBefore(std::size_t back, const Ring& ring, float dt)
 }
 
 Vec2 Snapshots::Acceleration(int body, std::int64_t tick, float dt) const {
-  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  const Ring& ring = rings_[body];
   if (ring.newest_tick() != tick) return {0, 0};
   // A start, a stop or an impact changes the velocity once: that does not last.
   return LeastBetween(AccelerationBefore(0, ring, dt), AccelerationBefore(1, ring, dt));
@@ -141,12 +142,12 @@ BodyState Snapshots::Onward(const Ring& ring, std::int64_t tick, float dt, float
 }
 
 BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float max_s) const {
-  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  const Ring& ring = rings_[body];
   return Onward(ring, tick, dt, max_s, Acceleration(body, ring.newest_tick(), dt));
 }
 
 BodyState Snapshots::ExtrapolateNewest(int body, std::int64_t tick, float dt, float max_s) const {
-  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  const Ring& ring = rings_[body];
   return Onward(ring, tick, dt, max_s, AccelerationBefore(0, ring, dt));
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/scene/types.h"
-#include "common/topology/body_remap.h"
+#include "common/sync/table/body_column.h"
 
 namespace seam {
 
@@ -20,30 +20,25 @@ constexpr float kReckonMax = 1.0f;
 Vec2 SpeedGained(const Vec2& acceleration, float forward);
 Vec2 ShiftGained(const Vec2& acceleration, float forward);
 
-/// The last few states heard of each body.
+/// The last few states heard of each body. After an edit a body has those of the body that it came
+/// from, moved rigidly.
 class Snapshots {
  public:
-  explicit Snapshots(int body_count);
+  explicit Snapshots(const BodyTable& table);
 
   /// Keeps the state if it is newer than all states of this body. `falls`: gravity alone moves it.
   void Add(int body, std::int64_t tick, const BodyState& state, bool falls = false);
-  /// Carries the states over after an edit.
-  void Remap(const std::vector<BodyOrigin>& origins);
   /// Drops states after `tick`: they belong to another body.
   void ForgetAfter(int body, std::int64_t tick);
 
   bool has(int body) const { return newest_tick(body) >= 0; }
   /// -1 if there is none.
-  std::int64_t newest_tick(int body) const {
-    return rings_[static_cast<std::size_t>(body)].newest_tick();
-  }
+  std::int64_t newest_tick(int body) const { return rings_[body].newest_tick(); }
   /// Requires has(body).
-  const BodyState& newest(int body) const {
-    return rings_[static_cast<std::size_t>(body)].newest();
-  }
+  const BodyState& newest(int body) const { return rings_[body].newest(); }
 
   /// True if the newest state is of free fall. Requires has(body).
-  bool falls(int body) const { return rings_[static_cast<std::size_t>(body)].falls; }
+  bool falls(int body) const { return rings_[body].falls; }
 
   /// Returns the state of exactly this tick; nullptr if it is not kept.
   const BodyState* At(int body, std::int64_t tick) const;
@@ -106,7 +101,9 @@ class Snapshots {
   static Vec2 AccelerationBefore(std::size_t back, const Ring& ring, float dt);
   static BodyState Onward(const Ring& ring, std::int64_t tick, float dt, float max_s,
                           const Vec2& acceleration);
-  std::vector<Ring> rings_;
+  static Ring AfterEdit(const BodyOrigin& origin, Ring* before);
+
+  BodyColumn<Ring> rings_;
 };
 
 /// Display delay for which the next snapshot has nearly always arrived: the age that 19 of 20

@@ -92,7 +92,7 @@ void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, cons
   if (look.heat || look.pale) {
     gap();
     x = HeatBar(list, x, base, look.pale ? "apart 1 mm" : "error 1 mm") + 16 * scale;
-  } else if (playback.mode() != Mode::kOracle) {
+  } else if (!playback.policy().IsOracle()) {
     gap();
     entry(LookOf(PeerColour(0), kRoleAuthority), "simulated with authority");
     entry(LookOf(PeerColour(0), kRoleSecondary), "secondary copy");

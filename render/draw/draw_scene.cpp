@@ -36,10 +36,9 @@ Rect Box(const Viewport& viewport, const Vec2& min, const Vec2& max) {
 
 std::vector<Region> FixedRegions(const Viewport& viewport, const Playback& playback) {
   std::vector<Region> regions;
-  const std::optional<Mode> mode = playback.mode();
-  if (mode != Mode::kStrict && mode != Mode::kBuffer) return regions;
+  if (!playback.policy().PlansAuthority()) return regions;
   if (playback.scene().planner->given) return regions;  // regions do not decide
-  const float band = mode == Mode::kBuffer ? playback.scene().buffer_m : 0;
+  const float band = playback.policy().PlansFollowers() ? playback.scene().buffer_m : 0;
   for (int peer : playback.peers()) {
     const int index = playback.PlayerOf(peer);
     if (index < 0) continue;

@@ -7,8 +7,7 @@
 namespace seam {
 
 bool RegionsAreHeld(const Playback& playback) {
-  const std::optional<Mode> mode = playback.mode();
-  if (mode != Mode::kStrict && mode != Mode::kBuffer) return false;
+  if (!playback.policy().PlansAuthority()) return false;
   const std::vector<Player>& players = playback.scene().players;
   const bool fixed = std::any_of(players.begin(), players.end(),
                                  [](const Player& player) { return player.has_region; });

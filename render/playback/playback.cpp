@@ -196,7 +196,7 @@ const std::string& Playback::PartName(PartId part) const {
 }
 
 std::string Playback::PeerName(int peer) const {
-  if (peer == 0) return mode() == Mode::kOracle ? "oracle" : "server";
+  if (peer == 0) return policy().IsOracle() ? "oracle" : "server";
   const int player = PlayerOf(peer);
   const std::string number = "peer " + std::to_string(peer);
   if (player < 0) return number;

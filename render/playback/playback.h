@@ -13,7 +13,7 @@
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
 #include "common/stages/kinematic.h"
-#include "common/sync/mode.h"
+#include "common/sync/method.h"
 #include "common/topology/feather_store.h"
 #include "render/canvas/shapes.h"
 
@@ -62,7 +62,7 @@ class Playback {
   const Oracle& oracle() const { return *oracle_; }
 
   /// Returns the mode; nullopt for an unknown name.
-  std::optional<Mode> mode() const { return FindMode(recording_->room.mode); }
+  const Policy& policy() const { return PolicyOf(recording_->room); }
   int tick_hz() const { return recording_->room.tick_hz; }
   /// Returns the tick of a time; a value within rounding of a whole number becomes whole.
   double TickAt(double seconds) const;

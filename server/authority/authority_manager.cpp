@@ -1,6 +1,7 @@
 #include "server/authority/authority_manager.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/physics/stage.h"
 #include "common/sync/lease.h"
@@ -43,10 +44,20 @@ AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config,
       config_(config),
       replica_(replica),
       physics_edits_(ProposesEdits(scene)),
-      islands_(PlansIslands(scene)) {
-  restricted_ = RestrictedParts(replica.world().scene());
-  memory_.resize(static_cast<std::size_t>(table().count()));
-  if (config_.mode != Mode::kBuffer) return;
+      islands_(PlansIslands(scene)),
+      at_rest_(replica.table(), BodyRule::kFresh),
+      doubtful_(replica.table(), MechanismRule::kFresh, 1),
+      restricted_(RestrictedParts(replica.world().scene())),
+      memory_(
+          replica.table(),
+          [this](int m, const std::vector<const Memory*>& before) { return Merged(m, before); }),
+      edited_(replica.table(), [this](const BodyRemap&) {
+        open_.clear();
+        restricted_ = RestrictedParts(replica_.world().scene());
+        sleeping_index_.Clear(0);
+        plan_due_ = true;
+      }) {
+  if (!config_.policy->PlansFollowers()) return;
   for (int m = 0; m < table().count(); ++m) {
     AuthorityRecord record;
     record.secondaries.Add(0);
@@ -78,7 +89,7 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const PlannerI
     if (Advance(now_us, m)) {
       open_[left++] = m;
     } else {
-      memory_[static_cast<std::size_t>(m)].open = false;
+      memory_[m].open = false;
     }
   }
   open_.resize(left);
@@ -109,13 +120,13 @@ void AuthorityManager::Plan(std::int64_t now_us, const PlannerInputs& situation)
     const AuthorityRecord& record = table().at(m);
     const bool same = planned.authority == record.authority &&
                       planned.secondaries == record.secondaries &&
-                      memory_[static_cast<std::size_t>(m)].hand_over == HandOver::kNone;
+                      memory_[m].hand_over == HandOver::kNone;
     if (!same) Open(m);
   }
 }
 
 void AuthorityManager::Open(int m) {
-  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[m];
   sleeping_index_.Take(m);
   if (memory.open) return;
   memory.open = true;
@@ -124,7 +135,7 @@ void AuthorityManager::Open(int m) {
 }
 
 bool AuthorityManager::Advance(std::int64_t now_us, int m) {
-  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[m];
   AuthorityRecord record = table().at(m);
   // One authority at a time: the server takes over only once the holder has released it.
   if (memory.hand_over == HandOver::kRevoking) {
@@ -192,7 +203,7 @@ std::int64_t AuthorityManager::PatienceUs(int m) const {
 }
 
 void AuthorityManager::Withdraw(int m) {
-  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[m];
   AuthorityRecord record = table().at(m);
   if (memory.held_from < 0) memory.held_from = record.epoch;
   memory.hand_over = HandOver::kNone;
@@ -204,7 +215,7 @@ void AuthorityManager::Withdraw(int m) {
 
 /// Called once another peer has the mechanism, or will have it.
 void AuthorityManager::ForgetQuestions(int m) {
-  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[m];
   memory.withdrawn = false;
   memory.ask_us = 0;
   memory.held_from = -1;
@@ -215,7 +226,7 @@ AuthorityManager::Right AuthorityManager::AcceptRelease(int peer, PartId mechani
   const int m = table().IndexOf(mechanism);
   if (m < 0) return Right::kNo;
   const AuthorityRecord& record = table().at(m);
-  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[m];
   if (epoch <= record.epoch) {
     // A late answer: the mechanism was granted to it again after the question was withdrawn.
     const bool late = record.authority == peer && memory.held_from >= 0 &&
@@ -234,7 +245,7 @@ bool AuthorityManager::HoldsInEpoch(int peer, PartId mechanism, std::int32_t epo
   const int m = table().IndexOf(mechanism);
   if (m < 0 || peer <= 0) return false;
   const AuthorityRecord& record = table().at(m);
-  const Memory& memory = memory_[static_cast<std::size_t>(m)];
+  const Memory& memory = memory_[m];
   if (record.authority != peer) return false;
   const std::int32_t from = memory.held_from < 0 ? record.epoch : memory.held_from;
   return epoch >= from && epoch <= record.epoch && (record.epoch - epoch) % 2 == 0;
@@ -245,22 +256,21 @@ AuthorityManager::Right AuthorityManager::RightToRelease(int peer, int body,
   const int m = replica_.world().mechanism(body);
   const AuthorityRecord& record = table().at(m);
   if (epoch <= record.epoch) return Right::kStale;
-  const bool asked = memory_[static_cast<std::size_t>(m)].hand_over == HandOver::kRevoking &&
-                     record.authority == peer;
+  const bool asked = memory_[m].hand_over == HandOver::kRevoking && record.authority == peer;
   return asked && epoch == WithoutHolder(record).epoch ? Right::kYes : Right::kNo;
 }
 
 void AuthorityManager::NoteCopyError(int body, const BodyState& off) {
   if (off.position.norm() <= kJump && off.velocity.norm() <= kJumpVelocity) return;
   const int m = replica_.world().mechanism(body);
-  memory_[static_cast<std::size_t>(m)].keep_until_tick =
+  memory_[m].keep_until_tick =
       replica_.tick() + static_cast<std::int64_t>(kConvergeS * config_.tick_hz);
   Open(m);
 }
 
 void AuthorityManager::NoteTold(int body, const BodyState& off) {
   const bool far = off.position.norm() > kContestedOff || off.velocity.norm() > kContestedVelocity;
-  Memory& memory = memory_[static_cast<std::size_t>(replica_.world().mechanism(body))];
+  Memory& memory = memory_[replica_.world().mechanism(body)];
   memory.contested *= 1 - 1 / static_cast<float>(kContestedSeconds * config_.send_hz);
   if (far) memory.contested += 1;
 }
@@ -273,42 +283,32 @@ bool AuthorityManager::Awaits(int peer, int body) const {
 
 AuthorityRecord AuthorityManager::WithoutHolder(AuthorityRecord record) const {
   // A peer that releases goes on simulating until the next grant: its copy is the best there is.
-  if (config_.mode == Mode::kBuffer) record.secondaries.Add(record.authority);
+  if (config_.policy->PlansFollowers()) record.secondaries.Add(record.authority);
   record.authority = 0;
   record.epoch += 1;
   return record;
 }
 
-void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {
-  std::vector<Memory> memory;
-  for (const std::vector<int>& then : from) {
-    const int m = static_cast<int>(memory.size());
-    memory.push_back(then.empty() ? Memory{} : memory_[static_cast<std::size_t>(then.front())]);
-    for (const int old : then) {
-      const Memory& before = memory_[static_cast<std::size_t>(old)];
-      const bool same = then.size() == 1 && before.revoked_id == table().id(m);
-      const bool overtaken = before.hand_over != HandOver::kNone && !same;
-      if (overtaken) memory.back().hand_over = HandOver::kOvertaken;
-      if (!same) memory.back().held_from = -1;
-    }
+AuthorityManager::Memory AuthorityManager::Merged(int m,
+                                                  const std::vector<const Memory*>& before) const {
+  Memory merged = before.empty() ? Memory{} : *before.front();
+  for (const Memory* const old : before) {
+    const bool same = before.size() == 1 && old->revoked_id == table().id(m);
+    const bool overtaken = old->hand_over != HandOver::kNone && !same;
+    if (overtaken) merged.hand_over = HandOver::kOvertaken;
+    if (!same) merged.held_from = -1;
   }
-  memory_ = std::move(memory);
-  open_.clear();
-  for (Memory& each : memory_) each.open = false;
-  restricted_ = RestrictedParts(replica_.world().scene());
-  sleeping_index_.Clear(0);
-  plan_due_ = true;
+  merged.open = false;
+  return merged;
 }
 
 std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
-  AuthorityTable told = table();
-  std::vector<int> all;
-  for (int m = 0; m < table().count(); ++m) {
-    const bool moving = memory_[static_cast<std::size_t>(m)].hand_over != HandOver::kNone;
-    if (moving) told.Set(m, WithoutHolder(table().at(m)));
-    all.push_back(m);
-  }
-  return told.Export(now_us, replica_.tick(), all);
+  std::vector<int> all(static_cast<std::size_t>(table().count()));
+  std::iota(all.begin(), all.end(), 0);
+  return table().Export(now_us, replica_.tick(), all, [this](int m) {
+    const bool moving = memory_[m].hand_over != HandOver::kNone;
+    return moving ? WithoutHolder(table().at(m)) : table().at(m);
+  });
 }
 
 int AuthorityManager::Wanted(int mechanism) const {
@@ -322,7 +322,7 @@ bool AuthorityManager::Follows(int peer, int body) const {
 
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {
   for (const int m : mechanisms) {
-    if (memory_[static_cast<std::size_t>(m)].hand_over != HandOver::kNone) return false;
+    if (memory_[m].hand_over != HandOver::kNone) return false;
     if (table().at(m).authority != table().at(mechanisms.front()).authority) return false;
   }
   return true;
@@ -332,7 +332,7 @@ AuthorityManager::Right AuthorityManager::RightToMove(int peer, int body,
                                                       std::int32_t epoch) const {
   const AuthorityRecord& record = table().at(replica_.world().mechanism(body));
   if (record.authority == peer) {
-    const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
+    const int m = replica_.world().mechanism(body);
     const std::int32_t from = memory_[m].held_from < 0 ? record.epoch : memory_[m].held_from;
     // Each question used up one epoch, in which nobody had the mechanism.
     const bool held = epoch >= from && epoch <= record.epoch && (record.epoch - epoch) % 2 == 0;

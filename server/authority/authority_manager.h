@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "common/sync/replica.h"
+#include "common/sync/table/body_column.h"
+#include "common/sync/table/mechanism_column.h"
 #include "server/authority/capacity_watch.h"
-#include "server/authority/sleeping_index.h"
 #include "server/authority/plan.h"
+#include "server/authority/sleeping_index.h"
 
 namespace seam {
 
@@ -62,8 +64,6 @@ class AuthorityManager {
   /// Saves the memory of earlier plans: since when each mechanism has had its authority, and its
   /// hand-over. Reading: the caller then takes back the mechanisms of absent peers.
   void Persist(StateArchive& a);
-  /// Renumbers after the mechanisms have changed; see BodyRemap.
-  void Remap(const std::vector<std::vector<int>>& from);
 
   /// Returns the whole table for a joining client. A mechanism being revoked is listed without an
   /// authority, as other peers were told.
@@ -138,6 +138,8 @@ class AuthorityManager {
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }
+  /// Returns the state of a mechanism made of these.
+  Memory Merged(int m, const std::vector<const Memory*>& before) const;
   /// Fills in the planner's input (authority_view.cpp).
   void Look(const PlannerInputs& situation);
   void LookAtPlayers(const PlannerInputs& situation, AuthorityView* view) const;
@@ -148,6 +150,7 @@ class AuthorityManager {
   bool MayLeaveOut(const AuthorityView& view);
   /// Choose the mechanisms of the view (authority_sleeping.cpp).
   void SeeAll();
+  bool SeesAll() const { return static_cast<int>(seen_.size()) == memory_.size(); }
   void SeeAwakeAndNear(const AuthorityView& view);
   bool MayBeIndexed(int m) const;
   void FindDisturbed();
@@ -185,7 +188,7 @@ class AuthorityManager {
   Replica& replica_;
   const bool physics_edits_;
   const bool islands_;
-  AuthorityPlan plan_;     // the last one
+  AuthorityPlan plan_;     // rebuilt by Plan, by mechanism
   AuthorityView view_;     // input of the last plan; kept to reuse its memory
   std::vector<int> seen_;  // mechanisms in view_, ascending
   bool limited_ = false;   // the last plan had a player of limited capacity
@@ -196,8 +199,8 @@ class AuthorityManager {
     Vec2 position{0, 0};
     float angle = 0;
   };
-  std::vector<Lay> at_rest_;      // by body of a sleeping mechanism
-  std::vector<char> doubtful_;    // by sleeping mechanism: it may have been woken
+  BodyColumn<Lay> at_rest_;         // of sleeping mechanisms
+  MechanismColumn<char> doubtful_;  // a sleeping one may have been woken
   std::vector<int> stirred_;      // scratch of FindDisturbed: bodies
   std::uint64_t index_change_ = 0;  // World::last_change at the last FindDisturbed
   CapacityWatch capacity_;
@@ -211,7 +214,8 @@ class AuthorityManager {
   PeerSet silent_;                           // in the last Update
   std::vector<std::int64_t> round_trip_us_;  // by peer, in the last Update
   bool plan_due_ = true;
-  std::vector<Memory> memory_;  // by mechanism
+  MechanismColumn<Memory> memory_;
+  EditHook edited_;
 };
 
 }  // namespace seam

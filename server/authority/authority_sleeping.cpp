@@ -30,19 +30,19 @@ bool AuthorityManager::MayLeaveOut(const AuthorityView& view) {
     return false;
   }
   const int whole = std::max(view.follow_bodies, view.server_follow);
-  return view.islands && view.mode == Mode::kBuffer && !view.exact && !limited_ &&
+  return view.islands && view.policy->PlansFollowers() && !view.exact && !limited_ &&
          view.rules.capacity == 0 && replica_.world().body_count() > whole;
 }
 
 void AuthorityManager::SeeAll() {
-  seen_.resize(memory_.size());
+  seen_.resize(static_cast<std::size_t>(memory_.size()));
   std::iota(seen_.begin(), seen_.end(), 0);
 }
 
 /// True if the server alone has the mechanism, by plan and by record, and nobody can drive it.
 bool AuthorityManager::MayBeIndexed(int m) const {
   const auto i = static_cast<std::size_t>(m);
-  const Memory& memory = memory_[i];
+  const Memory& memory = memory_[m];
   const AuthorityRecord& record = table().at(m);
   if (i >= plan_.size() || memory.open || memory.hand_over != HandOver::kNone) return false;
   if (record.authority != 0 || memory.last_authority != 0 || memory.contested != 0) return false;
@@ -57,10 +57,10 @@ bool AuthorityManager::Lies(int m) {
   const World& world = replica_.world();
   const bool lay = sleeping_index_.Has(m);
   bool lies = !replica_.drivers().Driven(m);
-  char& doubtful = doubtful_[static_cast<std::size_t>(m)];
+  char& doubtful = doubtful_[m];
   doubtful = 0;
   EachBody(m, [&](int body) {
-    Lay& then = at_rest_[static_cast<std::size_t>(body)];
+    Lay& then = at_rest_[body];
     const std::uint64_t still = world.still(body);
     if (still == 0) doubtful = 1;  // the World does not report changes of it
     if (!lies || (lay && still != 0 && still == then.still)) return;
@@ -79,7 +79,7 @@ void AuthorityManager::IndexSleeping(int m) {
   bool first = true;
   EachBody(m, [&](int body) {
     const BodyState state = world.Read(body);
-    at_rest_[static_cast<std::size_t>(body)] = {world.still(body), state.position, state.angle};
+    at_rest_[body] = {world.still(body), state.position, state.angle};
     const MovingBox box = BoxOf(world, body);
     around.min = first ? box.min : around.min.cwiseMin(box.min);
     around.max = first ? box.max : around.max.cwiseMax(box.max);
@@ -93,18 +93,19 @@ void AuthorityManager::FindDisturbed() {
   const World& world = replica_.world();
   stirred_.clear();
   if (world.ChangedSince(index_change_, &stirred_)) {
-    for (const int body : stirred_) doubtful_[static_cast<std::size_t>(world.mechanism(body))] = 1;
+    for (const int body : stirred_) doubtful_[world.mechanism(body)] = 1;
   } else {
-    doubtful_.assign(doubtful_.size(), 1);
+    doubtful_.Reset();
   }
   index_change_ = world.last_change();
 }
 
 void AuthorityManager::SeeAwakeAndNear(const AuthorityView& view) {
-  if (sleeping_index_.size() != memory_.size()) {
-    sleeping_index_.Clear(memory_.size());
-    at_rest_.assign(static_cast<std::size_t>(replica_.world().body_count()), {});
-    doubtful_.assign(memory_.size(), 1);
+  const auto count = static_cast<std::size_t>(memory_.size());
+  if (sleeping_index_.size() != count) {
+    sleeping_index_.Clear(count);
+    at_rest_.Reset();
+    doubtful_.Reset();
   }
   FindDisturbed();
   seen_.clear();
@@ -113,9 +114,9 @@ void AuthorityManager::SeeAwakeAndNear(const AuthorityView& view) {
     joined.insert(joined.end(), mechanisms.begin(), mechanisms.end());
   }
   for (const int m : joined) sleeping_index_.Take(m);
-  for (int m = 0; m < static_cast<int>(memory_.size()); ++m) {
+  for (int m = 0; m < memory_.size(); ++m) {
     if (sleeping_index_.Has(m)) {
-      if (doubtful_[static_cast<std::size_t>(m)] == 0 || Lies(m)) continue;
+      if (doubtful_[m] == 0 || Lies(m)) continue;
       sleeping_index_.Take(m);
     } else if (MayBeIndexed(m) && Lies(m) && std::count(joined.begin(), joined.end(), m) == 0) {
       IndexSleeping(m);
@@ -129,11 +130,11 @@ void AuthorityManager::SeeAwakeAndNear(const AuthorityView& view) {
   const auto middle = static_cast<std::ptrdiff_t>(seen_.size());
   seen_.insert(seen_.end(), near.begin(), near.end());
   std::inplace_merge(seen_.begin(), seen_.begin() + middle, seen_.end());
-  if (2 * seen_.size() > memory_.size()) see_all_ = kSeeAll;
+  if (2 * seen_.size() > count) see_all_ = kSeeAll;
 }
 
 void AuthorityManager::LookAtBoxes(AuthorityView* view) const {
-  if (seen_.size() == memory_.size()) {
+  if (SeesAll()) {
     view->boxes = BoxesOf(replica_.world(), replica_.drivers(), true);
     return;
   }
@@ -145,7 +146,7 @@ void AuthorityManager::LookAtBoxes(AuthorityView* view) const {
 }
 
 int AuthorityManager::PlaceOf(int m) const {
-  if (seen_.size() == memory_.size()) return m;
+  if (SeesAll()) return m;
   const auto at = std::lower_bound(seen_.begin(), seen_.end(), m);
   return at == seen_.end() || *at != m ? -1 : static_cast<int>(at - seen_.begin());
 }

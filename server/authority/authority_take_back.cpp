@@ -7,7 +7,7 @@
 namespace seam {
 
 bool AuthorityManager::IsOverdue(std::int64_t now_us, int m) const {
-  const Memory& memory = memory_[static_cast<std::size_t>(m)];
+  const Memory& memory = memory_[m];
   if (memory.hand_over != HandOver::kRevoking) return false;
   const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
                        now_us - memory.revoked_us <= kAnswerPatienceUs;
@@ -35,7 +35,7 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us,
   plan_due_ = true;
   for (const int m : mechanisms) {
     AuthorityRecord record = table().at(m);
-    Memory& memory = memory_[static_cast<std::size_t>(m)];
+    Memory& memory = memory_[m];
     record.secondaries.Remove(record.authority);
     record.authority = 0;
     record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation used up one

@@ -37,12 +37,12 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   view.players.clear();
   view.mechanisms.clear();
   view.boxes.clear();
-  view.mode = config_.mode;
+  view.policy = config_.policy;
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
   view.gravity = scene_.gravity;
   view.follow_bodies = scene_.follow_bodies;
-  view.exact = config_.GoesBack(0);
+  view.exact = config_.policy->GoesBack(0);
   for (int p = 0; p < static_cast<int>(scene_.players.size()) && view.exact; ++p) {
     view.exact = replica_.drivers().MechanismsOf(p).empty();
   }
@@ -57,11 +57,11 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
     for (int& m : mechanisms) m = PlaceOf(m);
   }
   LookAtMechanisms(situation, &view);
-  const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
+  const bool boxes =
+      config_.policy->PlansFollowers() || (islands_ && config_.policy->PlansAuthority());
   if (boxes) LookAtBoxes(&view);
-  view.left_out = seen_.size() < memory_.size()
-                      ? static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size()
-                      : 0;
+  view.left_out =
+      SeesAll() ? 0 : static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size();
   // A player that may not push a part does not get its authority.
   const World& world = replica_.world();
   for (const int id : restricted_) {
@@ -125,7 +125,7 @@ void AuthorityManager::LookAtMechanisms(const PlannerInputs& situation, Authorit
 void AuthorityManager::LookAtMechanism(int m, const PlannerInputs& situation, AuthorityView* view) {
   const World& world = replica_.world();
   const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
-  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[m];
   MechanismView seen;
   const int root = world.BodyOfId(mechanism.id);
   const BodyState state = world.Read(root);
@@ -149,7 +149,7 @@ void AuthorityManager::LookAtMechanism(int m, const PlannerInputs& situation, Au
 }
 
 std::vector<char> AuthorityManager::Unwatched(const AuthorityView& view) const {
-  std::vector<char> unwatched(memory_.size(), 0);
+  std::vector<char> unwatched(memory_.values().size(), 0);
   if (!view.islands) return unwatched;
   if (view.left_out > 0) {
     std::fill(unwatched.begin(), unwatched.end(), char{1});  // all left-out mechanisms sleep

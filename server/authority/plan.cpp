@@ -44,14 +44,14 @@ void Forbid(const AuthorityView& view, AuthorityPlan* plan) {
 
 AuthorityPlan PlanAuthority(const AuthorityView& view) {
   AuthorityPlan plan(view.mechanisms.size());
-  if (view.mode == Mode::kOracle || view.mode == Mode::kCentral) return plan;
+  if (!view.policy->PlansAuthority()) return plan;
   const PlanGround ground(view);
   if (view.islands) {
     PlanIslands(ground, &plan);
   } else {
     PlanRectangles(view, &plan);
   }
-  if (view.mode == Mode::kBuffer) {
+  if (view.policy->PlansFollowers()) {
     if (view.exact) DecideContested(ground, &plan);
     PlanFollowers(ground, &plan);
   }

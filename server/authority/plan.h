@@ -57,7 +57,7 @@ struct MechanismView {
 /// The complete planner input; mechanisms are given by index into `mechanisms`. Times of past
 /// changes (for the dwell) are in it too, as data.
 struct AuthorityView {
-  Mode mode = Mode::kBuffer;
+  const Policy* policy = &BufferPolicy(false);
   int tick_hz = 60;
   float buffer_m = 0;          ///< width of the buffer zone
   Vec2 gravity{0, 0};          ///< m/s^2
@@ -71,7 +71,8 @@ struct AuthorityView {
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
   std::vector<MovingBox> boxes;  ///< of all their bodies; group: index of the mechanism
-  /// Bodies left out of the view: the server's, asleep, far from everything else (SleepingIndex).
+  /// Bodies left out of the view: the server's, asleep, and far from everything else
+  /// (SleepingIndex).
   std::size_t left_out = 0;
   /// Mechanisms that a pending edit will join: each entry should get one common authority.
   std::vector<std::vector<int>> together;

@@ -39,7 +39,7 @@ class SleepingIndex {
  private:
   BoxIndex<MovingBox> boxes_;
   int looks_ = 0;
-  std::vector<int> found_in_;  // by mechanism: number of the last search that found it
+  std::vector<int> found_in_;  // rebuilt by Clear, by mechanism: last search that found it
 };
 
 }  // namespace seam

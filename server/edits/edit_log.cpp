@@ -168,8 +168,7 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
     EditOrder order = ToOrder(pending.edit);
     order.utime = now_us;
     order.tick = last_tick_ = TickOf(pending);
-    order.number = ordered_++;
-    unapplied_.push_back(pending.edit);
+    order.number = NextNumber();
     batch.orders.push_back(order);
   }
   pending_ = std::move(waiting);
@@ -180,12 +179,12 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
   return batch;
 }
 
-void EditLog::NoteApplied() {
+std::optional<EditOrder> EditLog::NoteApplied(const Edit& edit, std::int64_t) {
   const Topology& topology = world_.topology();
-  fold_.Note(unapplied_.front(), topology);
-  unapplied_.pop_front();
+  fold_.Note(edit, topology);
   hash_after_[topology.revision()] = topology.composition().hash;
   if (hash_after_.size() > kHashesMax) hash_after_.erase(hash_after_.begin());
+  return std::nullopt;
 }
 
 std::vector<Edit> EditLog::TakePending() {
@@ -196,16 +195,6 @@ std::vector<Edit> EditLog::TakePending() {
   pending_.clear();
   waiting_of_peer_.fill(0);
   return edits;
-}
-
-EditOrder EditLog::RecordLocalEdit(const Edit& edit, std::int64_t now_us) {
-  EditOrder order = ToOrder(edit);
-  order.utime = now_us;
-  order.tick = world_.tick();
-  order.number = ordered_++;
-  unapplied_.push_back(edit);
-  NoteApplied();
-  return order;
 }
 
 bool EditLog::Differs(int revision, std::int64_t composition) const {

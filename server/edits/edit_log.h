@@ -5,8 +5,8 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -22,6 +22,9 @@ class EditLog {
  public:
   /// `world` and `authority` must outlive it. Requires a world without edits.
   EditLog(const World& world, const AuthorityManager& authority, int tick_hz);
+  EditLog(const EditLog&) = delete;
+  EditLog& operator=(const EditLog&) = delete;
+  virtual ~EditLog() = default;
 
   /// Adds an edit of the server: ordered at the next tick, or as soon as its parts have one
   /// authority. Dropped if impossible; Topology::Validate tells beforehand. Returns false if
@@ -45,31 +48,27 @@ class EditLog {
   struct Batch {
     std::vector<EditOrder> orders;  ///< for everyone, in this order
     std::int64_t stale = 0;         ///< peers' proposals that became impossible
+    /// True if the orders are final and go on the bus; else NoteApplied returns those that do.
+    bool numbered = true;
   };
   /// Numbers all edits that can be ordered now. The caller must apply them one by one, each
   /// followed by NoteApplied, before the next call.
-  Batch OrderPending(std::int64_t now_us);
+  virtual Batch OrderPending(std::int64_t now_us);
   /// Returns for each pending edit the mechanisms that need one common authority.
   std::vector<std::vector<int>> WaitingMechanisms() const;
 
   /// Number of pending edits, of all peers.
   std::size_t waiting() const { return pending_.size(); }
 
-  /// Call after each applied edit.
-  void NoteApplied();
-
-  // Mode oracle only, where every peer applies its edits alone, in the tick in which it finds them:
-  /// Returns and clears the pending edits, without numbers. Used instead of OrderPending.
-  std::vector<Edit> TakePending();
-  /// Call after an applied edit, instead of NoteApplied. Returns its order, for the record.
-  EditOrder RecordLocalEdit(const Edit& edit, std::int64_t now_us);
+  /// Call after each applied edit. Returns its order if it is not on the bus yet.
+  virtual std::optional<EditOrder> NoteApplied(const Edit& edit, std::int64_t now_us);
 
   /// True if the composition after `revision` edits is known and is not `composition`.
   bool Differs(int revision, std::int64_t composition) const;
   /// True if a peer with this ping must be repaired: its composition differs, or it has applied
   /// more edits than exist, or, with nothing more in flight to it, so few that their hashes are
   /// forgotten.
-  bool NeedsRepair(const Ping& ping, bool more_under_way) const;
+  virtual bool NeedsRepair(const Ping& ping, bool more_under_way) const;
   /// Returns the order that makes a peer start over; the history follows.
   EditOrder BeginAnew(std::int64_t now_us) const;
   /// Returns the edits that turn the scene into the current world, for a peer that joins or is
@@ -88,6 +87,13 @@ class EditLog {
   /// Number of remembered compositions, of the latest edits: more than can be in flight to a peer
   /// (a Link gives up at 4096).
   static constexpr int kHashesMax = 8192;
+
+ protected:
+  const World& world() const { return world_; }
+  int tick_hz() const { return tick_hz_; }
+  int NextNumber() { return ordered_++; }
+  /// Returns and clears the pending edits that are possible.
+  std::vector<Edit> TakePending();
 
  private:
   struct Pending {
@@ -110,7 +116,6 @@ class EditLog {
   std::array<int, kPeersMax> waiting_of_peer_{};
   int ordered_ = 0;                          // number of ordered edits
   std::int64_t last_tick_ = 0;               // tick of the last of these
-  std::deque<Edit> unapplied_;               // ordered edits not yet applied
   std::map<int, std::uint64_t> hash_after_;  // composition, by number of edits applied
   TopologyFold fold_;
 };

@@ -1,5 +1,7 @@
 #include "server/interest/grant_audience.h"
 
+#include <algorithm>
+
 namespace seam {
 namespace {
 
@@ -17,13 +19,25 @@ int OneFollower(const AuthorityRecord& record) {
 
 /// Starts from the current table: a client that joins is sent the whole table.
 void GrantAudience::Begin() {
-  if (!told_.empty()) return;
-  const AuthorityTable& table = replica_.authority();
-  const auto count = static_cast<std::size_t>(table.count());
-  for (int m = 0; m < table.count(); ++m) told_.push_back(table.at(m));
-  owed_.assign(count, PeerSet{});
-  any_pending_.assign(count, false);
-  merged_.assign(count, false);
+  if (!pending_) pending_.emplace(replica_);
+}
+
+/// Every peer edits its table alike, so after an edit the record is as sent. The epoch of a
+/// merged mechanism counts on from its parts' epochs: its authority must know it at once.
+GrantAudience::Pending::Pending(const Replica& replica)
+    : told(replica.table(),
+           [&replica](int m, const std::vector<const AuthorityRecord*>&) {
+             return replica.authority().at(m);
+           }),
+      owed(replica.table(), [](const PeerSet& before, PeerSet* into) { into->Add(before); }),
+      any(replica.table(),
+          [](const char& before, char* into) { *into = before != 0 ? before : *into; }),
+      merged(replica.table(), [this](int m, const std::vector<const char*>& before) -> char {
+        const auto set = [](const char* flag) { return *flag != 0; };
+        const bool is = before.size() > 1 || std::any_of(before.begin(), before.end(), set);
+        return any[m] != 0 && is ? 1 : 0;
+      }) {
+  for (int m = 0; m < told.size(); ++m) told[m] = replica.authority().at(m);
 }
 
 void GrantAudience::Take(const std::vector<Grants>& changes) {
@@ -37,7 +51,7 @@ void GrantAudience::Take(const std::vector<Grants>& changes) {
       change.mechanism = table.IndexOf(grants.mechanism[i]);
       if (change.mechanism < 0) continue;
       const AuthorityRecord& now = table.at(change.mechanism);
-      AuthorityRecord& told = told_[static_cast<std::size_t>(change.mechanism)];
+      AuthorityRecord& told = pending_->told[change.mechanism];
       change.before = told;
       if (grants.epoch[i] > now.epoch) {
         change.asked = now.authority;
@@ -67,7 +81,7 @@ bool GrantAudience::Concerns(int peer, const Change& change, const AuthorityReco
 std::vector<Grants> GrantAudience::For(int peer) {
   std::vector<Grants> out;
   for (const Change& change : changes_) {
-    const auto m = static_cast<std::size_t>(change.mechanism);
+    const int m = change.mechanism;
     const AuthorityRecord& now = replica_.authority().at(change.mechanism);
     if (change.asked > 0) {
       if (change.asked != peer) continue;
@@ -78,10 +92,10 @@ std::vector<Grants> GrantAudience::For(int peer) {
       Add(peer, change.mechanism, nobody, &out);
     } else if (Concerns(peer, change, now)) {
       Add(peer, change.mechanism, now, &out);
-      owed_[m].Remove(peer);
+      pending_->owed[m].Remove(peer);
     } else if (change.before.authority != now.authority || change.before.epoch != now.epoch) {
-      owed_[m].Add(peer);
-      any_pending_[m] = true;
+      pending_->owed[m].Add(peer);
+      pending_->any[m] = 1;
     }
   }
   return out;
@@ -89,55 +103,33 @@ std::vector<Grants> GrantAudience::For(int peer) {
 
 std::vector<Grants> GrantAudience::Owed(int peer, Which which) {
   std::vector<int> mechanisms;
-  for (std::size_t m = 0; m < owed_.size(); ++m) {
-    if (!any_pending_[m] || !owed_[m].Has(peer)) continue;
-    const auto mechanism = static_cast<int>(m);
+  if (!pending_) return {};
+  for (int m = 0; m < pending_->any.size(); ++m) {
+    if (pending_->any[m] == 0 || !pending_->owed[m].Has(peer)) continue;
     const Relevance least = which == Which::kAll   ? Relevance::kNone
                             : which == Which::kFar ? Relevance::kFar
                                                    : Relevance::kNear;
-    if (merged_[m] || interest_.Of(peer, mechanism) >= least) mechanisms.push_back(mechanism);
+    if (pending_->merged[m] != 0 || interest_.Of(peer, m) >= least) mechanisms.push_back(m);
   }
   return Owed(peer, mechanisms);
 }
 
 std::vector<Grants> GrantAudience::Owed(int peer, const std::vector<int>& mechanisms) {
   std::vector<Grants> out;
-  if (owed_.empty()) return out;
-  for (const int mechanism : mechanisms) {
-    const auto m = static_cast<std::size_t>(mechanism);
-    if (!any_pending_[m] || !owed_[m].Has(peer)) continue;
-    owed_[m].Remove(peer);
-    any_pending_[m] = !owed_[m].empty();
-    merged_[m] = merged_[m] && any_pending_[m];
-    Add(peer, mechanism, replica_.authority().at(mechanism), &out);
+  if (!pending_) return out;
+  for (const int m : mechanisms) {
+    PeerSet& owed = pending_->owed[m];
+    if (pending_->any[m] == 0 || !owed.Has(peer)) continue;
+    owed.Remove(peer);
+    if (owed.empty()) pending_->any[m] = pending_->merged[m] = 0;
+    Add(peer, m, replica_.authority().at(m), &out);
   }
   return out;
 }
 
 void GrantAudience::NoteTold(int peer) {
   Begin();
-  for (PeerSet& owed : owed_) owed.Remove(peer);
-}
-
-void GrantAudience::Remap(const std::vector<std::vector<int>>& from) {
-  if (told_.empty()) return;
-  std::vector<PeerSet> owed(from.size());
-  std::vector<bool> any_owed(from.size(), false), merged(from.size(), false);
-  for (std::size_t m = 0; m < from.size(); ++m) {
-    for (const int old : from[m]) {
-      const auto o = static_cast<std::size_t>(old);
-      owed[m].Add(owed_[o]);
-      any_owed[m] = any_owed[m] || any_pending_[o];
-      merged[m] = merged[m] || merged_[o];
-    }
-    merged[m] = any_owed[m] && (merged[m] || from[m].size() > 1);
-  }
-  owed_ = std::move(owed);
-  any_pending_ = std::move(any_owed);
-  merged_ = std::move(merged);
-  told_.clear();
-  const AuthorityTable& table = replica_.authority();
-  for (int m = 0; m < table.count(); ++m) told_.push_back(table.at(m));
+  for (PeerSet& owed : pending_->owed) owed.Remove(peer);
 }
 
 void GrantAudience::Add(int peer, int mechanism, const AuthorityRecord& record,

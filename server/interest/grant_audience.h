@@ -7,9 +7,11 @@
 /// epoch.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/sync/replica.h"
+#include "common/sync/table/mechanism_column.h"
 #include "server/interest/interest.h"
 
 namespace seam {
@@ -34,10 +36,6 @@ class GrantAudience {
   std::vector<Grants> Owed(int peer, const std::vector<int>& mechanisms);
   /// Clears all pending changes of a peer that was sent the whole table.
   void NoteTold(int peer);
-  /// Renumbers after an edit; see BodyRemap. The epoch of a merged mechanism counts on from its
-  /// parts' epochs: its authority must know it at once.
-  void Remap(const std::vector<std::vector<int>>& from);
-
   /// s for which a change is pending at most.
   static constexpr int kGrantPendingS = 2, kGrantPendingDistantS = 20;
 
@@ -54,15 +52,22 @@ class GrantAudience {
   void Add(int peer, int mechanism, const AuthorityRecord& record, std::vector<Grants>* to) const;
   bool Concerns(int peer, const Change& change, const AuthorityRecord& now) const;
   void Begin();
+  /// Per mechanism, from the first Take on. Changes of merged mechanisms are pending for all peers
+  /// to which one of a part is.
+  struct Pending {
+    explicit Pending(const Replica& replica);
+
+    MechanismColumn<AuthorityRecord> told;  // as last sent
+    MechanismColumn<PeerSet> owed;          // peers with a stale authority or epoch
+    MechanismColumn<char> any;              // 1: owed is not empty, or was not at the last Owed
+    MechanismColumn<char> merged;           // 1: merged by an edit, and pending since
+  };
 
   const Replica& replica_;
   const Interest& interest_;
   std::int64_t utime_ = 0;
   std::vector<Change> changes_;
-  std::vector<AuthorityRecord> told_;  // by mechanism: as last sent
-  std::vector<PeerSet> owed_;          // by mechanism: peers with a stale authority or epoch
-  std::vector<bool> any_pending_;      // by mechanism
-  std::vector<bool> merged_;           // by mechanism: merged by an edit, and pending since
+  std::optional<Pending> pending_;
 };
 
 }  // namespace seam

@@ -39,11 +39,17 @@ std::int32_t CellOf(float coordinate, float side) {
 }  // namespace
 
 Interest::Interest(const Scene& scene, const SyncConfig& config, const Replica& replica)
-    : scene_(scene), config_(config), replica_(replica) {
-  Remap();
+    : scene_(scene),
+      config_(config),
+      replica_(replica),
+      hearing_(replica.table(), MechanismRule::kScratch),
+      receivers_near_(replica.table(), MechanismRule::kScratch),
+      place_of_(replica.table(), BodyRule::kScratch),
+      edited_(replica.table(), [this](const BodyRemap&) { Start(); }) {
+  Start();
 }
 
-void Interest::Remap() {
+void Interest::Start() {
   relevance_.clear();
   const World& world = replica_.world();
   by_mechanism_.clear();
@@ -51,10 +57,8 @@ void Interest::Remap() {
     by_mechanism_.emplace_back(world.mechanism(body), body);
   }
   std::sort(by_mechanism_.begin(), by_mechanism_.end());
-  place_of_.resize(by_mechanism_.size());
-  for (std::size_t i = 0; i < by_mechanism_.size(); ++i) {
-    place_of_[static_cast<std::size_t>(by_mechanism_[i].second)] = static_cast<int>(i);
-  }
+  int place = 0;
+  for (const auto& [mechanism, body] : by_mechanism_) place_of_[body] = place++;
   all_moved_ = true;
   small_ = world.body_count() <= scene_.follow_bodies;
 }
@@ -99,7 +103,7 @@ void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cel
   cells->places.resize(count);
   for (const int body : moved_) {
     const Vec2 at = world.Read(body).position;
-    cells->places[static_cast<std::size_t>(place_of_[static_cast<std::size_t>(body)])] =
+    cells->places[static_cast<std::size_t>(place_of_[body])] =
         ShortKey(CellOf(at.x(), side), CellOf(at.y(), side));
   }
   order_.clear();
@@ -148,10 +152,10 @@ void Interest::Note(const Receiver& receiver, const int* begin, const int* end, 
     if (now >= to) continue;
     if (now == Relevance::kNone) {
       noted.push_back(*begin);
-      hearing_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
+      hearing_[*begin].push_back(receiver.peer);
     }
     if (now < Relevance::kNear && to >= Relevance::kNear) {
-      receivers_near_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
+      receivers_near_[*begin].push_back(receiver.peer);
     }
     now = to;
   }
@@ -202,9 +206,7 @@ void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
   looked_.assign(peers, 0);
   held_.resize(peers);
   for (std::vector<int>& held : held_) held.clear();
-  hearing_.resize(mechanisms);
   for (std::vector<int>& hearing : hearing_) hearing.clear();
-  receivers_near_.resize(mechanisms);
   for (std::vector<int>& hearing : receivers_near_) hearing.clear();
 }
 
@@ -230,7 +232,7 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
         static_cast<std::size_t>(replica_.authority().at(world.mechanism(body)).authority);
     if (holder > 0 && holder < peers) held_[holder].push_back(body);
   }
-  const bool central = config_.mode == Mode::kCentral;
+  const bool central = config_.policy->simulators() == Policy::Simulators::kNear;
   const float hear = scene_.planner->hear;
   FindMoved();
   FindCells(hear, receivers, &far_);

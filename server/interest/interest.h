@@ -8,6 +8,8 @@
 
 #include "common/base/sort_keys.h"
 #include "common/sync/replica.h"
+#include "common/sync/table/body_column.h"
+#include "common/sync/table/mechanism_column.h"
 
 namespace seam {
 
@@ -45,23 +47,16 @@ class Interest {
     if (m >= stride_ || p * stride_ >= relevance_.size()) return Relevance::kNear;
     return relevance_[p * stride_ + m];
   }
-  /// True if there was no Look since the start or the last Remap. In a large room Of then returns
-  /// kNear for everything, and ReceiversFar is not valid.
+  /// True if there was no Look since the start or the last edit that changed bodies. In a large
+  /// room Of then returns kNear for everything, and ReceiversFar is not valid.
   bool unknown() const { return relevance_.empty(); }
   /// Returns the receivers to which the mechanism is at least kFar, as of the last Look. Requires a
   /// large room.
-  const std::vector<int>& ReceiversFar(int mechanism) const {
-    return hearing_[static_cast<std::size_t>(mechanism)];
-  }
+  const std::vector<int>& ReceiversFar(int mechanism) const { return hearing_[mechanism]; }
   /// Returns the receivers to which the mechanism is at least kNear; else like ReceiversFar.
-  const std::vector<int>& ReceiversNear(int mechanism) const {
-    return receivers_near_[static_cast<std::size_t>(mechanism)];
-  }
+  const std::vector<int>& ReceiversNear(int mechanism) const { return receivers_near_[mechanism]; }
   /// True if everything is kClose to everyone.
   bool small() const { return small_; }
-  /// To be called when an edit has changed the mechanisms. In a large room everything is kNear
-  /// until the next Look.
-  void Remap();
 
   /// m.
   static constexpr float kNearReach = 30, kCloseReach = 24;
@@ -75,6 +70,8 @@ class Interest {
     std::vector<char> wanted;           // by slot, see FindCells
     std::vector<std::uint32_t> places;  // in the order of by_mechanism_: the body's cell
   };
+  /// Starts with the world's bodies.
+  void Start();
   /// Lists in moved_ the bodies that may have moved since the last Look.
   void FindMoved();
   /// Fills the cells near the receivers' bodies, and a few more because slots are shared.
@@ -101,18 +98,19 @@ class Interest {
   std::vector<Relevance> before_;                       // in the Look before
   std::vector<std::vector<int>> noted_, noted_before_;  // by peer: mechanisms of at least kFar
   std::vector<char> looked_, looked_before_;            // by peer: was a receiver
-  std::vector<std::vector<int>> hearing_;               // by mechanism: peers, at least kFar
-  std::vector<std::vector<int>> receivers_near_;        // by mechanism: peers, at least kNear
+  MechanismColumn<std::vector<int>> hearing_;           // peers, at least kFar
+  MechanismColumn<std::vector<int>> receivers_near_;    // peers, at least kNear
   std::vector<std::vector<int>> held_;           // by peer, in a Look: bodies it has authority over
   std::vector<int> receiver_bodies_;             // bodies of the current receiver
   std::vector<std::uint64_t> centres_, around_;  // cells of its bodies; these and their neighbours
   Cells far_, near_, close_;                     // in a Look
   std::vector<std::pair<int, int>> by_mechanism_;  // mechanism, body; ascending
-  std::vector<int> place_of_;                      // by body: its index in by_mechanism_
+  BodyColumn<int> place_of_;                       // its index in by_mechanism_
   std::vector<int> moved_;                         // in a Look: bodies, some twice
   std::uint64_t change_ = 0;                       // World::last_change at the last Look
   bool all_moved_ = true;                          // no cell is known
   std::vector<SortKey> order_, spare_;             // for FindCells
+  EditHook edited_;
 };
 
 }  // namespace seam

@@ -59,20 +59,17 @@ bool NewestStates::IsNews(const Body& body, const WireBody& told, const Reckonin
 const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, double repeat_s) {
   const std::size_t count = states.id.size();
   told_.assign(count, Told{});
-  together_.resize(world_.composition().mechanisms.size(), News::kNobody);
   const StatesHeader header = HeaderOf(states);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto id = static_cast<std::size_t>(states.id[i]);
-    if (bodies_.size() <= id) bodies_.resize(id + 1);
     Told& told = told_[i];
     told.body = world_.BodyOfId(states.id[i]);
     if (told.body < 0) continue;
     told.mechanism = world_.mechanism(told.body);
-    Body& body = bodies_[id];
+    Body& body = bodies_[told.body];
     body.header = header;
     body.heard = BodyAt(states, i);
     if (body.reach < 0) body.reach = ReachOf(world_, told.body);
-    News& news = together_[static_cast<std::size_t>(told.mechanism)];
+    News& news = together_[told.mechanism];
     if (IsNews(body, body.far, kFarReckoning, repeat_s)) {
       news = News::kAll;
     } else if (news == News::kNobody && IsNews(body, body.near, kNearReckoning, repeat_s)) {
@@ -82,23 +79,15 @@ const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, 
   for (std::size_t i = 0; i < count; ++i) {
     Told& told = told_[i];
     if (told.body < 0) continue;
-    Body& body = bodies_[static_cast<std::size_t>(states.id[i])];
-    told.news = together_[static_cast<std::size_t>(told.mechanism)];
+    Body& body = bodies_[told.body];
+    told.news = together_[told.mechanism];
     if (told.news >= News::kNear) body.near = body.heard;
     if (told.news == News::kAll) body.far = body.heard;
   }
   for (const Told& told : told_) {
-    if (told.body >= 0) together_[static_cast<std::size_t>(told.mechanism)] = News::kNobody;
+    if (told.body >= 0) together_[told.mechanism] = News::kNobody;
   }
   return told_;
-}
-
-void NewestStates::Remap(const std::vector<BodyOrigin>& bodies) {
-  for (std::size_t id = 0; id < bodies_.size(); ++id) {
-    const int body = world_.BodyOfId(static_cast<PartId>(id));
-    if (body < 0 || !bodies[static_cast<std::size_t>(body)].same) bodies_[id] = Body{};
-  }
-  together_.clear();
 }
 
 }  // namespace seam

@@ -10,7 +10,8 @@
 #include "common/codec/messages.h"
 #include "common/codec/wire_body.h"
 #include "common/physics/world.h"
-#include "common/topology/body_remap.h"
+#include "common/sync/table/body_column.h"
+#include "common/sync/table/mechanism_column.h"
 
 namespace seam {
 
@@ -36,10 +37,15 @@ constexpr double kStateRepeatS = 0.5, kStateRepeatSlowS = 2;
 constexpr double kStateRepeatSilentS = 0.25;
 constexpr float kRepeatSlow = 0.05f;
 
+/// An edit leaves only the states of unchanged bodies.
 class NewestStates {
  public:
-  /// `world` must outlive this object.
-  NewestStates(const World& world, int tick_hz) : world_(world), tick_hz_(tick_hz) {}
+  /// The world and the table of its bodies must outlive this object.
+  NewestStates(const World& world, const BodyTable& table, int tick_hz)
+      : world_(world),
+        tick_hz_(tick_hz),
+        bodies_(table, BodyRule::kSame),
+        together_(table, MechanismRule::kFresh, News::kNobody) {}
 
   /// An entry of a message: its body, and the receivers that need it.
   struct Told {
@@ -51,18 +57,13 @@ class NewestStates {
   /// `repeat_s`: s after which the state of a moving body is sent in any case.
   const std::vector<Told>& Take(const States& states, double repeat_s = kStateRepeatS);
   /// Returns the latest state of an assembly. Requires has(id).
-  const WireBody& at(PartId id) const { return bodies_[static_cast<std::size_t>(id)].heard; }
+  const WireBody& at(PartId id) const { return bodies_[world_.BodyOfId(id)].heard; }
   /// Returns the header of the message that it came in. Requires has(id).
-  const StatesHeader& header(PartId id) const {
-    return bodies_[static_cast<std::size_t>(id)].header;
-  }
+  const StatesHeader& header(PartId id) const { return bodies_[world_.BodyOfId(id)].header; }
   bool has(PartId id) const {
-    const auto i = static_cast<std::size_t>(id);
-    return i < bodies_.size() && bodies_[i].heard.tick >= 0;
+    const int body = world_.BodyOfId(id);
+    return body >= 0 && bodies_[body].heard.tick >= 0;
   }
-  /// Follows an edit: each body comes from the given one. A body that is not the same any more has
-  /// no state.
-  void Remap(const std::vector<BodyOrigin>& bodies);
 
  private:
   struct Body {
@@ -75,9 +76,9 @@ class NewestStates {
 
   const World& world_;
   const int tick_hz_;
-  std::vector<Body> bodies_;    // by part
-  std::vector<Told> told_;      // result of the last Take
-  std::vector<News> together_;  // by mechanism, in Take
+  BodyColumn<Body> bodies_;
+  std::vector<Told> told_;          // result of the last Take
+  MechanismColumn<News> together_;  // in Take
 };
 
 }  // namespace seam

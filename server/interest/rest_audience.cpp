@@ -25,13 +25,15 @@ void RestAudience::Take(const Rest& rest) {
 }
 
 void RestAudience::MarkPending(int peer, int mechanism) {
-  const auto m = static_cast<std::size_t>(mechanism);
-  if (m >= owed_.size()) owed_.resize(m + 1);
-  owed_[m].Add(peer);
+  if (!owed_) {
+    owed_.emplace(replica_.table(),
+                  [](const PeerSet& before, PeerSet* into) { into->Add(before); });
+  }
+  (*owed_)[mechanism].Add(peer);
 }
 
 bool RestAudience::IsPendingFor(int peer, const RestBlock& at) const {
-  if (owed_.empty()) return false;
+  if (!owed_) return false;
   const World& world = replica_.world();
   const int count = world.body_count();
   for (int body = at.begin(count); body < at.end(count); ++body) {
@@ -46,7 +48,7 @@ std::vector<Rest> RestAudience::Owed(int peer, const std::vector<int>& mechanism
   std::vector<int> bodies;
   for (const int mechanism : mechanisms) {
     if (!IsPendingFor(peer, mechanism)) continue;
-    owed_[static_cast<std::size_t>(mechanism)].Remove(peer);
+    (*owed_)[mechanism].Remove(peer);
     EachIdOf(world.composition(), mechanism, [&](PartId id) {
       const int body = world.BodyOfId(id);
       const bool told = body >= 0 && replica_.rest().record(body).committed;
@@ -63,19 +65,8 @@ std::vector<Rest> RestAudience::Owed(int peer, const std::vector<int>& mechanism
 }
 
 void RestAudience::NoteTold(int peer) {
-  for (PeerSet& owed : owed_) owed.Remove(peer);
-}
-
-void RestAudience::Remap(const std::vector<std::vector<int>>& from) {
-  if (owed_.empty()) return;
-  std::vector<PeerSet> owed(from.size());
-  for (std::size_t m = 0; m < from.size(); ++m) {
-    for (const int old : from[m]) {
-      const auto o = static_cast<std::size_t>(old);
-      if (o < owed_.size()) owed[m].Add(owed_[o]);
-    }
-  }
-  owed_ = std::move(owed);
+  if (!owed_) return;
+  for (PeerSet& owed : *owed_) owed.Remove(peer);
 }
 
 }  // namespace seam

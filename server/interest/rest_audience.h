@@ -4,11 +4,13 @@
 /// (Broadcast::RefreshDistant) or they come into interest.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "common/codec/messages.h"
 #include "common/sync/peer_set.h"
 #include "common/sync/replica.h"
+#include "common/sync/table/mechanism_column.h"
 #include "server/interest/pose_entry.h"
 
 namespace seam {
@@ -38,8 +40,7 @@ class RestAudience {
   /// True if a rest commit of the mechanism, or of a mechanism in the block, is pending for the
   /// peer.
   bool IsPendingFor(int peer, int mechanism) const {
-    const auto m = static_cast<std::size_t>(mechanism);
-    return m < owed_.size() && owed_[m].Has(peer);
+    return owed_ && (*owed_)[mechanism].Has(peer);
   }
   bool IsPendingFor(int peer, const RestBlock& at) const;
   /// Returns the pending commits of these mechanisms, for bodies that still rest, and clears them.
@@ -47,8 +48,6 @@ class RestAudience {
   std::vector<Rest> Owed(int peer, const std::vector<int>& mechanisms);
   /// Clears all pending commits of a peer that was sent everything at rest.
   void NoteTold(int peer);
-  /// Renumbers after an edit; see BodyRemap.
-  void Remap(const std::vector<std::vector<int>>& from);
 
  private:
   void MarkPending(int peer, int mechanism);
@@ -56,7 +55,7 @@ class RestAudience {
   const Replica& replica_;
   Rest rest_, head_;             // the last Take; its head without bodies
   std::vector<int> mechanisms_;  // by its entries; -1: the body is gone
-  std::vector<PeerSet> owed_;    // by mechanism: peers with a pending commit; beyond the end: none
+  std::optional<MechanismColumn<PeerSet>> owed_;  // peers with a pending commit
 };
 
 }  // namespace seam

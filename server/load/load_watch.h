@@ -43,7 +43,7 @@ class LoadWatch {
   std::int64_t told_us_ = 0;
   std::int64_t hand_overs_ = 0;
   int revision_ = -1;         // edits applied when holders_ was read
-  std::vector<int> holders_;  // by mechanism, at the last call
+  std::vector<int> holders_;  // rebuilt for each revision, by mechanism: at the last call
 };
 
 }  // namespace seam

@@ -2,28 +2,27 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "common/scene/persist_state.h"
 
 namespace seam {
 
 void StateTrail::Add(int body, std::int64_t tick, const BodyState& state) {
-  Trail& trail = trails_[static_cast<std::size_t>(body)];
+  Trail& trail = trails_[body];
   if (!trail.empty() && tick <= trail.back().tick) return;
   trail.push_back({tick, state});
   if (trail.size() > kKept) trail.pop_front();
 }
 
 const StateTrail::Seen* StateTrail::Newest(int body) const {
-  const Trail& trail = trails_[static_cast<std::size_t>(body)];
+  const Trail& trail = trails_[body];
   return trail.empty() ? nullptr : &trail.back();
 }
 
 std::vector<StateTrail::Seen> StateTrail::Between(int body, std::int64_t from,
                                                   std::int64_t to) const {
   std::vector<Seen> found;
-  for (const Seen& seen : trails_[static_cast<std::size_t>(body)]) {
+  for (const Seen& seen : trails_[body]) {
     if (seen.tick > to) break;
     if (seen.tick < from) found.clear();
     found.push_back(seen);
@@ -42,7 +41,7 @@ std::int64_t StateTrail::FirstOf(const Trail& trail, std::size_t i) const {
 
 std::vector<std::int64_t> StateTrail::NewTicks() const {
   std::set<std::int64_t> ticks;
-  for (std::size_t b = 0; b < trails_.size(); ++b) {
+  for (int b = 0; b < trails_.size(); ++b) {
     const Trail& trail = trails_[b];
     for (std::size_t i = trail.size(); i-- > 0 && trail[i].tick > looked_[b];) {
       const std::int64_t first = std::max(FirstOf(trail, i), looked_[b] + 1);
@@ -53,9 +52,8 @@ std::vector<std::int64_t> StateTrail::NewTicks() const {
 }
 
 std::optional<BodyState> StateTrail::At(int body, std::int64_t tick) const {
-  const auto b = static_cast<std::size_t>(body);
-  const Trail& trail = trails_[b];
-  const std::int64_t at = std::max(tick, looked_[b]);
+  const Trail& trail = trails_[body];
+  const std::int64_t at = std::max(tick, looked_[body]);
   std::size_t next = trail.size();  // the first state after `at`
   while (next > 0 && trail[next - 1].tick > at) --next;
   if (next == 0) return std::nullopt;
@@ -69,29 +67,16 @@ std::optional<BodyState> StateTrail::At(int body, std::int64_t tick) const {
 }
 
 std::int64_t StateTrail::TickOf(int body, std::int64_t tick) const {
-  const auto b = static_cast<std::size_t>(body);
-  const Trail& trail = trails_[b];
-  const std::int64_t at = std::max(tick, looked_[b]);
+  const Trail& trail = trails_[body];
+  const std::int64_t at = std::max(tick, looked_[body]);
   if (trail.empty() || trail.front().tick > at) return -1;
   return std::min(at, trail.back().tick);
 }
 
 void StateTrail::MarkProcessed() {
-  for (std::size_t b = 0; b < trails_.size(); ++b) {
+  for (int b = 0; b < trails_.size(); ++b) {
     if (!trails_[b].empty()) looked_[b] = trails_[b].back().tick;
   }
-}
-
-void StateTrail::Remap(const std::vector<BodyOrigin>& bodies) {
-  std::vector<Trail> trails;
-  std::vector<std::int64_t> looked;
-  for (const BodyOrigin& origin : bodies) {
-    trails.emplace_back();
-    looked.push_back(origin.same ? looked_[static_cast<std::size_t>(origin.body)] : -1);
-    if (origin.same) trails.back() = std::move(trails_[static_cast<std::size_t>(origin.body)]);
-  }
-  trails_ = std::move(trails);
-  looked_ = std::move(looked);
 }
 
 void StateTrail::Persist(StateArchive& a) {

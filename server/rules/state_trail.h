@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "common/scene/types.h"
-#include "common/topology/body_remap.h"
+#include "common/sync/table/body_column.h"
 
 namespace seam {
 
 class StateArchive;
 
+/// After an edit only unchanged bodies have a past.
 class StateTrail {
  public:
   struct Seen {
@@ -24,9 +25,8 @@ class StateTrail {
   /// Saves the newest state of each body.
   void Persist(StateArchive& a);
 
-  explicit StateTrail(int body_count)
-      : trails_(static_cast<std::size_t>(body_count)),
-        looked_(static_cast<std::size_t>(body_count), -1) {}
+  explicit StateTrail(const BodyTable& table)
+      : trails_(table, BodyRule::kSame), looked_(table, BodyRule::kSame, -1) {}
 
   /// Adds a state if it is newer than the body's newest.
   void Add(int body, std::int64_t tick, const BodyState& state);
@@ -46,8 +46,6 @@ class StateTrail {
   std::int64_t TickOf(int body, std::int64_t tick) const;
   /// Marks all states as processed.
   void MarkProcessed();
-  /// Renumbers after the bodies have changed; a body that is no longer the same loses its past.
-  void Remap(const std::vector<BodyOrigin>& bodies);
 
   static constexpr std::size_t kKept = 128;  ///< states: two seconds of every tick
   /// Longest gap between two states that is interpolated, ticks; after a longer silence only the
@@ -62,8 +60,8 @@ class StateTrail {
   /// Returns the first tick that state `i` makes known, given the state before it.
   std::int64_t FirstOf(const Trail& trail, std::size_t i) const;
 
-  std::vector<Trail> trails_;         // by body, ascending by tick
-  std::vector<std::int64_t> looked_;  // by body: last processed tick, -1: none
+  BodyColumn<Trail> trails_;         // ascending by tick
+  BodyColumn<std::int64_t> looked_;  // last processed tick, -1: none
 };
 
 }  // namespace seam

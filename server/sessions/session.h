@@ -8,7 +8,7 @@
 #include "common/codec/packed/states_packer.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
-#include "common/sync/input_feed.h"
+#include "common/sync/inputs/input_feed.h"
 #include "common/sync/rest/rest_blocks.h"
 #include "server/interest/send_queue.h"
 #include "server/sessions/account_book.h"

@@ -24,7 +24,7 @@ std::vector<HandOverSeen> HandOvers(const ClusterConfig& config) {
 }
 
 TEST(ExactHandOver, TheSuccessorBeginsAtTheHoldersLastState) {
-  for (const char* rule : {"retrospect", "resimulate"}) {
+  for (const char* rule : {"retrospect", "rollback"}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       ClusterConfig config;
       config.scene = "relay";

@@ -116,7 +116,7 @@ TEST_F(HostileProposals, AProposalOfABrokenJointDoesNotBreakTheOneInItsPlace) {
     for (const EditOrder& order : log.OrderPending(0).orders) {
       ASSERT_TRUE(replica.Queue(order));
       replica.ApplyNextEdit();
-      log.NoteApplied();
+      log.NoteApplied(ToEdit(order), 0);
     }
   };
   const BondEdit group{1, 2, {1.5f, 0}, 0, 0, BondCause::kGroup};

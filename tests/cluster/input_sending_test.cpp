@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 #include "server/interest/send_queue.h"
 #include "tests/lab/cluster.h"
 

@@ -113,7 +113,7 @@ TEST(MechanismViews, JointsAreNoFurtherOpenThanInTheOracle) {
     const char* impair;
     double allowed_m;
   };
-  for (const Method& method : {Method{"buffer", "retrospect"}, Method{"buffer", "resimulate"},
+  for (const Method& method : {Method{"buffer", "retrospect"}, Method{"buffer", "rollback"},
                                Method{"central", ""}, Method{"strict", ""}}) {
     // If its crash differs from the oracle's, a copy's own engine opens the doll's joints: strict
     // knows nothing of the others, and central replays late inputs.

@@ -125,7 +125,7 @@ TEST(PressedCrate, IsDestroyedBetweenTwoAuthoritiesOnlyIfTheOracleDestroysIt) {
   oracle.Run();
   ASSERT_GT(Health(oracle, kCrate), 0) << "the oracle's crate must live";
   for (const char* impair : {"demo", "delay=200ms"}) {
-    for (const char* rule : {"retrospect", "resimulate"}) {
+    for (const char* rule : {"retrospect", "rollback"}) {
       for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
         ClusterConfig config = With(kPress, impair, seed);
         config.reconcile = rule;

@@ -56,7 +56,7 @@ struct Bound {
   const char* rule;
   double crossing, cradle;
 };
-constexpr Bound kBounds[] = {{"resimulate", 0.25, 1e-3}, {"spring", 0.4, 0.1}, {"pvb", 0.13, 0.13}};
+constexpr Bound kBounds[] = {{"rollback", 0.25, 1e-3}, {"spring", 0.4, 0.1}};
 
 TEST(RuleSessions, EachRuleIsBelowItsBoundAndBetterThanSnap) {
   const double snap_crossing = ErrorOf("crossing", "snap"), snap_cradle = ErrorOf("cradle", "snap");
@@ -75,7 +75,7 @@ TEST(RuleSessions, EachRuleIsBelowItsBoundAndBetterThanSnap) {
 TEST(RuleSessions, AReplayDoesNotPutAStruckBodyToRest) {
   ClusterConfig config;
   config.scene = "cradle";
-  config.reconcile = "resimulate";
+  config.reconcile = "rollback";
   config.impair = "delay=300ms";
   const Recording recording = RunCluster(config);
   const Measures m = Measure(recording, ComputeOracle(recording));
@@ -103,17 +103,17 @@ TEST(RuleSessions, TheSameSeedGivesTheSameBytes) {
   }
 }
 
-TEST(RuleSessions, ResimulateHasPeersNearerToEachOtherThanRetrospectInTheCrash) {
+TEST(RuleSessions, RollbackHasPeersNearerToEachOtherThanRetrospectInTheCrash) {
   const auto seam = [](const char* rule) {
     const Recording recording = RunCluster(With("wall", rule));
     return Measure(recording, ComputeOracle(recording)).seam_rms_m;
   };
-  ASSERT_TRUE(seam("resimulate").has_value());
-  EXPECT_LT(*seam("resimulate"), *seam("retrospect"));
+  ASSERT_TRUE(seam("rollback").has_value());
+  EXPECT_LT(*seam("rollback"), *seam("retrospect"));
 }
 
-TEST(RuleSessions, TheStackStandsUnderResimulateAndSpring) {
-  for (const char* rule : {"resimulate", "spring"}) {
+TEST(RuleSessions, TheStackStandsUnderRollbackAndSpring) {
+  for (const char* rule : {"rollback", "spring"}) {
     ClusterConfig config = With("stack", rule);
     config.impair = "oneway100";
     config.duration_s = 30;

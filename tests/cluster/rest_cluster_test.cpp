@@ -113,8 +113,6 @@ TEST_P(RestCluster, TwelveBoxesOnTheSeamLieTheSameEverywhere) {
 }
 
 TEST_P(RestCluster, FortyEightBoxesOfTwoOwnersLieTheSameEverywhere) {
-  // docs/metrics.md, rest: the one rule that does not hold it. Its pulls keep the pile awake.
-  if (std::string(GetParam().reconcile) == "pvb") GTEST_SKIP() << "seed 2 is awake after 60 s";
   ExpectRest(GetParam(), 48, Seeds(2, 50), 60);
 }
 
@@ -133,8 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, RestCluster,
                                            Method{"buffer", "snap"}, Method{"buffer", "interleave"},
                                            Method{"buffer", "compensated"},
                                            Method{"buffer", "fade"}, Method{"buffer", "retrospect"},
-                                           Method{"buffer", "resimulate"},
-                                           Method{"buffer", "rollback"}, Method{"buffer", "pvb"},
+                                           Method{"buffer", "rollback"},
                                            Method{"buffer", "spring"}),
                          [](const auto& method) { return Name(method.param); });
 

@@ -269,7 +269,7 @@ health = 20
 }
 
 void ExpectDead(const std::string& kind, std::size_t mechanisms) {
-  for (const char* rule : {"retrospect", "resimulate"}) {
+  for (const char* rule : {"retrospect", "rollback"}) {
     ClusterConfig config = With(Hero(kind), "buffer", "4g");
     config.reconcile = rule;
     Cluster cluster(config);

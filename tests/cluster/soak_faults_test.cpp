@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/lab/jobs.h"
+#include "tests/lab/experiment/jobs.h"
 #include "tests/support/soak.h"
 #include "tests/support/soak/fault_trace.h"
 #include "tests/support/soak/invariants.h"

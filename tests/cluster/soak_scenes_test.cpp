@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/lab/jobs.h"
+#include "tests/lab/experiment/jobs.h"
 #include "tests/support/authority_watch.h"
 #include "tests/support/physics_drift.h"
 #include "tests/support/soak.h"

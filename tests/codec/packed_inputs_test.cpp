@@ -8,7 +8,7 @@
 #include "common/base/random.h"
 #include "common/codec/codec.h"
 #include "common/codec/validate.h"
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 #include "tests/support/soak.h"
 
 namespace seam {

@@ -1,11 +1,13 @@
 #pragma once
-/// The commands of seam-lab. Each returns the program's exit status. Throws OperatorError, with
-/// nothing written, for mistakes that the operator can correct.
+/// The commands of seam-lab, without those of probes (tests/lab/experiment/probes.h). Each returns
+/// the program's exit status. Throws OperatorError, with nothing written, for mistakes that the
+/// operator can correct.
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/lab/experiment/experiment.h"
 #include "tests/lab/session.h"
 
 namespace seam {
@@ -45,11 +47,8 @@ struct DivergenceCommand {
 int FirstDivergence(const DivergenceCommand& command);
 
 struct SweepCommand {
-  std::string file;    ///< sweep file: parameters to vary (docs/lab.md)
-  std::string table;   ///< CSV file to write or complete
-  int jobs = 0;        ///< runs at a time; 0: as many as there are cores
-  bool force = false;  ///< begin the table anew
-  bool quiet = false;  ///< no progress line
+  std::string file;  ///< sweep file: parameters to vary (docs/lab.md)
+  TableFlags output;
 };
 
 /// Runs every combination that the table does not have yet. 1: some runs failed (and left no row),
@@ -61,13 +60,9 @@ struct PhysicsCommand {
   double seconds = 0;               ///< of those; 0: each scene's duration, 60 at most
   std::vector<std::string> cases;   ///< names of hard cases; empty: all, if there are no scenes
   std::string grid = "report";      ///< quick | report | full
-  /// CSV file to write or complete. Empty, which needs scenes: out/physics/NAMES/physics.csv, and
-  /// the plots beside it.
-  std::string table;
   std::string folder = "scenes/hard";
-  int jobs = 0;        ///< runs at a time; 0: as many as there are cores
-  bool force = false;  ///< begin the table anew
-  bool quiet = false;  ///< no progress line
+  /// An empty table, which needs scenes: out/physics/NAMES/physics.csv, and the plots beside it.
+  TableFlags output;
 };
 
 /// Runs the hard cases, or the scenes, with the stock setting, their own, and others; prints a
@@ -102,9 +97,8 @@ struct OverheadCommand {
   std::vector<std::string> scenes = {
       "scenes/wall.toml",   "scenes/stack.toml",           "scenes/crossing.toml",
       "scenes/cradle.toml", "scenes/hard/pyramid-20.toml", "scenes/hard/thousand.toml"};
-  std::string table;  ///< CSV file to write or complete; empty: none
   int repeats = 5;
-  bool force = false;  ///< begin the table anew
+  TableFlags output;  ///< one job; an empty table: none
 };
 
 /// Prints the cost of World::Step beside the engine alone. 1: they end differently, or a signal.
@@ -121,70 +115,6 @@ int RunWorld(const BenchCommand& command);
 /// Prints the load that distribution takes off the server, and its cost, beside their bars. 1: a
 /// signal came.
 int RunRelief(const BenchCommand& command);
-
-struct FairnessCommand {
-  std::string scene = "headon";                     ///< two players with a vehicle each, mirrored
-  std::vector<std::string> methods;                 ///< "strict", "buffer/fade"; empty: all
-  std::string near_path = "delay=20ms,jitter=5ms";  ///< network of the near player, either way
-  std::string far_path = "delay=120ms,jitter=5ms";
-  int seeds = 8;       ///< from 1; each with both assignments
-  std::string table;   ///< CSV file to write or complete
-  int jobs = 0;        ///< runs at a time; 0: as many as there are cores
-  bool force = false;  ///< begin the table anew
-  bool quiet = false;  ///< no progress line
-};
-
-/// Runs a mirrored crash with either player near the server, and prints each one's share of the
-/// momentum. 1: some runs failed, more than a tenth of the rows are not valid, or a signal came.
-int RunFairnessTable(const FairnessCommand& command);
-
-struct TitlesCommand {
-  std::vector<std::string> scenes;             ///< names; empty: all that have a sentence
-  std::vector<std::string> networks = {"4g"};  ///< of --impair
-  int seeds = 10;                              ///< from 1
-  std::string table;                           ///< CSV file to write or complete
-  int jobs = 0;                                ///< runs at a time; 0: one a core
-  bool force = false;                          ///< begin the table anew
-  bool quiet = false;                          ///< no progress line
-};
-
-/// Plays scenes and prints for each in how many sessions its title came true. 1: some runs failed
-/// (and left no row), or a signal came.
-int RunTitles(const TitlesCommand& command);
-
-struct LoadCommand {
-  std::vector<std::string> scenes;  ///< files or names
-  std::vector<std::string> methods = {"buffer", "central/all"};
-  std::string network = "demo";  ///< of --impair
-  std::string drive = "script";  ///< script | bot
-  double seconds = 0;            ///< after tick 0; 0: the scene's own
-  int seeds = 1;                 ///< from 1
-  std::string table;             ///< CSV file to write or complete
-  int jobs = 1;                  ///< runs at a time: more disturb each other's CPU times
-  bool force = false;            ///< begin the table anew
-  bool quiet = false;            ///< no progress line
-};
-
-/// Tabulates the cost of sessions for the server and a client. 1: some runs failed (and left no
-/// row), or a signal came.
-int RunLoad(const LoadCommand& command);
-
-struct HandOverCommand {
-  std::vector<std::string> scenes;  ///< files or names
-  int players = 0;                  ///< the first so many of the scene's join; 0: all
-  std::string network = "demo";     ///< of --impair
-  std::string drive = "script";     ///< script | bot
-  double seconds = 0;               ///< after tick 0; 0: the scene's own
-  int seeds = 1;                    ///< from 1
-  std::string table;                ///< CSV file to write or complete
-  int jobs = 1;                     ///< runs at a time
-  bool force = false;               ///< begin the table anew
-  bool quiet = false;               ///< no progress line
-};
-
-/// Tabulates the latency of changes of authority in mode buffer, their visible jumps, and the bytes
-/// of their grants. 1: some runs failed (and left no row), or a signal came.
-int RunHandOver(const HandOverCommand& command);
 
 struct ReportCommand {
   std::string data = "out/report/data";     ///< folder of the tables

@@ -6,22 +6,12 @@
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
-#include "common/measure/table.h"
 #include "common/sync/method.h"
 #include "tests/lab/scene_settings.h"
 #include "tests/lab/sweep_file.h"
 
 namespace seam {
 namespace {
-
-std::string Key(const GridPoint& point) {
-  const SessionSettings& s = point.settings;
-  const std::string& text = point.scene->text;
-  return fmt::format("{},{},{:016x},{},{},{},{},{},{},{},{},{}", kLabVersion, CsvField(s.scene),
-                     Fnv1a(text.data(), text.size()), CsvField(JoinSettings(s.set)), s.mode,
-                     VariantOf(MethodNames{s.mode, s.reconcile, s.predict}), CsvField(s.impair),
-                     s.send_hz, s.drive, s.smooth, s.duration_s, s.seed);
-}
 
 /// The names in "buffer/fade", "central/own" or "strict", in full.
 void SetMethod(const std::string& method, SessionSettings* settings) {
@@ -46,7 +36,7 @@ void AddPoints(const SweepFile& file, GridPoint point, std::vector<GridPoint>* p
           Configure(s, *point.scene);  // throws what is wrong with it
           for (const std::int64_t seed : file.seeds) {
             s.seed = seed;
-            point.key = Key(point);
+            point.key = CsvRow(GridKey(point));
             points->push_back(point);
           }
         }
@@ -57,24 +47,39 @@ void AddPoints(const SweepFile& file, GridPoint point, std::vector<GridPoint>* p
 
 }  // namespace
 
-std::string GridHeader() {
-  return "version,scene,scene_hash,set,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed";
+Values GridKey(const GridPoint& point) {
+  const SessionSettings& s = point.settings;
+  const std::string& text = point.scene->text;
+  return {{"version", kLabVersion},
+          {"scene", s.scene},
+          {"scene_hash", fmt::format("{:016x}", Fnv1a(text.data(), text.size()))},
+          {"set", JoinSettings(s.set)},
+          {"mode", s.mode},
+          {"reconcile", VariantOf(MethodNames{s.mode, s.reconcile, s.predict})},
+          {"impair", s.impair},
+          Count("send_hz", s.send_hz),
+          {"drive", s.drive},
+          {"smooth", s.smooth},
+          {"duration_s", fmt::format("{}", s.duration_s)},
+          Count("seed", s.seed)};
 }
 
-std::string PointHeader() {
-  return "one_way_ms,jitter_ms,loss_percent,tick_hz,substeps,velocity_iterations,"
-         "position_iterations,skin_m,buffer_m,input_delay_ticks";
-}
-
-std::string PointValues(const GridPoint& point) {
+Values PointValues(const GridPoint& point) {
   const ImpairProfile net = FindProfile(point.settings.impair);
   const Solver& solver = point.scene->solver;
-  return fmt::format(
-      ",{:g},{:g},{:g},{},{},{},{},{},{:g},{}", static_cast<double>(net.delay_us) * 1e-3,
-      static_cast<double>(net.jitter_mean_us) * 1e-3, 100 * MeanLoss(net), solver.tick_hz,
-      solver.substeps, solver.velocity_iterations, solver.position_iterations,
-      solver.skin > 0 ? fmt::format("{:g}", solver.skin) : "", point.scene->buffer_m,
-      point.scene->input_delay_ticks);
+  const auto number = [](const char* column, double value) {
+    return Value{column, fmt::format("{:g}", value)};
+  };
+  return {number("one_way_ms", static_cast<double>(net.delay_us) * 1e-3),
+          number("jitter_ms", static_cast<double>(net.jitter_mean_us) * 1e-3),
+          number("loss_percent", 100 * MeanLoss(net)),
+          Count("tick_hz", solver.tick_hz),
+          Count("substeps", solver.substeps),
+          Count("velocity_iterations", solver.velocity_iterations),
+          Count("position_iterations", solver.position_iterations),
+          {"skin_m", solver.skin > 0 ? fmt::format("{:g}", solver.skin) : ""},
+          number("buffer_m", point.scene->buffer_m),
+          Count("input_delay_ticks", point.scene->input_delay_ticks)};
 }
 
 Grid ReadGrid(const std::string& path) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/report/hurry_section.h"
 
@@ -142,7 +142,7 @@ TEST(Cases, ASceneSettingMakesACaseOfItsOwn) {
       "scene,drive,impair,reconcile,error_others_m\ncrossing,bot,demo,fade,0.4\n", "b.csv")};
   const TextTable changes = ChangeTable(FindCases(tables), &before);
   ASSERT_EQ(changes.rows.size(), 1u);
-  EXPECT_EQ(changes.rows[0], (std::vector<std::string>{"crossing, bots", "0.4", "–", "–", "–", "–",
+  EXPECT_EQ(changes.rows[0], (std::vector<std::string>{"crossing, bots", "0.4", "–", "–", "–",
                                                        "0.2", "0.05", "–", "0.07"}));
 }
 

@@ -151,6 +151,8 @@ TEST(FirstDivergence, TheProgramPrintsThePlaceAndTheAmount) {
   EXPECT_NE(said.find(" and 0.5 m, which differ by "), std::string::npos) << said;
   EXPECT_EQ(run({files / "b.lcm", "--peer", "2"}, 0).rfind("equal: ", 0), 0u);
   EXPECT_EQ(run({files / "b.lcm", "--peer", "9"}, 2), "seam-lab: no views to compare of peer 9\n");
+  EXPECT_EQ(run({files / "b.lcm", "--peer", "40"}, 2),
+            "seam-lab: no views to compare of peer 40\n");
   run({files / "none.lcm"}, 2);
   run({}, 2);
   command.settings.scene = "scenes/cradle.toml";

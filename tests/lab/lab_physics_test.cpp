@@ -7,15 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "common/base/check.h"
+#include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/physics_row.h"
-#include "tests/lab/report/csv_table.h"
-#include "tests/lab/sweep_table.h"
 #include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
@@ -196,11 +196,14 @@ TEST(CompareCost, IsOneForTheSameSettingAndGrowsWithTheSubsteps) {
   EXPECT_NEAR(cost.us_per_s / cost.stock_us_per_s / cost.ratio, 1, 0.3);
 }
 
-/// Without the columns cpu_us_per_s, stock_cpu_us_per_s and cost_ratio.
-std::vector<std::string> WithoutCpu(const std::string& line) {
-  std::vector<std::string> fields = CsvFields(line);
-  fields.erase(fields.begin() + 23, fields.begin() + 26);
-  return fields;
+/// The texts by column, without cpu_us_per_s, stock_cpu_us_per_s and cost_ratio.
+std::map<std::string, std::string> WithoutCpu(const Values& values) {
+  std::map<std::string, std::string> texts;
+  for (const Value& value : values) texts[value.column] = value.text;
+  for (const char* cpu : {"cpu_us_per_s", "stock_cpu_us_per_s", "cost_ratio"}) {
+    EXPECT_EQ(texts.erase(cpu), 1u) << cpu;
+  }
+  return texts;
 }
 
 TEST(PhysicsRow, DependsOnThePointAloneExceptForCpu) {
@@ -208,32 +211,25 @@ TEST(PhysicsRow, DependsOnThePointAloneExceptForCpu) {
   PhysicsPoint point{&hard, "grid",
                      SceneOf(std::string(kGround) + kBall + "velocity = [2, 0]\n",
                              "substeps = 2\nskin = 0.0025\nwarm_starting = false")};
-  const std::vector<std::string> names = CsvFields(PhysicsHeader());
-  const std::string row = PhysicsRow(point, nullptr);
-  EXPECT_EQ(row.rfind(PhysicsKey(point) + ",", 0), 0u);
-  EXPECT_EQ(CsvFields(PhysicsKey(point)).size(), static_cast<std::size_t>(kPhysicsKeyColumns));
-  EXPECT_EQ(names[kPhysicsKeyColumns - 1], "seconds");
-  EXPECT_EQ(names[23], "cpu_us_per_s");
-  EXPECT_EQ(names[25], "cost_ratio");
-  const std::vector<std::string> fields = CsvFields(row);
-  ASSERT_EQ(fields.size(), names.size());
-  EXPECT_EQ(CsvFields(CrashedRow(point, "crashed: Aborted")).size(), names.size());
-  EXPECT_EQ(CsvFields(CrashedRow(point, "crashed: Aborted"))[16], "inf");
-  const std::vector<std::string> key(fields.begin() + 1, fields.begin() + 16);
-  EXPECT_EQ(key, (std::vector<std::string>{"made-up", "invariant", "m", "grid", "60", "2", "8", "3",
-                                           "off", "0.0025", "on", "body", "auto", "2", "1"}));
-  EXPECT_NEAR(std::stod(fields[16]), 2, 1e-3);
-  EXPECT_EQ(fields[17], "left, \"far\"");
-  EXPECT_EQ(WithoutCpu(PhysicsRow(point, nullptr)), WithoutCpu(row));
+  const Values key = PhysicsKey(point), row = PhysicsValues(point, nullptr);
+  EXPECT_EQ(CsvColumns(key), PhysicsKeyColumns());
+  EXPECT_EQ(CsvColumns(row), PhysicsValueColumns());
+  EXPECT_EQ(CsvColumns(CrashedValues("crashed: Aborted")), PhysicsValueColumns());
+  EXPECT_EQ(CsvRow(CrashedValues("crashed: Aborted")), "inf,crashed: Aborted,,,,,,,,,,");
+  EXPECT_EQ(CsvRow(Values(key.begin() + 1, key.end())),
+            "made-up,invariant,m,grid,60,2,8,3,off,0.0025,on,body,auto,2,1");
+  std::map<std::string, std::string> texts = WithoutCpu(row);
+  EXPECT_NEAR(std::stod(texts["error"]), 2, 1e-3);
+  EXPECT_EQ(texts["failure"], "left, \"far\"");
+  EXPECT_EQ(WithoutCpu(PhysicsValues(point, nullptr)), texts);
   const Reference reference = MakeReference(point.scene, 1);
-  EXPECT_EQ(names[26], "reference_change");
-  EXPECT_NE(CsvFields(PhysicsRow(point, &reference))[26], "");
-  EXPECT_EQ(names.back(), "valid");
-  EXPECT_EQ(CsvFields(PhysicsRow(point, &reference)).back(), "");
+  texts = WithoutCpu(PhysicsValues(point, &reference));
+  EXPECT_NE(texts["reference_change"], "");
+  EXPECT_EQ(texts["valid"], "");
   hard.truth = Truth::kConverged;
-  const std::vector<std::string> unknown = CsvFields(PhysicsRow(point, nullptr));
-  EXPECT_EQ(unknown.back(), "no converged run");
-  EXPECT_EQ(unknown[16], "");
+  texts = WithoutCpu(PhysicsValues(point, nullptr));
+  EXPECT_EQ(texts["valid"], "no converged run");
+  EXPECT_EQ(texts["error"], "");
 }
 
 TEST(PhysicsPlan, SpendsACasesBudgetOnAwakeBodies) {
@@ -276,10 +272,16 @@ std::string RunLab(const std::vector<std::string>& words, int status) {
   return lab.output();
 }
 
-std::vector<std::vector<std::string>> RowsWithoutCpu(const std::string& table) {
-  std::istringstream in(table);
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(in, line);) rows.push_back(WithoutCpu(line));
+std::vector<std::map<std::string, std::string>> RowsWithoutCpu(const std::string& table) {
+  const CsvTable csv = CsvTable::Parse(table, "physics.csv");
+  std::vector<std::map<std::string, std::string>> rows;
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    Values values;
+    for (const std::string& column : csv.header()) {
+      values.push_back({column, csv.Text(row, column)});
+    }
+    rows.push_back(WithoutCpu(values));
+  }
   return rows;
 }
 
@@ -293,13 +295,13 @@ TEST(LabPhysics, AKilledRunResumesToTheSameTableExceptForCpu) {
   const std::string said = RunLab(words("whole.csv"), 0);
   EXPECT_NE(said.find("tower-10 "), std::string::npos) << said;
   const auto whole = RowsWithoutCpu(files.Read("whole.csv"));
-  const std::size_t rows = whole.size() - 1;
+  const std::size_t rows = whole.size();
   ASSERT_GE(rows, 8u);  // how many depends on which settings of the grid are the scene's own
   const std::string all = fmt::format("{} of {} rows, {} of them new", rows, rows, rows);
   EXPECT_NE(said.find(all), std::string::npos) << said;
-  EXPECT_EQ(whole[1][4], "stock");
-  EXPECT_EQ(whole[2][4], "scene");
-  EXPECT_EQ(whole[3][4], "grid");
+  EXPECT_EQ(whole[0].at("role"), "stock");
+  EXPECT_EQ(whole[1].at("role"), "scene");
+  EXPECT_EQ(whole[2].at("role"), "grid");
   ChildProcess lab(words("t.csv"));
   for (int i = 0; i < 5000; ++i) {  // until some rows are there
     const std::string text = files.Read("t.csv");

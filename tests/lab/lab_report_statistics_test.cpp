@@ -8,7 +8,7 @@
 
 #include "common/base/check.h"
 #include "common/measure/table.h"
-#include "tests/lab/report/csv_table.h"
+#include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/report/figure.h"
 #include "tests/lab/report/statistics.h"
 #include "tests/lab/report/text_table.h"

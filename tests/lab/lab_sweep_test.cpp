@@ -11,9 +11,7 @@
 #include "common/base/check.h"
 #include "common/measure/measure.h"
 #include "tests/lab/grid.h"
-#include "tests/lab/jobs.h"
 #include "tests/lab/sweep_row.h"
-#include "tests/lab/sweep_table.h"
 #include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
@@ -23,131 +21,6 @@ namespace lab_sweep_test {
 Grid GridOf(const LabWorkspace& files, const std::string& text) {
   files.Write("sweep.toml", text);
   return ReadGrid(files / "sweep.toml");
-}
-
-const char* const kHeader = "name,size,value";
-const std::vector<std::string> kKeys = {"\"a,1\",1", "\"a \"\"2\"\"\",2", "b,3", "c,4"};
-
-std::string LineOf(std::size_t row) { return kKeys[row] + "," + std::to_string(row * 11); }
-
-std::string WholeTable() {
-  std::string text = std::string(kHeader) + "\n";
-  for (std::size_t i = 0; i < kKeys.size(); ++i) text += LineOf(i) + "\n";
-  return text;
-}
-
-/// Adds all rows that are missing; returns how many.
-int Complete(const std::string& path) {
-  SweepTable table(path, kHeader, 2, kKeys, false);
-  int added = 0;
-  for (std::size_t i = 0; i < kKeys.size(); ++i) {
-    if (table.Has(i)) continue;
-    table.Add(i, LineOf(i));
-    ++added;
-  }
-  EXPECT_EQ(table.count(), kKeys.size());
-  return added;
-}
-
-TEST(SweepTable, ATruncatedTableIsCompletedToTheSameFile) {
-  const LabWorkspace files;
-  const std::string whole = WholeTable();
-  for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
-    files.Write("t.csv", whole.substr(0, cut));
-    const auto complete_lines =
-        std::count(whole.begin(), whole.begin() + static_cast<long>(cut), '\n');
-    EXPECT_EQ(Complete(files / "t.csv"), 4 - std::max(0L, static_cast<long>(complete_lines) - 1));
-    EXPECT_EQ(files.Read("t.csv"), whole) << "cut at " << cut;
-  }
-  EXPECT_EQ(files.Names(), std::vector<std::string>{"t.csv"});
-}
-
-TEST(SweepTable, RowsThatCameLaterStayBehindAtEveryMoment) {
-  const LabWorkspace files;
-  files.Write("t.csv", std::string(kHeader) + "\n" + LineOf(1) + "\n" + LineOf(3) + "\n");
-  SweepTable table(files / "t.csv", kHeader, 2, kKeys, false);
-  EXPECT_EQ(table.count(), 2u);
-  table.Add(0, LineOf(0));
-  EXPECT_EQ(files.Read("t.csv"),
-            std::string(kHeader) + "\n" + LineOf(0) + "\n" + LineOf(1) + "\n" + LineOf(3) + "\n");
-  table.Add(2, LineOf(2));
-  EXPECT_EQ(files.Read("t.csv"), WholeTable());
-}
-
-TEST(SweepTable, KeepsTheFileOfAnotherSweep) {
-  const LabWorkspace files;
-  const std::string header = std::string(kHeader) + "\n";
-  for (const std::string& text :
-       {std::string("a letter\n"), std::string("a letter"), header + "d,5,0\n",
-        header + LineOf(0) + ",1\n", header + LineOf(0) + "\n" + LineOf(0) + "\n", header + "\n"}) {
-    files.Write("t.csv", text);
-    EXPECT_THROW(SweepTable(files / "t.csv", kHeader, 2, kKeys, false), OperatorError) << text;
-    EXPECT_EQ(files.Read("t.csv"), text);
-    SweepTable(files / "t.csv", kHeader, 2, kKeys, true);
-    EXPECT_EQ(files.Read("t.csv"), header);
-  }
-  EXPECT_THROW(SweepTable(files / "no/t.csv", kHeader, 2, kKeys, false), OperatorError);
-}
-
-TEST(Jobs, ResultsComeInOrderDespiteSlowJobs) {
-  for (const int jobs : {1, 2, 5}) {
-    std::vector<std::string> results;
-    RunJobs(
-        9, jobs,
-        [](std::size_t i) {
-          usleep(i % 3 == 0 ? 30000 : 1000);
-          return std::string(i == 4 ? 200000 : 1, static_cast<char>('a' + i));  // beyond a pipe
-        },
-        [&](std::size_t i, const JobResult& result) {
-          EXPECT_EQ(i, results.size());
-          EXPECT_TRUE(result.good);
-          results.push_back(result.text);
-        },
-        [] { return false; });
-    ASSERT_EQ(results.size(), 9u);
-    EXPECT_EQ(results[4], std::string(200000, 'e'));
-    EXPECT_EQ(results[8], "i");
-  }
-}
-
-TEST(Jobs, AnErrorOrACrashOfOneHarmsNoOther) {
-  std::vector<std::string> results;
-  RunJobs(
-      4, 2,
-      [](std::size_t i) -> std::string {
-        if (i == 1) throw OperatorError("no such thing");
-        if (i == 2) raise(SIGKILL);
-        return "fine";
-      },
-      [&](std::size_t, const JobResult& result) {
-        results.push_back((result.good ? "+" : "-") + result.text);
-      },
-      [] { return false; });
-  EXPECT_EQ(results,
-            (std::vector<std::string>{"+fine", "-no such thing", "-crashed: Killed", "+fine"}));
-}
-
-TEST(Jobs, StoppingEndsThemAndKeepsFinishedResults) {
-  std::vector<std::size_t> done;
-  bool stop = false;
-  RunJobs(
-      3, 2,
-      [](std::size_t i) -> std::string {
-        if (i == 1) sleep(1000);
-        return "fine";
-      },
-      [&](std::size_t i, const JobResult& result) {
-        EXPECT_TRUE(result.good);
-        done.push_back(i);
-      },
-      [&] {
-        const bool now = stop;
-        stop = !done.empty();
-        return now;
-      });
-  ASSERT_FALSE(done.empty());
-  EXPECT_EQ(done[0], 0u);
-  EXPECT_EQ(std::count(done.begin(), done.end(), 1u), 0);
 }
 
 /// The table without its last columns, CPU times.
@@ -187,7 +60,7 @@ TEST(LabSweep, TheTableIsTheSameForAnyJobsAndAfterAnyInterruption) {
   RunWhole(SweepWords(files, "one.csv", "1"), "8 of 8 rows, 8 of them new");
   RunWhole(SweepWords(files, "two.csv", "2"), "8 of 8 rows, 8 of them new");
   const std::string whole = files.Read("one.csv");
-  EXPECT_EQ(whole.rfind(SweepHeader() + "\n" + kLabVersion, 0), 0u);
+  EXPECT_EQ(whole.rfind(SweepKeyColumns() + "," + SweepValueColumns() + "\n" + kLabVersion, 0), 0u);
   EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 9);
   EXPECT_EQ(WithoutCpu(files.Read("two.csv")), WithoutCpu(whole));
   // Cut in the middle of a row: the existing bytes stay as they were.
@@ -228,14 +101,10 @@ TEST(LabSweep, AKilledOrStoppedSweepResumes) {
   }
 }
 
-/// The value of a column of a row that has no quoted text.
-std::string ColumnOf(const std::string& row, const std::string& column) {
-  std::istringstream names(SweepHeader()), values(row);
-  std::string name, value;
-  while (std::getline(names, name, ',')) {
-    value.clear();
-    std::getline(values, value, ',');
-    if (name == column) return value;
+/// The text of a column.
+std::string ColumnOf(const Values& values, const std::string& column) {
+  for (const Value& value : values) {
+    if (value.column == column) return value.text;
   }
   ADD_FAILURE() << "no column " << column;
   return "";
@@ -244,14 +113,14 @@ std::string ColumnOf(const std::string& row, const std::string& column) {
 TEST(LabSweep, ARowHoldsTheMeasuresOfItsRun) {
   const LabWorkspace files;
   const Grid grid = GridOf(files, "scenes = \"scenes/crossing.toml\"\nmethods = \"buffer/fade\"");
-  const std::string row = SweepRow(grid.points[0], {true, false});
+  const Values row = SweepValues(grid.points[0], {true, false});
   const Recording recording = RunCluster(Configure(grid.points[0].settings));
   const Oracle oracle = ComputeOracle(recording);
   const Measures m = Measure(recording, oracle);
   ASSERT_TRUE(m.rebound.has_value());
   const auto value = [&](const std::string& column) { return ColumnOf(row, column); };
   const auto number = [](double x) { return fmt::format("{:.6g}", x); };
-  EXPECT_EQ(row.rfind(grid.points[0].key + PointValues(grid.points[0]) + ",", 0), 0u);
+  EXPECT_EQ(CsvRow(row).rfind(CsvRow(PointValues(grid.points[0])) + ",", 0), 0u);
   EXPECT_EQ(value("error_rms_m"), number(m.error_rms_m));
   EXPECT_EQ(value("error_p95_m"), number(m.error_p95_m));
   EXPECT_EQ(value("error_max_m"), number(m.error_max_m));
@@ -277,8 +146,7 @@ TEST(LabSweep, ARowHoldsTheMeasuresOfItsRun) {
   EXPECT_EQ(value("bytes_per_s"), number(m.bytes_per_s));
   EXPECT_EQ(value("sent_bytes_per_s"), number(m.sent_bytes_per_s));
   EXPECT_EQ(value("compared"), std::to_string(m.compared));
-  const std::string header = SweepHeader();
-  EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
+  EXPECT_EQ(CsvColumns(row), SweepValueColumns());
 }
 
 TEST(LabSweep, RunRepeatsARowWithTheSceneSetInItsText) {

@@ -13,6 +13,7 @@
 #include "common/net/impair.h"
 #include "common/sync/method.h"
 #include "tests/lab/commands.h"
+#include "tests/lab/experiment/probes.h"
 
 namespace {
 
@@ -70,10 +71,8 @@ Command* DefineDivergence(Command& app, DivergenceCommand& c) {
 Command* DefineSweep(Command& app, SweepCommand& c) {
   Command* sweep = &app.Add("sweep", "run and measure all combinations of settings");
   sweep->Option("FILE", c.file, "what to vary (TOML; docs/lab.md)").Required();
-  sweep->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
-  sweep->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
-  sweep->Switch("--force", c.force, "begin the table anew");
-  sweep->Switch("--quiet", c.quiet, "no progress line");
+  AddTableFlag(*sweep, c.output).Required();
+  AddRunFlags(*sweep, c.output);
   return sweep;
 }
 
@@ -85,11 +84,9 @@ Command* DefinePhysics(Command& app, PhysicsCommand& c) {
       .Range(0.1, kDurationMax);
   physics->Option("--cases", c.cases, "names (default: all)").CommaSeparated();
   physics->Option("--grid", c.grid, "quick | report | full").OneOf({"quick", "report", "full"});
-  physics->Option("-o,--output", c.table, "CSV table to write, or to complete");
+  AddTableFlag(*physics, c.output);
   physics->Option("--scenes", c.folder, "folder of the hard scenes (default: scenes/hard)");
-  physics->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
-  physics->Switch("--force", c.force, "begin the table anew");
-  physics->Switch("--quiet", c.quiet, "no progress line");
+  AddRunFlags(*physics, c.output);
   return physics;
 }
 
@@ -123,9 +120,9 @@ Command* DefineTune(Command& app, TuneCommand& c, TuneGaitCommand& gait) {
 Command* DefineOverhead(Command& app, OverheadCommand& c) {
   Command* overhead = &app.Add("overhead", "what a step costs beside Box2D alone");
   overhead->Option("SCENES", c.scenes, "scene files (default: four of scenes, two hard ones)");
-  overhead->Option("-o,--output", c.table, "CSV table to write, or to complete");
+  AddTableFlag(*overhead, c.output);
   overhead->Option("--repeats", c.repeats, "of which the least counts").Range(1, 1000);
-  overhead->Switch("--force", c.force, "begin the table anew");
+  overhead->Switch("--force", c.output.force, "begin the table anew");
   return overhead;
 }
 
@@ -137,66 +134,10 @@ Command* DefineBenches(Command& app, const char* name, const char* what, BenchCo
   return benches;
 }
 
-Command* DefineFairness(Command& app, FairnessCommand& c) {
-  Command* fairness = &app.Add("fairness", "a mirrored crash between a near and a far player");
-  fairness->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
-  fairness->Option("--scene", c.scene, "two players' cars that meet (default: headon)");
-  fairness->Option("--methods", c.methods, "strict, buffer/fade, ... (default: all)")
-      .CommaSeparated();
-  fairness->Option("--near", c.near_path, "the near player's network, either way");
-  fairness->Option("--far", c.far_path, "the far player's network, either way");
-  fairness->Option("--seeds", c.seeds, "from 1, each both ways round (default: 8)").Range(1, 1000);
-  fairness->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
-  fairness->Switch("--force", c.force, "begin the table anew");
-  fairness->Switch("--quiet", c.quiet, "no progress line");
-  return fairness;
-}
-
-Command* DefineTitles(Command& app, TitlesCommand& c) {
-  Command* titles = &app.Add("titles", "do the scenes do what their titles say?");
-  titles->Option("SCENES", c.scenes, "names (default: all that have a sentence)");
-  titles->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
-  titles->Option("--impair", c.networks, "profile's name or list; repeatable (default: 4g)")
-      .OneValueEach();
-  titles->Option("--seeds", c.seeds, "from 1 (default: 10)").Range(1, 10000);
-  titles->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
-  titles->Switch("--force", c.force, "begin the table anew");
-  titles->Switch("--quiet", c.quiet, "no progress line");
-  return titles;
-}
-
-Command* DefineLoad(Command& app, LoadCommand& c) {
-  Command* load = &app.Add("load", "what sessions cost the server and a client");
-  load->Option("SCENES", c.scenes, "scene files or names").Required();
-  load->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
-  load->Option("--methods", c.methods, "buffer, central/own, ... (default: both sides)")
-      .CommaSeparated();
-  load->Option("--impair", c.network, "profile's name or list (default: demo)");
-  load->Option("--drive", c.drive, "script | bot").OneOf({"script", "bot"});
-  load->Option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
-      .Range(0.0, kDurationMax);
-  load->Option("--seeds", c.seeds, "from 1 (default: 1)").Range(1, 10000);
-  load->Option("--jobs", c.jobs, "runs at a time (default: 1; more blur CPU times)").Range(1, 256);
-  load->Switch("--force", c.force, "begin the table anew");
-  load->Switch("--quiet", c.quiet, "no progress line");
-  return load;
-}
-
-Command* DefineHandOver(Command& app, HandOverCommand& c) {
-  Command* hand_over = &app.Add("hand-over", "how long changes of authority take");
-  hand_over->Option("SCENES", c.scenes, "scene files or names").Required();
-  hand_over->Option("-o,--output", c.table, "CSV table to write, or to complete").Required();
-  hand_over->Option("--players", c.players, "the first so many join (default: all)")
-      .Range(0, kPlayersMax);
-  hand_over->Option("--impair", c.network, "profile's name or list (default: demo)");
-  hand_over->Option("--drive", c.drive, "script | bot").OneOf({"script", "bot"});
-  hand_over->Option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
-      .Range(0.0, kDurationMax);
-  hand_over->Option("--seeds", c.seeds, "from 1 (default: 1)").Range(1, 10000);
-  hand_over->Option("--jobs", c.jobs, "runs at a time (default: 1)").Range(1, 256);
-  hand_over->Switch("--force", c.force, "begin the table anew");
-  hand_over->Switch("--quiet", c.quiet, "no progress line");
-  return hand_over;
+Command* DefineProbe(Command& app, const Probe& probe, ProbeOptions& options) {
+  Command* command = &app.Add(probe.command, probe.about);
+  probe.flags(*command, options);
+  return command;
 }
 
 Command* DefineReport(Command& app, ReportCommand& c) {
@@ -221,10 +162,8 @@ int main(int argc, char** argv) {
   TuneGaitCommand gait;
   OverheadCommand overhead;
   BenchCommand world, relief;
-  FairnessCommand fairness;
-  TitlesCommand titles;
-  LoadCommand load;
-  HandOverCommand hand_over;
+  std::vector<ProbeOptions> probe_options;
+  for (const Probe& probe : Probes()) probe_options.push_back(probe.defaults);
   ReportCommand report;
   // The subcommands, each with what it runs.
   std::vector<std::pair<const Command*, std::function<int()>>> commands;
@@ -241,12 +180,12 @@ int main(int argc, char** argv) {
                 {DefineBenches(app, "world", "features of a scene beside their baselines", world),
                  [&] { return RunWorld(world); }},
                 {DefineBenches(app, "relief", "what distribution takes off the server", relief),
-                 [&] { return RunRelief(relief); }},
-                {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},
-                {DefineTitles(app, titles), [&] { return RunTitles(titles); }},
-                {DefineLoad(app, load), [&] { return RunLoad(load); }},
-                {DefineHandOver(app, hand_over), [&] { return RunHandOver(hand_over); }},
-                {DefineReport(app, report), [&] { return RunReport(report); }}};
+                 [&] { return RunRelief(relief); }}};
+    for (std::size_t i = 0; i < Probes().size(); ++i) {
+      commands.emplace_back(DefineProbe(app, Probes()[i], probe_options[i]),
+                            [&, i] { return RunProbe(Probes()[i], probe_options[i]); });
+    }
+    commands.emplace_back(DefineReport(app, report), [&] { return RunReport(report); });
   };
   const ProgramText text{"seam-lab",
                          "seam-lab: sessions of the real server and clients in virtual time",

@@ -1,21 +1,25 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "common/base/find_scene.h"
 #include "common/base/process.h"
-#include "common/measure/table.h"
 #include "tests/lab/commands.h"
-#include "tests/lab/grid.h"
+#include "tests/lab/experiment/experiment.h"
+#include "tests/lab/experiment/values.h"
 #include "tests/lab/hard/overhead.h"
-#include "tests/lab/sweep_table.h"
 
 namespace seam {
 namespace {
 
-const char* const kHeader = "scene,bodies,raw_us_per_step,core_us_per_step,ratio,valid";
+Values OverheadValues(const Overhead& o) {
+  const Values values = {
+      Count("bodies", o.bodies), Significant("raw_us_per_step", o.raw_us_per_step, 4),
+      Significant("core_us_per_step", o.core_us_per_step, 4), Decimals("ratio", o.ratio(), 4)};
+  Values row = o.equal ? values : Emptied(values);
+  row.push_back({"valid", o.equal ? "" : "core and raw Box2D end differently"});
+  return row;
+}
 
 /// The scene's duration, or less of it where there is much to simulate.
 int TicksFor(const Scene& scene) {
@@ -28,15 +32,15 @@ int TicksFor(const Scene& scene) {
 
 int RunOverhead(const OverheadCommand& command) {
   std::vector<Scene> scenes;
-  std::vector<std::string> keys;
+  Experiment experiment;
+  experiment.key_columns = "scene";
+  experiment.value_columns = CsvColumns(OverheadValues({}));
   for (const std::string& path : command.scenes) {
     scenes.push_back(LoadScene(FindScene(path)));
-    keys.push_back(CsvField(path));
+    experiment.keys.push_back(CsvRow(std::vector<std::string>{path}));
   }
-  std::unique_ptr<SweepTable> table;
-  if (!command.table.empty()) {
-    table = std::make_unique<SweepTable>(command.table, kHeader, 1, keys, command.force);
-  }
+  std::unique_ptr<ResultTable> table;
+  if (!command.output.table.empty()) table = OpenTable(experiment, command.output);
   StopOnSignals();
   std::printf("%-26s %6s %11s %11s %7s\n", "scene", "bodies", "raw us", "core us", "ratio");
   bool equal = true;
@@ -48,13 +52,7 @@ int RunOverhead(const OverheadCommand& command) {
                 o.raw_us_per_step, o.core_us_per_step, o.ratio(),
                 o.equal ? "" : "  they end differently: not the same simulation");
     std::fflush(stdout);
-    if (!table) continue;
-    if (!o.equal) {
-      table->Add(i, keys[i] + ",,,,,core and raw Box2D end differently");
-      continue;
-    }
-    table->Add(i, fmt::format("{},{},{:.4g},{:.4g},{:.4f},", keys[i], o.bodies, o.raw_us_per_step,
-                              o.core_us_per_step, o.ratio()));
+    if (table) table->Add(i, experiment.keys[i] + ',' + CsvRow(OverheadValues(o)));
   }
   return equal && g_stop == 0 ? 0 : 1;
 }

@@ -15,9 +15,9 @@
 #include "tests/lab/commands.h"
 #include "tests/lab/exact/front.h"
 #include "tests/lab/exact/scene_case.h"
-#include "tests/lab/jobs.h"
+#include "tests/lab/experiment/experiment.h"
+#include "tests/lab/experiment/jobs.h"
 #include "tests/lab/physics_row.h"
-#include "tests/lab/rows.h"
 
 namespace seam {
 namespace {
@@ -98,19 +98,25 @@ References MakeReferences(const PhysicsPlan& plan, const std::vector<std::size_t
   return references;
 }
 
-/// What makes the rows of a plan. A crash is a result: the engine gave up.
-RowMaker PhysicsRows(const PhysicsPlan& plan, const References& references) {
-  RowMaker maker;
-  maker.make = [&](std::size_t row) {
+/// Makes the rows of a plan. A crash is a result: the engine gave up.
+Experiment PhysicsExperiment(const PhysicsPlan& plan, const References& references) {
+  Experiment experiment;
+  experiment.key_columns = PhysicsKeyColumns();
+  experiment.value_columns = PhysicsValueColumns();
+  for (const PhysicsPoint& point : plan.points) {
+    experiment.keys.push_back(CsvRow(PhysicsKey(point)));
+  }
+  experiment.measure = [&](std::size_t row) {
     const PhysicsPoint& point = plan.points[row];
     const auto reference = references.find(point.hard);
-    return PhysicsRow(point, reference == references.end() ? nullptr : &reference->second);
+    return CsvRow(
+        PhysicsValues(point, reference == references.end() ? nullptr : &reference->second));
   };
-  maker.rescue = [&](std::size_t row, const std::string& why) -> std::optional<std::string> {
+  experiment.rescue = [](std::size_t, const std::string& why) -> std::optional<std::string> {
     if (why.rfind("crashed", 0) != 0) return std::nullopt;
-    return CrashedRow(plan.points[row], why);
+    return CsvRow(CrashedValues(why));
   };
-  return maker;
+  return experiment;
 }
 
 /// The user's own scenes as cases.
@@ -127,21 +133,16 @@ fs::path UsualTable(const std::vector<HardCase>& own) {
   return fs::path("out/physics") / names / "physics.csv";
 }
 
-/// The table to complete. One at the usual place is begun anew when it is of another version of the
+/// Opens the table at its usual place. It is begun anew when it is of another version of the
 /// scenes: nobody asked for it to be kept.
-std::unique_ptr<SweepTable> OpenTable(const PhysicsCommand& command, bool usual_place,
-                                      const std::vector<std::string>& keys) {
-  const auto open = [&](bool force) {
-    return std::make_unique<SweepTable>(command.table, PhysicsHeader(), kPhysicsKeyColumns, keys,
-                                        force);
-  };
-  if (!usual_place || command.force) return open(command.force);
+std::unique_ptr<ResultTable> OpenUsualTable(const Experiment& experiment, TableFlags flags) {
   std::error_code ignored;  // the table says that it cannot be written
-  fs::create_directories(fs::path(command.table).parent_path(), ignored);
+  fs::create_directories(fs::path(flags.table).parent_path(), ignored);
   try {
-    return open(false);
+    return OpenTable(experiment, flags);
   } catch (const OperatorError&) {
-    return open(true);
+    flags.force = true;
+    return OpenTable(experiment, flags);
   }
 }
 
@@ -160,35 +161,34 @@ void DrawTable(const fs::path& table) {
 
 int RunPhysics(const PhysicsCommand& given) {
   PhysicsCommand command = given;
-  const bool draws = command.table.empty();
+  TableFlags& flags = command.output;
+  const bool draws = flags.table.empty();
   if (draws && command.scenes.empty()) throw OperatorError("-o FILE says where the table goes");
-  const int jobs = JobsOr(command.jobs);
   const GridSize size = SizeOf(command.grid);
   const std::vector<HardCase> own = OwnCases(command);
   std::vector<const HardCase*> cases = ChosenCases(command.cases, !own.empty());
   for (const HardCase& hard : own) cases.push_back(&hard);
-  if (draws) command.table = UsualTable(own).string();
+  if (draws) flags.table = UsualTable(own).string();
   StopOnSignals();
-  const std::vector<double> awake = AwakeShares(cases, size, command.folder, jobs);
+  const std::vector<double> awake = AwakeShares(cases, size, command.folder, JobsOr(flags.jobs));
   if (g_stop != 0) return 1;  // before there was a plan
   const PhysicsPlan plan = PlanPhysics(cases, size, awake, command.folder);
-  std::vector<std::string> keys;
-  for (const PhysicsPoint& point : plan.points) keys.push_back(PhysicsKey(point));
-  const std::unique_ptr<SweepTable> table = OpenTable(command, draws, keys);
-  const std::vector<std::size_t> todo = MissingRows(*table, keys.size());
+  References references;
+  const Experiment experiment = PhysicsExperiment(plan, references);
+  const std::size_t rows = experiment.keys.size();
+  const auto table = draws ? OpenUsualTable(experiment, flags) : OpenTable(experiment, flags);
   for (const std::string& line : plan.left_out) {
-    if (!command.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+    if (!flags.quiet) std::fprintf(stderr, "%s\n", line.c_str());
   }
-  const References references = MakeReferences(plan, todo);
-  const RowsDone done =
-      MakeRows(keys, todo, PhysicsRows(plan, references), jobs, command.quiet, table.get());
+  references = MakeReferences(plan, MissingRows(*table, rows));
+  const RowsDone done = MakeRows(experiment, flags, table.get());
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < keys.size(); ++i) lines.push_back(table->line(i));
+  for (std::size_t i = 0; i < rows; ++i) lines.push_back(table->line(i));
   std::printf("%s", CaseLines(own).c_str());
   PrintPhysics(plan, lines);
-  const int status = PrintRows(command.table, *table, keys.size(), done);
-  if (!own.empty() && table->count() > 0) std::printf("%s", FrontLines(command.table).c_str());
-  if (draws && status == 0) DrawTable(command.table);
+  const int status = PrintRows(flags, *table, rows, done);
+  if (!own.empty() && table->count() > 0) std::printf("%s", FrontLines(flags.table).c_str());
+  if (draws && status == 0) DrawTable(flags.table);
   return status;
 }
 

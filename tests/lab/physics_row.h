@@ -1,31 +1,32 @@
 #pragma once
-/// One line of the table of `seam-lab physics`.
+/// One row of the table of `seam-lab physics`.
 
-#include <map>
 #include <string>
+#include <vector>
 
+#include "tests/lab/experiment/values.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/hard/physics_plan.h"
 
 namespace seam {
 
-constexpr int kPhysicsKeyColumns = 16;
-std::string PhysicsHeader();
+/// Returns the key of a row. `version` holds a hash of the scene's text.
+Values PhysicsKey(const PhysicsPoint& point);
 
-/// Returns the first kPhysicsKeyColumns values: the row's key. `version` holds a hash of the
-/// scene's text.
-std::string PhysicsKey(const PhysicsPoint& point);
+/// Runs and measures. All but the last columns cpu_us_per_s, stock_cpu_us_per_s and cost_ratio is a
+/// function of the point. `reference`: where the case has no judge; if it is not converged, that is
+/// the row's failure.
+Values PhysicsValues(const PhysicsPoint& point, const Reference* reference);
 
-/// Runs and measures; the line without its end. All but the last columns cpu_us_per_s,
-/// stock_cpu_us_per_s and cost_ratio is a function of the point. `reference`: where the case has no
-/// judge; if it is not converged, that is the row's failure.
-std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference);
+/// Returns the values of a run that took its process with it.
+Values CrashedValues(const std::string& why);
 
-/// Returns the line of a run that crashed its process.
-std::string CrashedRow(const PhysicsPoint& point, const std::string& why);
+/// Names of the key's columns and of the values', with commas between.
+std::string PhysicsKeyColumns();
+std::string PhysicsValueColumns();
 
-/// Prints per case: the error of the stock and of the scene's own setting, their ratio, the ratio
-/// of their costs, and failures. `lines`: the existing rows, by point; empty: not yet.
+/// Prints of each case the error of the stock and of the scene's own setting, the ratios of their
+/// errors and costs, and failures. `lines`: the rows there are, by point; empty: not yet.
 void PrintPhysics(const PhysicsPlan& plan, const std::vector<std::string>& lines);
 
 }  // namespace seam

@@ -54,7 +54,8 @@ std::vector<std::int64_t> Integers(const SceneReader& r, const char* key, std::i
 }
 
 /// The shortest decimal of each number of a list: "5", "0.25".
-std::vector<std::string> Decimals(const SceneReader& r, const char* key, double min, double max) {
+std::vector<std::string> DecimalTexts(const SceneReader& r, const char* key, double min,
+                                      double max) {
   std::vector<std::string> decimals;
   for (const TomlNode& item : r.Items(key)) {
     const bool number =
@@ -102,7 +103,7 @@ std::vector<std::vector<std::string>> Settings(const SceneReader& r) {
   std::vector<std::string> all = Texts(r, "set", "");
   for (const ScenesKey& k : kScenesKeys) {
     const std::string before = std::string(k.key) + "=";
-    all = Combined(all, before, Decimals(r, k.list, 0, 1e6), "", ";");
+    all = Combined(all, before, DecimalTexts(r, k.list, 0, 1e6), "", ";");
     if (all.size() > kGridScenesMax) r.FailAt(k.list, "these are too many different scenes");
   }
   std::vector<std::vector<std::string>> settings;
@@ -117,9 +118,9 @@ bool Says(const std::string& impair, const std::string& key) {
 
 /// Every profile, with every delay, jitter and loss if there are any.
 std::vector<std::string> Networks(const SceneReader& r) {
-  const std::vector<std::string> delays = Decimals(r, "one_way_ms", 0, 60000);
-  const std::vector<std::string> jitters = Decimals(r, "jitter_ms", 0, 60000);
-  const std::vector<std::string> losses = Decimals(r, "loss_percent", 0, 100);
+  const std::vector<std::string> delays = DecimalTexts(r, "one_way_ms", 0, 60000);
+  const std::vector<std::string> jitters = DecimalTexts(r, "jitter_ms", 0, 60000);
+  const std::vector<std::string> losses = DecimalTexts(r, "loss_percent", 0, 100);
   const bool composed = !delays.empty() || !jitters.empty() || !losses.empty();
   const std::vector<std::string> given = Texts(r, "impair", composed ? "perfect" : "demo");
   if (!composed) return given;

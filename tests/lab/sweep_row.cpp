@@ -13,7 +13,6 @@
 #include "common/measure/measure.h"
 #include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
-#include "common/measure/table.h"
 #include "tests/lab/validity/loss.h"
 
 namespace seam {
@@ -33,17 +32,11 @@ class Digest : public Recorder {
   std::uint64_t value_ = Fnv1a("", 0);
 };
 
-/// Six digits; counts are whole.
-std::string Digits6(double value) {
-  const bool whole = value == std::floor(value) && std::fabs(value) < 1e15;
-  return whole ? fmt::format(",{:.0f}", value) : fmt::format(",{:.6g}", value);
+/// Six digits; whole numbers in full. An absent value is empty.
+Value Number(const char* column, std::optional<double> value) {
+  const bool whole = value && *value == std::floor(*value) && std::fabs(*value) < 1e15;
+  return whole ? Decimals(column, *value, 0) : Significant(column, value);
 }
-
-/// A column's name, and its value if it applies.
-struct SweepColumn {
-  const char* name;
-  std::optional<double> value;
-};
 
 /// What is computed beside the measures: of the oracles alone, so the same for all methods.
 struct Floors {
@@ -51,126 +44,144 @@ struct Floors {
   std::optional<double> limit_m;  ///< of this recording's network
 };
 
-/// What it took, of all peers.
-struct StepWork {
-  std::int64_t stepped_again = 0, deferred = 0;
+/// Everything that is known of a run.
+struct SweptRun {
+  Measures measures;
+  Floors floors;
+  std::int64_t stepped_again = 0, deferred = 0;  ///< of all peers
+  bool barriers = false;                         ///< the oracle had them
+  std::string invalid;                           ///< why the measures say nothing
+  std::uint64_t digest = 0;
+  double cpu_s = 0, server_cpu_s = 0, server_us_per_body = 0;
 };
 
-/// All columns of the measures, in order.
-std::vector<SweepColumn> Columns(const Measures& m, const Floors& floors, const StepWork& work) {
+Values MeasureValues(const SweptRun& run) {
+  const Measures& m = run.measures;
   const auto given = [](bool applies, double value) {
     return applies ? std::optional<double>(value) : std::nullopt;
   };
   const bool any = m.compared > 0;
-  return {{"error_others_m", m.error_others_m},
-          {"error_own_m", m.error_own_m},
-          {"error_server_m", m.error_server_m},
-          {"path_error_rms_m", m.path_error_rms_m},
-          {"view_age_ms", m.view_age_ms},
-          {"response_own_ms", m.response_own_ms},
-          {"response_server_ms", m.response_server_ms},
-          {"response_other_ms", m.response_other_ms},
-          {"seen", m.seen},
-          {"energy_ratio_min", m.energy_ratio_min},
-          {"energy_ratio_max", m.energy_ratio_max},
-          {"hottest_ratio", m.hottest_ratio},
-          {"error_rms_m", given(any, m.error_rms_m)},
-          {"error_p95_m", given(any, m.error_p95_m)},
-          {"error_max_m", given(any, m.error_max_m)},
-          {"error_rms_rad", given(any, m.error_rms_rad)},
-          {"stutter_mps2", given(any, m.stutter_mps2)},
-          {"backsteps", given(any, static_cast<double>(m.backsteps))},
-          {"seam_rms_m", m.seam_rms_m},
-          {"seam_stutter_mps2", m.seam_stutter_mps2},
-          {"rebound", m.rebound},
-          {"rest_ticks", m.rest_ticks},
-          {"jitter_rest_mps", m.jitter_rest_mps},
-          {"penetration_m", m.penetration_m},
-          {"oracle_penetration_m", m.oracle_penetration_m},
-          {"joint_drift_m", m.joint_drift_m},
-          {"oracle_joint_drift_m", m.oracle_joint_drift_m},
-          {"energy_gain_j", m.energy_gain_j},
-          {"handovers", static_cast<double>(m.handovers)},
-          {"handover_jump_m", given(m.handovers > 0, m.handover_jump_m)},
-          {"handover_gap_m", m.handover_gap_m},
-          {"handover_dv_mps", m.handover_dv_mps},
-          {"handover_gap_p95_m", m.handover_gap_p95_m},
-          {"handover_dv_p95_mps", m.handover_dv_p95_mps},
-          {"topology_lag_s", m.topology_lag_s},
-          {"lost", m.lost ? std::optional<double>(static_cast<double>(*m.lost)) : std::nullopt},
-          {"left_bounds", given(m.lost.has_value(), static_cast<double>(m.left_bounds))},
-          {"floor_m", floors.floor_m},
-          {"floor_wire_m", floors.wire_m},
-          {"floor_barrier_m", floors.barrier_m},
-          {"info_limit_m", floors.limit_m},
-          {"bytes_per_s", given(m.bytes_per_s > 0, m.bytes_per_s)},
-          {"sent_bytes_per_s", given(m.sent_bytes_per_s > 0, m.sent_bytes_per_s)},
-          {"ticks_stepped_again", static_cast<double>(work.stepped_again)},
-          {"replays_deferred", static_cast<double>(work.deferred)},
-          {"compared", static_cast<double>(m.compared)}};
+  return {Number("error_others_m", m.error_others_m),
+          Number("error_own_m", m.error_own_m),
+          Number("error_server_m", m.error_server_m),
+          Number("path_error_rms_m", m.path_error_rms_m),
+          Number("view_age_ms", m.view_age_ms),
+          Number("response_own_ms", m.response_own_ms),
+          Number("response_server_ms", m.response_server_ms),
+          Number("response_other_ms", m.response_other_ms),
+          Number("seen", m.seen),
+          Number("energy_ratio_min", m.energy_ratio_min),
+          Number("energy_ratio_max", m.energy_ratio_max),
+          Number("hottest_ratio", m.hottest_ratio),
+          Number("error_rms_m", given(any, m.error_rms_m)),
+          Number("error_p95_m", given(any, m.error_p95_m)),
+          Number("error_max_m", given(any, m.error_max_m)),
+          Number("error_rms_rad", given(any, m.error_rms_rad)),
+          Number("stutter_mps2", given(any, m.stutter_mps2)),
+          Number("backsteps", given(any, static_cast<double>(m.backsteps))),
+          Number("seam_rms_m", m.seam_rms_m),
+          Number("seam_stutter_mps2", m.seam_stutter_mps2),
+          Number("rebound", m.rebound),
+          Number("rest_ticks", m.rest_ticks),
+          Number("jitter_rest_mps", m.jitter_rest_mps),
+          Number("penetration_m", m.penetration_m),
+          Number("oracle_penetration_m", m.oracle_penetration_m),
+          Number("joint_drift_m", m.joint_drift_m),
+          Number("oracle_joint_drift_m", m.oracle_joint_drift_m),
+          Number("energy_gain_j", m.energy_gain_j),
+          Number("handovers", static_cast<double>(m.handovers)),
+          Number("handover_jump_m", given(m.handovers > 0, m.handover_jump_m)),
+          Number("handover_gap_m", m.handover_gap_m),
+          Number("handover_dv_mps", m.handover_dv_mps),
+          Number("handover_gap_p95_m", m.handover_gap_p95_m),
+          Number("handover_dv_p95_mps", m.handover_dv_p95_mps),
+          Number("topology_lag_s", m.topology_lag_s),
+          Number("lost", given(m.lost.has_value(), static_cast<double>(m.lost.value_or(0)))),
+          Number("left_bounds", given(m.lost.has_value(), static_cast<double>(m.left_bounds))),
+          Number("floor_m", run.floors.floor_m),
+          Number("floor_wire_m", run.floors.wire_m),
+          Number("floor_barrier_m", run.floors.barrier_m),
+          Number("info_limit_m", run.floors.limit_m),
+          Number("bytes_per_s", given(m.bytes_per_s > 0, m.bytes_per_s)),
+          Number("sent_bytes_per_s", given(m.sent_bytes_per_s > 0, m.sent_bytes_per_s)),
+          Number("ticks_stepped_again", static_cast<double>(run.stepped_again)),
+          Number("replays_deferred", static_cast<double>(run.deferred)),
+          Number("compared", static_cast<double>(m.compared))};
 }
 
-/// `valid` empty: with their figures.
-std::string Values(const Measures& measures, const Floors& floors, const StepWork& work,
-                   const std::string& valid) {
-  std::string line;
-  for (const SweepColumn& column : Columns(measures, floors, work)) {
-    line += column.value && valid.empty() ? Digits6(*column.value) : ",";
-  }
-  return line;
+Values ValuesOf(const GridPoint& point, const SweptRun& run) {
+  Values values = PointValues(point);
+  const Values measures = MeasureValues(run);
+  const Values shown = run.invalid.empty() ? measures : Emptied(measures);
+  values.insert(values.end(), shown.begin(), shown.end());
+  const Values last = {{"oracle", run.barriers ? "barrier" : "plain"},
+                       {"valid", run.invalid},
+                       {"digest", fmt::format("{:016x}", run.digest)},
+                       Decimals("cpu_s", run.cpu_s, 4),
+                       Decimals("server_cpu_s", run.server_cpu_s, 4),
+                       Decimals("server_us_per_body", run.server_us_per_body, 4)};
+  values.insert(values.end(), last.begin(), last.end());
+  return values;
 }
 
-/// The measures of a run, whether they mean anything, and by which oracle.
-std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster* cluster) {
+/// Measures a session that has ended, and decides by which oracle and whether the measures mean
+/// anything.
+void JudgeRun(const GridPoint& point, const SweepOptions& options, Cluster* cluster,
+              SweptRun* run) {
   const Recording& recording = cluster->recording();
-  const bool barriers = JudgedByBarriers(recording.room);
+  run->barriers = JudgedByBarriers(recording.room);
   const Oracle plain = ComputeOracle(recording);
   std::optional<Oracle> with_barriers;
-  if (barriers || options.floor) {
+  if (run->barriers || options.floor) {
     with_barriers = ComputeOracle(recording, WithBarriers(recording.room));
   }
-  const Oracle& oracle = barriers ? *with_barriers : plain;
-  Measures measures = Measure(recording, oracle);
-  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &measures);
-  std::string reason = WhyNotValid(recording, oracle, measures);
+  const Oracle& oracle = run->barriers ? *with_barriers : plain;
+  run->measures = Measure(recording, oracle);
+  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &run->measures);
+  run->invalid = WhyNotValid(recording, oracle, run->measures);
   const ImpairProfile network = FindProfile(point.settings.impair);
-  if (reason.empty() && LossTooSmall(network, cluster->server_net().traffic())) {
-    reason = "the network lost less than its profile says";
+  if (run->invalid.empty() && LossTooSmall(network, cluster->server_net().traffic())) {
+    run->invalid = "the network lost less than its profile says";
   }
-  Floors floors;
-  if (options.floor && reason.empty()) {
-    floors.floor_m = ErrorFloor(recording, plain, kNudge);
-    floors.wire_m = ErrorFloor(recording, plain, kWireNudge);
-    floors.barrier_m = OracleDistance(recording, plain, *with_barriers);
+  run->stepped_again = cluster->ticks_stepped_again();
+  run->deferred = cluster->replays_deferred();
+  if (!run->invalid.empty()) return;
+  if (options.floor) {
+    run->floors.floor_m = ErrorFloor(recording, plain, kNudge);
+    run->floors.wire_m = ErrorFloor(recording, plain, kWireNudge);
+    run->floors.barrier_m = OracleDistance(recording, plain, *with_barriers);
   }
-  if (options.limit && reason.empty()) floors.limit_m = InformationLimit(recording);
-  const StepWork work{cluster->ticks_stepped_again(), cluster->replays_deferred()};
-  return Values(measures, floors, work, reason) + (barriers ? ",barrier," : ",plain,") +
-         CsvField(reason);
+  if (options.limit) run->floors.limit_m = InformationLimit(recording);
+}
+
+GridPoint BlankPoint() {
+  GridPoint blank;
+  blank.scene = std::make_shared<Scene>();
+  return blank;
 }
 
 }  // namespace
 
-std::string SweepHeader() {
-  std::string header = GridHeader() + "," + PointHeader();
-  for (const SweepColumn& column : Columns({}, {}, {})) header += std::string(",") + column.name;
-  return header + ",oracle,valid,digest,cpu_s,server_cpu_s,server_us_per_body";
-}
+std::string SweepKeyColumns() { return CsvColumns(GridKey(BlankPoint())); }
 
-std::string SweepRow(const GridPoint& point, const SweepOptions& options) {
+std::string SweepValueColumns() { return CsvColumns(ValuesOf(BlankPoint(), {})); }
+
+Values SweepValues(const GridPoint& point, const SweepOptions& options) {
   ClusterConfig config = Configure(point.settings, *point.scene);
   Digest digest;
   config.recorder = &digest;
   const std::int64_t begin_us = CpuUs();
   Cluster cluster(config);
   cluster.Run();
-  const double cpu_s = static_cast<double>(CpuUs() - begin_us) * 1e-6;
+  SweptRun run;
+  run.cpu_s = static_cast<double>(CpuUs() - begin_us) * 1e-6;
+  run.digest = digest.value();
+  run.server_cpu_s = cluster.server_cpu_us() * 1e-6;
   const int bodies = std::max(1, cluster.server().replica().world().body_count());
   const std::int64_t ticks = std::max<std::int64_t>(1, cluster.server().tick());
-  return point.key + PointValues(point) + Judged(point, options, &cluster) +
-         fmt::format(",{:016x},{:.4f},{:.4f},{:.4f}", digest.value(), cpu_s,
-                     cluster.server_cpu_us() * 1e-6,
-                     cluster.server_cpu_us() / (bodies * static_cast<double>(ticks)));
+  run.server_us_per_body = cluster.server_cpu_us() / (bodies * static_cast<double>(ticks));
+  JudgeRun(point, options, &cluster, &run);
+  return ValuesOf(point, run);
 }
 
 }  // namespace seam

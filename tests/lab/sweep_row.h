@@ -1,8 +1,9 @@
 #pragma once
-/// One line of a sweep's table: the settings of a run, and its measures.
+/// One row of a sweep's table: the settings of a run, and its measures.
 
 #include <string>
 
+#include "tests/lab/experiment/values.h"
 #include "tests/lab/grid.h"
 
 namespace seam {
@@ -13,13 +14,14 @@ struct SweepOptions {
   bool limit = false;  ///< information limit
 };
 
-/// The grid's columns, the same in numbers, then the measures of docs/metrics.md, by which oracle,
-/// whether they are valid, digest and CPU times.
-std::string SweepHeader();
+/// Names of the key's columns (GridKey) and of the values', with commas between.
+std::string SweepKeyColumns();
+std::string SweepValueColumns();
 
-/// Runs and measures; returns the line without its end. Everything but the last three columns, CPU
-/// times, depends on the point alone. A row that is not valid has no figures. Throws OperatorError
-/// if no client can join.
-std::string SweepRow(const GridPoint& point, const SweepOptions& options);
+/// Runs and measures. Returns the point's numbers, the measures of docs/metrics.md, the oracle that
+/// judged them, whether they are valid, digest and CPU times. Everything but the last three, CPU
+/// times, depends on the point alone. The measures are empty when they are not valid. Throws
+/// OperatorError when nobody can join.
+Values SweepValues(const GridPoint& point, const SweepOptions& options);
 
 }  // namespace seam

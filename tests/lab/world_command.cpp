@@ -6,9 +6,8 @@
 #include "common/base/nearest.h"
 #include "common/base/plain_file.h"
 #include "common/base/process.h"
-#include "common/measure/table.h"
 #include "tests/lab/commands.h"
-#include "tests/lab/grid.h"
+#include "tests/lab/experiment/values.h"
 #include "tests/lab/relief/benches.h"
 #include "tests/lab/world/bench.h"
 
@@ -31,19 +30,12 @@ std::string WhyNotValid(const std::vector<std::string>& row) {
 }
 
 void WriteCsv(const TextTable& table, const std::string& path) {
-  const auto line = [](const std::vector<std::string>& fields) {
-    std::string text;
-    for (std::size_t i = 0; i < fields.size(); ++i) {  // the first one may be empty
-      text += (i > 0 ? "," : "") + CsvField(fields[i]);
-    }
-    return text + "\n";
-  };
-  const auto with = [&](std::vector<std::string> fields, const std::string& valid) {
+  const auto line = [](std::vector<std::string> fields, const std::string& valid) {
     fields.push_back(valid);
-    return line(fields);
+    return CsvRow(fields) + "\n";
   };
-  std::string text = with(table.header, "valid");
-  for (const std::vector<std::string>& row : table.rows) text += with(row, WhyNotValid(row));
+  std::string text = line(table.header, "valid");
+  for (const std::vector<std::string>& row : table.rows) text += line(row, WhyNotValid(row));
   WriteText(text, path);
 }
 

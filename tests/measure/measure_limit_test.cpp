@@ -213,10 +213,10 @@ TEST(Oracles, OnlyReplayingRulesAreJudgedByTheOracleWithBarriers) {
   room.mode = "buffer";
   for (const NamedReconciler& rule : Reconcilers()) {
     room.reconcile = rule.name;
-    EXPECT_EQ(JudgedByBarriers(room), rule.resimulates) << rule.name;
-    EXPECT_EQ(JudgeOf(room).barrier_every, rule.resimulates ? 3 : 0) << rule.name;
+    EXPECT_EQ(JudgedByBarriers(room), rule.rolls_back) << rule.name;
+    EXPECT_EQ(JudgeOf(room).barrier_every, rule.rolls_back ? 3 : 0) << rule.name;
   }
-  room.reconcile = "resimulate";
+  room.reconcile = "rollback";
   EXPECT_TRUE(JudgedByBarriers(room));
   for (const char* mode : {"central", "strict", "oracle", "nonsense"}) {
     room.mode = mode;

@@ -129,8 +129,10 @@ Names MoreRows() {
 void AddTables(Interface* interface) {
   interface->Add("seam-measure --csv column", Split(CsvHeader(), ','));
   interface->Add("seam-measure --more row", MoreRows());
-  interface->Add("seam-lab sweep column", Split(SweepHeader(), ','));
-  interface->Add("seam-lab physics column", Split(PhysicsHeader(), ','));
+  interface->Add("seam-lab sweep column",
+                 Split(SweepKeyColumns() + ',' + SweepValueColumns(), ','));
+  interface->Add("seam-lab physics column",
+                 Split(PhysicsKeyColumns() + ',' + PhysicsValueColumns(), ','));
   const LabWorkspace files;
   Output({"seam-lab", "overhead", (Root() / "scenes/cradle.toml").string(), "-o", files / "o.csv",
           "--repeats", "1"});
@@ -184,11 +186,7 @@ void AddNames(Interface* interface) {
   Names names;
   for (const ImpairProfile& profile : Profiles()) names.push_back(profile.name);
   interface->Add("network profile", names);
-  names.clear();
-  for (const Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
-    names.emplace_back(ToString(mode));
-  }
-  interface->Add("mode", names);
+  interface->Add("mode", ModeNames());
   names.clear();
   for (const NamedReconciler& rule : Reconcilers()) names.emplace_back(rule.name);
   interface->Add("reconciler", names);

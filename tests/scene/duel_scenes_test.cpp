@@ -6,7 +6,7 @@
 #include <array>
 #include <set>
 
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 #include "tests/support/scripted_world.h"
 
 namespace seam {

@@ -9,6 +9,7 @@
 
 #include "common/scene/scene.h"
 #include "common/sync/lease.h"
+#include "tests/support/replica_test_access.h"
 
 namespace seam {
 namespace authority_manager_test {
@@ -217,7 +218,7 @@ TEST_F(AuthorityManagerTest, ALatecomerDuringARevocationGetsTheSameRecordAsTheOt
 
 TEST_F(AuthorityManagerTest, EpochsGoOnPastSixteenBits) {
   constexpr int kHandOvers = 70000;
-  AuthorityTable client(replica_.world().composition());
+  AuthorityTable client(replica_.world().composition(), replica_.table());
   int holder = kAnn;
   for (int n = 0; n < kHandOvers; ++n) {
     situation_.peer_of_player = {holder, -1};
@@ -269,9 +270,14 @@ TEST_F(AuthorityManagerTest, ARemapKeepsRevocationsOfOldMechanismsOnly) {
   situation_.peer_of_player = {-1, kBob};
   Update();
   ASSERT_FALSE(manager_.InOneHand({0}));
-  manager_.Remap({{0}});
+  BodyRemap change;
+  change.bodies.resize(1);
+  change.bodies[0].body = 0;
+  change.mechanisms = {{0}};
+  ReplicaTestAccess::table(replica_).Renumber(change);
   EXPECT_FALSE(manager_.InOneHand({0})) << "still the same mechanism";
-  manager_.Remap({{}});
+  change.mechanisms = {{}};
+  ReplicaTestAccess::table(replica_).Renumber(change);
   EXPECT_TRUE(manager_.InOneHand({0}));
 }
 

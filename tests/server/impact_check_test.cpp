@@ -39,7 +39,8 @@ position = [1, 0]
   }
 
   World world_;
-  StateTrail trail_{2};
+  BodyTable bodies_{2, 0};
+  StateTrail trail_{bodies_};
 };
 
 TEST_F(ImpactCheckTest, AnImpactIsBoundedByTheIncomingMomentum) {
@@ -50,7 +51,7 @@ TEST_F(ImpactCheckTest, AnImpactIsBoundedByTheIncomingMomentum) {
 
 TEST_F(ImpactCheckTest, ASlowBodyCannotStrikeHard) {
   Know(0, {0, 0});
-  StateTrail slow(2);
+  StateTrail slow(bodies_);
   BodyState state = world_.Read(0);
   slow.Add(0, 10, state);
   state = world_.Read(1);
@@ -72,7 +73,7 @@ TEST_F(ImpactCheckTest, OnlyStatesUpToThatTickExplainAnImpact) {
 }
 
 TEST_F(ImpactCheckTest, AnOldStateExplainsAnImpactOnItsPath) {
-  StateTrail old(2);
+  StateTrail old(bodies_);
   old.Add(0, 10, world_.Read(0));
   BodyState far = world_.Read(1);
   far.position = {6, 0};
@@ -85,7 +86,7 @@ TEST_F(ImpactCheckTest, AnOldStateExplainsAnImpactOnItsPath) {
 
 TEST_F(ImpactCheckTest, AStandingBodyDoesNotStrikeTheGround) {
   EXPECT_FALSE(Can(3, {0.5f, 0}, 11, -1));
-  StateTrail falling(2);
+  StateTrail falling(bodies_);
   BodyState state = world_.Read(0);
   state.velocity = {0, -4};
   falling.Add(0, 10, state);

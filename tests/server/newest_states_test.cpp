@@ -18,7 +18,7 @@ class NewestStatesTest : public ::testing::Test {
       : world_(ParseScene("gravity = [0, 0]\n[[part]]\nname = \"disc\"\ncircle = 0.5\n"
                           "position = [0, 0]\n",
                           "disc")),
-        newest_(world_, kHz) {}
+        newest_(world_, bodies_, kHz) {}
 
   /// The disc at x m after a tick, moving with vx m/s.
   News Tell(std::int64_t tick, double x, double vx, int epoch = 1,
@@ -35,6 +35,7 @@ class NewestStatesTest : public ::testing::Test {
   }
 
   World world_;
+  BodyTable bodies_{world_};
   NewestStates newest_;
 };
 
@@ -79,7 +80,8 @@ TEST(NewestStates, BouncesOfAFallingBodyAreRelevant) {
                  "true\n[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 6]\n"
                  "velocity = [1, 2]\nrestitution = 0.8\n[solver]\nsubsteps = 2\n",
                  "ball"));
-  NewestStates newest(world, kHz);
+  const BodyTable bodies(world);
+  NewestStates newest(world, bodies, kHz);
   int told = 0, bounces = 0, flights = 0;
   BodyState before = world.Read(0);
   for (int tick = 0; tick < 4 * kHz; ++tick) {

@@ -267,11 +267,11 @@ TEST(PlanAuthority, FollowBodiesCountsTheBodiesOfAMechanism) {
 
 TEST(PlanAuthority, OnlyModeBufferHasFollowersAndOnlyBufferAndStrictHavePeers) {
   AuthorityView view = TwoSides({3});
-  view.mode = Mode::kStrict;
+  view.policy = &StrictPolicy();
   EXPECT_EQ(PlanAuthority(view)[0].authority, kBob);
   EXPECT_EQ(PlanAuthority(view)[0].secondaries.size(), 0);
-  for (const Mode mode : {Mode::kOracle, Mode::kCentral}) {
-    view.mode = mode;
+  for (const Policy* policy : {&OraclePolicy(), &CentralPolicy(false), &CentralPolicy(true)}) {
+    view.policy = policy;
     EXPECT_EQ(PlanAuthority(view)[0].authority, 0);
   }
 }

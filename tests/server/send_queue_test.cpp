@@ -34,7 +34,7 @@ position = [0, 0]
 repeat = {count = [20, 10], step = [1, 1]}
 )",
                           "discs")),
-        newest_(world_, 60) {
+        newest_(world_, bodies_, 60) {
     States states;
     states.tick = 1;
     for (int id = 0; id < kBodies; ++id) {
@@ -50,6 +50,7 @@ repeat = {count = [20, 10], step = [1, 1]}
   }
 
   World world_;
+  BodyTable bodies_{world_};
   NewestStates newest_;
 };
 

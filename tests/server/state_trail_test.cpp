@@ -17,7 +17,8 @@ BodyState At(float x) {
 }
 
 TEST(StateTrail, ReportsEachTickOnceAndInOrder) {
-  StateTrail trail(2);
+  BodyTable bodies(2, 0);
+  StateTrail trail(bodies);
   trail.Add(1, 12, At(2));
   trail.Add(0, 10, At(0));
   trail.Add(0, 12, At(1));
@@ -30,7 +31,8 @@ TEST(StateTrail, ReportsEachTickOnceAndInOrder) {
 }
 
 TEST(StateTrail, ALateStateDoesNotReprocessBodiesAlreadyChecked) {
-  StateTrail trail(2);
+  BodyTable bodies(2, 0);
+  StateTrail trail(bodies);
   trail.Add(0, 20, At(5));
   trail.Add(0, 21, At(6));
   trail.MarkProcessed();
@@ -46,21 +48,25 @@ TEST(StateTrail, ALateStateDoesNotReprocessBodiesAlreadyChecked) {
 }
 
 TEST(StateTrail, ARemapKeepsUnchangedBodiesProcessed) {
-  StateTrail trail(2);
+  BodyTable bodies(2, 0);
+  StateTrail trail(bodies);
   trail.Add(0, 10, At(0));
   trail.Add(1, 10, At(0));
   trail.MarkProcessed();
   BodyOrigin stays;
   stays.body = 1;
   stays.same = true;
-  trail.Remap({BodyOrigin(), stays});
+  BodyRemap change;
+  change.bodies = {BodyOrigin(), stays};
+  bodies.Renumber(change);
   EXPECT_TRUE(trail.NewTicks().empty());
   trail.Add(0, 9, At(1));
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{9}));
 }
 
 TEST(StateTrail, ThePathBetweenTwoStatesIsCheckedTickByTick) {
-  StateTrail trail(1);
+  BodyTable bodies(1, 0);
+  StateTrail trail(bodies);
   trail.Add(0, 10, At(1));
   trail.MarkProcessed();
   trail.Add(0, 14, At(3));
@@ -73,7 +79,8 @@ TEST(StateTrail, ThePathBetweenTwoStatesIsCheckedTickByTick) {
 }
 
 TEST(StateTrail, AJumpOrALongSilenceHasNoPath) {
-  StateTrail trail(1);
+  BodyTable bodies(1, 0);
+  StateTrail trail(bodies);
   trail.Add(0, 10, At(0));
   trail.MarkProcessed();
   trail.Add(0, 12, At(50));
@@ -89,7 +96,8 @@ TEST(StateTrail, ABurstOfStatesDoesNotCarryABodyPastATrigger) {
   coin.size = {0.3f, 1};
   coin.parts = {0};
   Triggers triggers({coin});
-  StateTrail trail(1);
+  BodyTable bodies(1, 0);
+  StateTrail trail(bodies);
   for (int i = 0; i < 6; ++i) trail.Add(0, 30 + i, At(-0.5f + 0.2f * static_cast<float>(i)));
   int entered = 0, left = 0;
   for (const std::int64_t tick : trail.NewTicks()) {

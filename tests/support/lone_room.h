@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common/net/memory.h"
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 #include "common/sync/method.h"
 #include "server/room_state.h"
 #include "server/server.h"

@@ -11,6 +11,7 @@ namespace seam {
 
 struct ReplicaTestAccess {
   static World& world(Replica& replica) { return replica.world_; }
+  static BodyTable& table(Replica& replica) { return replica.table_; }
   /// True if the body is parked (Display::Leave) and `at` is outside the displayed area: its pose
   /// here is old, and nobody sees it.
   static bool OutOfSight(const Replica& replica, int body, const Vec2& at) {
@@ -21,14 +22,13 @@ struct ReplicaTestAccess {
   }
   /// Returns the lengths of the queues of edits, states and rest commits, by name.
   static std::map<std::string, std::size_t> Queues(const Replica& replica) {
-    return {{"edits ordered", replica.queued_.size()},
+    return {{"edits ordered", replica.queue_->size()},
             {"edits found", replica.found_.size()},
             {"edits awaited", replica.awaited_.size()},
             {"edits proposed", replica.proposals_.remembered()},
-            {"edits appointed", replica.outside_edits_.size()},
             {"states let go", replica.released_.size()},
             {"states waiting", replica.corrector_.waiting()},
-            {"rests waiting", replica.rest_.waiting()}};
+            {"rests waiting", replica.rest_->waiting()}};
   }
 };
 

@@ -30,7 +30,7 @@ class WiredReplicas {
     const int peers = 1 + static_cast<int>(scene.players.size());
     for (int peer = 0; peer < peers; ++peer) {
       all_.push_back(std::make_unique<Replica>(scene, config, peer, peer - 1));
-      const bool buffer = config.mode == Mode::kBuffer;
+      const bool buffer = config.policy->PlansFollowers();
       const std::vector<Mechanism>& mechanisms = at(peer).world().composition().mechanisms;
       for (std::size_t m = 0; m < mechanisms.size(); ++m) {
         Give(peer, static_cast<int>(m), buffer ? 1 + mechanisms[m].owner : 0, buffer);

@@ -49,13 +49,14 @@ class BodyMemoryTest : public ::testing::Test {
   void Apply(const Edit& edit) {
     const std::optional<BodyRemap> change = world_->Apply({edit});
     ASSERT_TRUE(change.has_value());
-    memory_.Remap(*change);
+    bodies_.Renumber(*change);
   }
   BodyTrack& TrackOf(PartId assembly) { return memory_.track(world_->BodyOfId(assembly)); }
 
   std::unique_ptr<World> world_ = SmallWorld(kBoxes, "", "gravity = [0, 0]");
   SyncConfig config_ = MakeSyncConfig("buffer", "retrospect");
-  BodyMemory memory_{config_, *world_};
+  BodyTable bodies_{*world_};
+  BodyMemory memory_{config_, *world_, bodies_};
 };
 
 TEST_F(BodyMemoryTest, ARemapKeepsTheMemoryOfUnchangedBodies) {
@@ -113,8 +114,9 @@ TEST(BodyMemoryCoupling, HoldsForAQuarterOfASecondAndThroughARemap) {
       "[[part]]\nname = \"upper\"\nbox = [1, 1]\nposition = [0, 1.52]\n"
       "[[part]]\nname = \"far\"\nbox = [1, 1]\nposition = [8, 0.51]\n");
   const SyncConfig config = MakeSyncConfig("buffer", "retrospect");
-  BodyMemory memory(config, *world);
-  AuthorityTable table(world->composition());
+  BodyTable bodies(*world);
+  BodyMemory memory(config, *world, bodies);
+  AuthorityTable table(world->composition(), bodies);
   AuthorityRecord other;
   other.authority = 1;
   table.Set(world->mechanism(1), other);
@@ -136,7 +138,7 @@ TEST(BodyMemoryCoupling, HoldsForAQuarterOfASecondAndThroughARemap) {
   }
   const std::optional<BodyRemap> change = world->Apply({Free(0)});
   ASSERT_TRUE(change.has_value());
-  memory.Remap(*change);
+  bodies.Renumber(*change);
   EXPECT_TRUE(coupled(1));
   EXPECT_FALSE(coupled(3));
   world->Step();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/sync/edits/edit_order.h"
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 #include "tests/support/scripted_world.h"
 #include "tests/support/wired_replicas.h"
 

@@ -1,4 +1,4 @@
-#include "common/sync/input_feed.h"
+#include "common/sync/inputs/input_feed.h"
 
 #include <gtest/gtest.h>
 

@@ -10,11 +10,11 @@ namespace method_test {
 SyncConfig Config(const std::string& method) { return MakeSyncConfig(SplitMethod(method)); }
 
 TEST(Method, IsWrittenInOneWordOrTwo) {
-  EXPECT_EQ(Config("strict").mode, Mode::kStrict);
+  EXPECT_EQ(Config("strict").policy, &StrictPolicy());
   EXPECT_EQ(Config("buffer/fade").reconcile_name, "fade");
-  EXPECT_EQ(Config("central/own").predict, Predict::kOwn);
-  EXPECT_EQ(Config("central/all").predict, Predict::kAll);
-  EXPECT_EQ(Config("central").predict, Predict::kAll) << "the default";
+  EXPECT_EQ(Config("central/own").policy, &CentralPolicy(false));
+  EXPECT_EQ(Config("central/all").policy, &CentralPolicy(true));
+  EXPECT_EQ(Config("central").policy, &CentralPolicy(true)) << "the default";
 }
 
 TEST(Method, RecoversItsNamesFromItsConfiguration) {

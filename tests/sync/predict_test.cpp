@@ -45,9 +45,8 @@ player = "bob"
 constexpr std::int64_t kPress = 31, kLate = 8;
 
 /// ann presses `buttons` for a while, bob drives from the same tick on.
-WiredReplicas Central(Predict predict, std::int16_t buttons) {
-  SyncConfig config = MakeSyncConfig("central", "");
-  config.predict = predict;
+WiredReplicas Central(const std::string& predict, std::int16_t buttons) {
+  const SyncConfig config = MakeSyncConfig(MethodNames{"central", "", predict});
   return WiredReplicas(ParseScene(kRoom, "room.toml"), config, kLate,
                        [buttons](int peer, std::int64_t tick) {
                          if (tick < kPress) return Input{};
@@ -57,7 +56,7 @@ WiredReplicas Central(Predict predict, std::int16_t buttons) {
 }
 
 TEST(Predict, OwnPredictsTheDrivenBodiesAndAllPredictsEverything) {
-  WiredReplicas own = Central(Predict::kOwn, 0), all = Central(Predict::kAll, 0);
+  WiredReplicas own = Central("own", 0), all = Central("all", 0);
   for (const char* part : {"hers", "his", "crate"}) {
     const bool is_own = std::string(part) == "hers";
     EXPECT_EQ(own.at(1).world().motion(own.Body(1, part)) == Motion::kDynamic, is_own) << part;
@@ -67,7 +66,7 @@ TEST(Predict, OwnPredictsTheDrivenBodiesAndAllPredictsEverything) {
 }
 
 TEST(Predict, OwnButtonsActAtOnceOnPredictedBodies) {
-  for (const Predict predict : {Predict::kOwn, Predict::kAll}) {
+  for (const char* const predict : {"own", "all"}) {
     WiredReplicas room = Central(predict, 1);
     room.StepTo(kPress);
     EXPECT_NEAR(room.Read(1, "hers").velocity.x(), 3, 1e-5f);
@@ -79,7 +78,7 @@ TEST(Predict, OwnButtonsActAtOnceOnPredictedBodies) {
 }
 
 TEST(Predict, OwnButtonsActAtOnceOnOtherBodiesOnlyIfAllArePredicted) {
-  WiredReplicas all = Central(Predict::kAll, 2), own = Central(Predict::kOwn, 2);
+  WiredReplicas all = Central("all", 2), own = Central("own", 2);
   all.StepTo(kPress);
   own.StepTo(kPress);
   EXPECT_NEAR(all.Read(1, "crate").velocity.y(), 3, 1e-5f);
@@ -93,7 +92,7 @@ TEST(Predict, OwnButtonsActAtOnceOnOtherBodiesOnlyIfAllArePredicted) {
 }
 
 TEST(Predict, AllStepsOthersWithTheirKnownInputs) {
-  WiredReplicas all = Central(Predict::kAll, 0);
+  WiredReplicas all = Central("all", 0);
   all.StepTo(kPress + 3 * kLate);
   // The server acts on received inputs, kLate ticks late; both clients extrapolate its state by
   // their known inputs: so all three have bob's thrust of 6 m/s^2 for as many ticks.

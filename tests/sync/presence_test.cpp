@@ -8,7 +8,7 @@
 
 #include "common/base/random.h"
 #include "common/physics/part_places.h"
-#include "common/sync/input_track.h"
+#include "common/sync/inputs/input_track.h"
 #include "common/sync/replica.h"
 #include "tests/support/replica_test_access.h"
 
@@ -180,7 +180,7 @@ a = "car"
 b = "wheel"
 frequency = 5
 )",
-            "resimulate");
+            "rollback");
   constexpr int kCar = 1, kWheel = 2;
   line.Steps(10);
   line.Hear(kCar, {60, 0}, {0, 0});

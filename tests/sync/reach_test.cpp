@@ -22,7 +22,8 @@ class Lot {
                            ", 0.5]\n"
                            "[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [-800, 0.5]\n",
                        "lot.toml")),
-        roles(config, 1, own_player, lot.world) {
+        bodies(lot.world),
+        roles(config, 1, own_player, lot.world, bodies) {
     for (int t = 0; t < ticks; ++t) lot.Step();
     for (int m = 0; m < roles.table().count(); ++m) {  // it follows everything
       AuthorityRecord record;
@@ -44,6 +45,7 @@ class Lot {
 
   SyncConfig config = MakeSyncConfig("buffer", "rollback");
   ScriptedWorld lot;
+  BodyTable bodies;
   Roles roles;
   std::vector<InputTrack> inputs = std::vector<InputTrack>(2);
   Drivers drivers{lot.world, roles};

@@ -13,6 +13,7 @@
 #include "common/measure/joint_drift.h"
 #include "common/sync/mode.h"
 #include "common/sync/smoother.h"
+#include "tests/support/own_table.h"
 #include "tests/support/small_world.h"
 
 namespace seam {
@@ -76,7 +77,7 @@ std::vector<BodyState> Turning(const World& world, float spin, const Vec2& veloc
 TEST(Reckoner, AMechanismMovesRigidlyAndItsWheelKeepsTurning) {
   World world(ParseScene(kRods, "test.toml"));
   ASSERT_EQ(world.body_count(), 3);
-  Snapshots snapshots(3);
+  OwnTable<Snapshots> snapshots(3);
   const std::vector<BodyState> states = Turning(world, 3, Vec2(5, -1));
   for (int body = 0; body < 3; ++body) {
     snapshots.Add(body, 0, states[static_cast<std::size_t>(body)]);
@@ -114,7 +115,7 @@ BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodySta
       "a = \"a\"\nb = \"b\"\nfrequency = 5\n" +
           joint,
       "sprung.toml"));
-  Snapshots snapshots(2);
+  OwnTable<Snapshots> snapshots(2);
   BodyState b = world.Read(1);
   b.velocity = moves.velocity;
   b.spin = moves.spin;
@@ -157,7 +158,7 @@ TEST(Reckoner, ASpringedBodySwingsAndTravelsNoFurther) {
 
 TEST(Reckoner, StatesOfDifferentTicksDoNotOpenItsJoints) {
   World world(ParseScene(kRods, "test.toml"));
-  Snapshots snapshots(3);
+  OwnTable<Snapshots> snapshots(3);
   const std::vector<BodyState> states = Turning(world, 1, Vec2(0, 0));
   snapshots.Add(0, 6, states[0]);
   snapshots.Add(1, 0, states[1]);
@@ -219,7 +220,7 @@ TEST(Reckoner, ClosingOpenJointsAddsNoMotion) {
   const JointCloser joints(world);
   float fastest = 0, jumped = 0;
   for (int draw = 0; draw < 400; ++draw) {
-    Snapshots snapshots(3);
+    OwnTable<Snapshots> snapshots(3);
     for (int body = 0; body < 3; ++body) {
       BodyState s = world.Read(body);
       s.position += Vec2(off(random), off(random));
@@ -272,7 +273,7 @@ spin = 1
 TEST(Reckoner, AFreelyFallingBodyBouncesOffAnchoredOnes) {
   World world(ParseScene(kThrown, "test.toml"));
   const JointCloser joints(world);
-  Snapshots falling(2), straight(2);
+  OwnTable<Snapshots> falling(2), straight(2);
   for (int body = 0; body < 2; ++body) {
     falling.Add(body, 0, world.Read(body), true);
     straight.Add(body, 0, world.Read(body));
@@ -304,7 +305,7 @@ TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
   World truth(ParseScene(kThrown, "test.toml"));
   world.SetMotion(0, Motion::kAbsent);
   const JointCloser joints(world);
-  Snapshots snapshots(2);
+  OwnTable<Snapshots> snapshots(2);
   snapshots.Add(0, 0, world.Read(0), true);
   Reckoner reckoner(world, snapshots, joints);
   for (int tick = 0; tick <= 24; tick += kAbsentEvery) {
@@ -319,7 +320,7 @@ TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
 
 TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   World world(ParseScene(kRods, "test.toml"));
-  Smoother smoother(3, kSmoothRate);
+  OwnTable<Smoother> smoother(3, kSmoothRate);
   for (int body = 0; body < 3; ++body) {
     // Offset of physics from the view: turned by 1 rad about a point, and moved.
     const BodyState s = world.Read(body);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 #include "tests/support/followed_copy.h"
 
 namespace seam {

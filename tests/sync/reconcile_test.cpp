@@ -1,6 +1,6 @@
 /// Reconcilers on cases small enough to do by hand.
 
-#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/blend/reconcile.h"
 
 #include <gtest/gtest.h>
 

@@ -88,8 +88,9 @@ struct Shown {
 Shown CorrectPaddle(float before, float after) {
   const SyncConfig config = MakeSyncConfig("buffer", "rollback");
   World world(ParseScene(kPaddle, "s.toml"));
-  const Roles roles(config, 1, -1, world);
-  BodyMemory memory(config, world);
+  const BodyTable bodies(world);
+  const Roles roles(config, 1, -1, world, bodies);
+  BodyMemory memory(config, world, bodies);
   Display display(config, world, memory);
   const Vec2 centre = world.mass_point(0).centre;
   EXPECT_GT(centre.norm(), 1);

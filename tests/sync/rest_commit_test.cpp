@@ -10,6 +10,7 @@
 
 #include "common/codec/validate.h"
 #include "common/scene/scene.h"
+#include "common/sync/blend/distrusted_rest.h"
 
 namespace seam {
 namespace rest_commit_test {
@@ -25,7 +26,7 @@ class OnTheGround {
     rest.BeforeStep();
     world->Step();
     memory.RecordContacts(roles.table());
-    if (config.rolls_back) reach.Look();
+    if (config.policy->SendsCompleteTicks()) reach.Look();
     rest.AfterStep();
     memory.Record();
   }
@@ -72,13 +73,16 @@ repeat = {count = 2, step = [5, 0]}
 )",
                                                                     "test.toml"));
   SyncConfig config;
-  Roles roles{config, 0, -1, *world};
-  BodyMemory memory{config, *world};
+  BodyTable bodies{*world};
+  Roles roles{config, 0, -1, *world, bodies};
+  BodyMemory memory{config, *world, bodies};
   Display display{config, *world, memory};
   std::vector<InputTrack> inputs;
   Drivers drivers{*world, roles};
   Reach reach{config, *world, roles, drivers, inputs};
-  RestCommit rest{config, *world, roles, drivers, memory, display, inputs, reach};
+  std::unique_ptr<RestCommit> made =
+      MakeRestCommit(config, *world, roles, drivers, memory, display, inputs, reach);
+  RestCommit& rest = *made;
 };
 
 TEST(RestCommit, CommitsAQuarterOfASecondAfterFallingAsleepAndOnce) {

@@ -30,7 +30,8 @@ std::uint64_t HashOf(PartId id, const RestRecord& record) {
 
 TEST(RestTable, TheIncrementalSumEqualsTheFullSum) {
   for (const int count : {1, 32, 33, 300}) {
-    RestTable table(count);
+    BodyTable bodies(count, 0);
+    RestTable table(bodies);
     Random random(7);
     const auto below = [&](int end) { return static_cast<int>(random.Uniform(0, end)); };
     EXPECT_EQ(table.Hash(), 0u);
@@ -51,14 +52,16 @@ TEST(RestTable, TheIncrementalSumEqualsTheFullSum) {
       for (int body = 0; body < count; ++body) sum += HashOf(3 * body, table.at(body));
       ASSERT_EQ(table.Hash(), sum) << count << ", round " << round;
     }
-    std::vector<BodyOrigin> origins(static_cast<std::size_t>(count));
+    BodyRemap change;
+    change.bodies.resize(static_cast<std::size_t>(count));
     std::uint64_t sum = 0;
     for (int body = 0; body < count; ++body) {
-      origins[static_cast<std::size_t>(body)].body = body;
-      origins[static_cast<std::size_t>(body)].same = body % 2 == 0;
+      BodyOrigin& origin = change.bodies[static_cast<std::size_t>(body)];
+      origin.body = body;
+      origin.same = body % 2 == 0;
       if (body % 2 == 0) sum += HashOf(3 * body, table.at(body));
     }
-    table.Remap(origins);
+    bodies.Renumber(change);
     EXPECT_EQ(table.Hash(), sum) << "what is another one rests no more";
     table.Clear();
     EXPECT_EQ(table.Hash(), 0u);
@@ -68,7 +71,8 @@ TEST(RestTable, TheIncrementalSumEqualsTheFullSum) {
 /// Sums of weak hashes would not tell two swapped poses, or two equal changes, apart.
 TEST(RestTable, TheHashTellsBodiesWithSwappedPosesApart) {
   const auto lies = [](float a, float b) {
-    RestTable table(2);
+    const BodyTable bodies(2, 0);
+    RestTable table(bodies);
     table.Commit(0, 0, 1, 5, {Vec2(a, 0), 0, Vec2(0, 0), 0});
     table.Commit(1, 1, 1, 5, {Vec2(b, 0), 0, Vec2(0, 0), 0});
     return table.Hash();

@@ -19,7 +19,8 @@ std::vector<BodyState> PosesOf(const World& world) { return {world.Read(0), worl
 TEST(SeatGlide, ABodyThatMovesAtItsVelocityIsNotLimited) {
   const std::unique_ptr<World> made = SmallWorld(kTwo, "", "gravity = [0, 0]");
   World& world = *made;
-  SeatGlide glide;
+  const BodyTable bodies(world);
+  SeatGlide glide(bodies);
   std::vector<BodyState> poses = PosesOf(world);
   EXPECT_FALSE(glide.HoldBack(world, {0, 1}, &poses)) << "nothing was shown before";
   glide.Shown(world, {0, 1}, poses);
@@ -31,7 +32,8 @@ TEST(SeatGlide, ABodyThatMovesAtItsVelocityIsNotLimited) {
 TEST(SeatGlide, AJumpIsLimitedToCentimetresByOneShareForAllBodies) {
   const std::unique_ptr<World> made = SmallWorld(kTwo, "", "gravity = [0, 0]");
   World& world = *made;
-  SeatGlide glide;
+  const BodyTable bodies(world);
+  SeatGlide glide(bodies);
   const std::vector<BodyState> before = PosesOf(world);
   glide.Shown(world, {0, 1}, before);
   world.Step();

@@ -42,8 +42,9 @@ class Row {
 
   std::unique_ptr<World> world;
   SyncConfig config = MakeSyncConfig("buffer", "retrospect");
-  Roles roles{config, kSelf, -1, *world};
-  BodyMemory memory{config, *world};
+  BodyTable bodies{*world};
+  Roles roles{config, kSelf, -1, *world, bodies};
+  BodyMemory memory{config, *world, bodies};
   std::vector<InputTrack> inputs;
   Display display{config, *world, memory};
   Drivers drivers{*world, roles};

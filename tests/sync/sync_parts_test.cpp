@@ -7,8 +7,8 @@
 #include "client/clock_filter.h"
 #include "common/base/check.h"
 #include "common/base/random.h"
-#include "common/sync/input_source.h"
-#include "common/sync/input_track.h"
+#include "common/sync/inputs/input_source.h"
+#include "common/sync/inputs/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/quantize.h"
 #include "common/sync/smoother.h"
@@ -70,7 +70,8 @@ BodyState State(float x, float vx, float angle) {
 }
 
 TEST(Smoother, TheViewsVelocityIsContinuousAndItReturnsLikeACriticallyDampedSpring) {
-  Smoother smoother(1, kSmoothRate);
+  const BodyTable bodies(1, 0);
+  Smoother smoother(bodies, kSmoothRate);
   smoother.Moved(0, State(0.1f, 0, 0));
   const float dt = 1 / 60.0f;
   for (int frame = 1; frame <= 60; ++frame) {
@@ -81,14 +82,16 @@ TEST(Smoother, TheViewsVelocityIsContinuousAndItReturnsLikeACriticallyDampedSpri
 }
 
 TEST(Smoother, HalfOfAJumpOfVelocityIsHidden) {
-  Smoother smoother(1, kSmoothRate);
+  const BodyTable bodies(1, 0);
+  Smoother smoother(bodies, kSmoothRate);
   smoother.Moved(0, State(0, 2, 0));
   smoother.Advance(0, 1e-4f, 100);
   EXPECT_NEAR(smoother.offset(0).x() / 1e-4f, -1, 2e-3f);
 }
 
 TEST(Smoother, ACorrectionDoesNotMoveTheViewAtOnceAndIsForgottenInTime) {
-  Smoother smoother(1, kSmoothRate);
+  const BodyTable bodies(1, 0);
+  Smoother smoother(bodies, kSmoothRate);
   smoother.Moved(0, State(0.5f, 0, 0.1f));
   EXPECT_FLOAT_EQ(smoother.offset(0).x(), -0.5f);
   float last = 0.5f;
@@ -104,7 +107,8 @@ TEST(Smoother, ACorrectionDoesNotMoveTheViewAtOnceAndIsForgottenInTime) {
 }
 
 TEST(Smoother, DoesNothingWhenOff) {
-  Smoother smoother(1, 0);
+  const BodyTable bodies(1, 0);
+  Smoother smoother(bodies, 0);
   smoother.Moved(0, State(0.5f, 1, 0.1f));
   smoother.Advance(0, 1 / 60.0f, 0);
   EXPECT_EQ(smoother.offset(0).norm(), 0);
@@ -212,7 +216,8 @@ TEST(BotInput, IsAFunctionOfSeedPlayerAndTickAlone) {
 }
 
 TEST(Snapshots, ReckonWithAnAccelerationThatLasts) {
-  Snapshots snapshots(1);
+  const BodyTable bodies(1, 0);
+  Snapshots snapshots(bodies);
   const float dt = 1 / 60.0f;
   // Brakes at 6 m/s^2 from 20 m/s at tick 0: v = 20 - 6 t, x = 20 t - 3 t^2.
   for (const std::int64_t tick : {0, 3, 6}) {
@@ -229,7 +234,8 @@ TEST(Snapshots, ReckonWithAnAccelerationThatLasts) {
 }
 
 TEST(Snapshots, ReckonAnImpactWithoutItsAcceleration) {
-  Snapshots snapshots(1);
+  const BodyTable bodies(1, 0);
+  Snapshots snapshots(bodies);
   snapshots.Add(0, 0, State(0, 10, 0));
   snapshots.Add(0, 2, State(0, -5, 0));
   EXPECT_NEAR(snapshots.Extrapolate(0, 14, 1 / 60.0f, 1).position.x(), -5 * 0.2f, 1e-5f);
@@ -239,7 +245,8 @@ TEST(Snapshots, ReckonAnImpactWithoutItsAcceleration) {
 TEST(Snapshots, ReckonASingleStartOrImpactWithoutItsAcceleration) {
   const float dt = 1 / 60.0f;
   for (const float speed : {0.99f, 0.3f, -0.6f}) {
-    Snapshots snapshots(1);
+    const BodyTable bodies(1, 0);
+    Snapshots snapshots(bodies);
     snapshots.Add(0, 0, State(0, 0, 0));
     snapshots.Add(0, 2, State(0, speed, 0));
     EXPECT_NEAR(snapshots.Extrapolate(0, 20, dt, 1).velocity.x(), speed, 1e-6f) << "as first heard";
@@ -253,7 +260,8 @@ TEST(Snapshots, ReckonASingleStartOrImpactWithoutItsAcceleration) {
 }
 
 TEST(Snapshots, TheNewestIsTheLastThatIsKeptAndCarriedOver) {
-  Snapshots snapshots(2);
+  BodyTable bodies(2, 0);
+  Snapshots snapshots(bodies);
   EXPECT_FALSE(snapshots.has(0));
   for (int tick = 1; tick <= 200; ++tick) {  // around its ring, twice
     snapshots.Add(0, tick, State(static_cast<float>(tick), 0, 0));
@@ -262,10 +270,11 @@ TEST(Snapshots, TheNewestIsTheLastThatIsKeptAndCarriedOver) {
   snapshots.ForgetAfter(0, 150);
   EXPECT_EQ(snapshots.newest_tick(0), 150);
   EXPECT_EQ(snapshots.newest(0).position.x(), 150);
-  std::vector<BodyOrigin> origins(1);
-  origins[0].body = 0;
-  origins[0].root = {2, 0};
-  snapshots.Remap(origins);
+  BodyRemap change;
+  change.bodies.resize(1);
+  change.bodies[0].body = 0;
+  change.bodies[0].root = {2, 0};
+  bodies.Renumber(change);
   EXPECT_EQ(snapshots.newest(0).position.x(), 152);
   EXPECT_EQ(snapshots.At(0, 149)->position.x(), 151);
   snapshots.ForgetAfter(0, 0);
@@ -274,7 +283,8 @@ TEST(Snapshots, TheNewestIsTheLastThatIsKeptAndCarriedOver) {
 
 TEST(Snapshots, KeepThreeSecondsAndLittleMoreOfSparseStates) {
   constexpr std::int64_t kSeconds = 60;
-  Snapshots snapshots(2);
+  const BodyTable bodies(2, 0);
+  Snapshots snapshots(bodies);
   for (std::int64_t tick = 0; tick <= 100 * kSeconds; tick += 2) {
     snapshots.Add(0, tick, BodyState());
     if (tick % kSeconds == 0) snapshots.Add(1, tick, BodyState());
@@ -286,7 +296,8 @@ TEST(Snapshots, KeepThreeSecondsAndLittleMoreOfSparseStates) {
 }
 
 TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {
-  Snapshots snapshots(1);
+  const BodyTable bodies(1, 0);
+  Snapshots snapshots(bodies);
   BodyState s;
   s.velocity = Vec2(6, 0);
   s.position = Vec2(1, 0);
@@ -315,11 +326,11 @@ TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
   EXPECT_EQ(MakeSyncConfig("strict", "").reconcile, nullptr);
   EXPECT_THROW(MakeSyncConfig("strict", "fade"), OperatorError);
   EXPECT_THROW(MakeSyncConfig("lockstep", ""), OperatorError);
-  for (const Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
-    EXPECT_EQ(FindMode(ToString(mode)), mode);
+  for (const std::string& mode : ModeNames()) {
+    EXPECT_EQ(FindPolicy(mode, "", false)->mode(), mode);
   }
   for (const char* name : {"", "lockstep", "Oracle", "buffer "}) {
-    EXPECT_EQ(FindMode(name), std::nullopt) << name;
+    EXPECT_EQ(FindPolicy(name, "", false), nullptr) << name;
   }
 }
 

@@ -31,7 +31,7 @@ ExactStates Exact(const World& world, std::int32_t epoch) {
 }
 
 TEST(TakeOver, CorrectsTheCopyFromTheTickOfTheLastState) {
-  for (const char* rule : {"retrospect", "resimulate", "fade"}) {
+  for (const char* rule : {"retrospect", "rollback", "fade"}) {
     FollowedCopy pair(kFlying, rule, 2);
     pair.Steps(20);
     pair.talking = false;

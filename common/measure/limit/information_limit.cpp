@@ -11,7 +11,7 @@
 #include "common/measure/recorded_inputs.h"
 #include "common/measure/screen/extent.h"
 #include "common/physics/world.h"
-#include "common/sync/mode.h"
+#include "common/sync/method.h"
 
 namespace seam {
 namespace {
@@ -163,7 +163,7 @@ class Guesser {
 
 std::optional<double> InformationLimit(const Recording& recording, int every) {
   SEAM_ASSERT(every >= 1);
-  if (FindMode(recording.room.mode) == Mode::kOracle) return std::nullopt;
+  if (PolicyOf(recording.room).IsOracle()) return std::nullopt;
   Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   scene.solver.tick_hz = recording.room.tick_hz;
   const KnownInputs known = FindKnownInputs(recording);

@@ -1,27 +1,26 @@
 #pragma once
 /// Corrects the simulated copies of other peers' bodies by the states received. Apart from physics
-/// only two classes also move such bodies: Replay, at the request of Corrector, and RestCommit,
-/// which puts resting bodies at their committed poses.
+/// only three classes also move such bodies: Replay and Blender, at the request of Corrector, and
+/// RestCommit, which puts resting bodies at their committed poses.
 ///
-///   States --> corrector_receive   filters new states, by body
-///                corrector_correct   applies the room's rule to a secondary's copy
-///                corrector_pull      the same before every step, if the rule asks for it
+///   States --> corrector_receive   filters new states, by body; goes back for them (Replay) or
+///                                  corrects copies by the room's rule (Blender)
 ///   ExactStates --> corrector_take_over  corrects copies of mechanisms that change hands
 ///   roles  --> corrector_roles     starts newly simulated bodies at the authority's state
 
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
+#include "common/sync/blend/blender.h"
 #include "common/sync/body_memory.h"
-#include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
 #include "common/sync/mode.h"
 #include "common/sync/reach/presence.h"
 #include "common/sync/roles.h"
+#include "common/sync/rollback/replay.h"
 
 namespace seam {
 
@@ -51,9 +50,8 @@ class Corrector {
   /// the next holder starts from there. Returns the largest difference; zero for bodies that are
   /// only displayed.
   BodyState TakeOver(const ExactStates& exact);
-  /// Call before a step. Pulls copies towards the authority's states, if the room's rule acts in
-  /// every tick.
-  void PullCopies();
+  /// Call before a step; see Blender::Pull.
+  void PullCopies() { blender_.Pull(); }
   /// Call after a change of roles. Sets bodies dynamic, prescribed (kPrescribed), absent or
   /// kinematic. Returns true if an awake body became dynamic.
   bool FollowRoles();
@@ -64,9 +62,6 @@ class Corrector {
   std::size_t waiting() const { return waiting_.size(); }
 
  private:
-  /// Index of an entry in a States message, and its body.
-  using Entry = std::pair<std::size_t, int>;
-
   /// True if the message is of a future tick or revision.
   bool IsEarly(const States& states) const;
   /// True if its tick is not far from now.
@@ -81,27 +76,12 @@ class Corrector {
   void BringBack(int body, const BodyState& told, std::int64_t tick);
   void PlaceNow(int body, std::int64_t tick, const BodyState& remote, bool asleep);
   void PlaceBody(int body, const BodyState& state, bool asleep);
-  /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
-  std::map<int, BodyState> CommonDifferences(const States& states,
-                                             const std::vector<Entry>& entries) const;
-  /// Returns our comparable past at `tick`, with the velocity of the nearby tick at which our copy
-  /// moved most like `remote`. Requires such a past.
-  BodyState LikePast(int body, std::int64_t tick, const BodyState& remote) const;
-  /// Returns the point nearest to `target` that a copy can reach without crossing an anchored
-  /// shape, if its authority had it at `heard` at tick `from`.
-  Vec2 WayTo(int body, const Vec2& heard, std::int64_t from, const Vec2& target) const;
-  bool CameFrom(int body, const Vec2& heard, std::int64_t from) const;
-  void Correct(int body, const States& states, std::size_t i, const BodyState& common);
-  void TakeRest(int body, const BodyState& local, const BodyState& remote);
-  void Blend(int body, const BodyState& local, const Correction& c, std::int64_t from);
   Motion WantedMotion(int body) const;
   bool BeginToSimulate(int body);
   bool HadUnreportedImpact(int body) const;
   void CloseBegun(int mechanism);
   template <class Put>
   void Close(int mechanism, bool only_turns, const Put& put);
-  BodyState PullTarget(int body, std::int64_t at) const;
-  void RecordArrival(int body);
 
   const SyncConfig& config_;
   World& world_;
@@ -110,11 +90,12 @@ class Corrector {
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;
+  Blender blender_;
   std::vector<States> waiting_;  // for future ticks or edits
   std::vector<States> waited_;   // former entries of waiting_; their memory is reused
   /// Bodies that were placed but not yet closed: id, and true if extrapolated to now.
   std::vector<std::pair<int, bool>> placed_;
-  std::vector<BodyState> poses_;  // by body: poses of the mechanism being closed
+  std::vector<BodyState> poses_;  // scratch, by body: poses of the mechanism being closed
 };
 
 }  // namespace seam

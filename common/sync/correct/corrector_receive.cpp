@@ -1,10 +1,12 @@
 /// Corrector: turns received states into snapshots, corrections or a replay.
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "common/sync/correct/corrector.h"
 #include "common/sync/quantize.h"
+#include "common/sync/reach/way_to.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -23,7 +25,8 @@ Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles,
       presence_(presence),
       memory_(memory),
       display_(display),
-      replay_(replay) {}
+      replay_(replay),
+      blender_(config, world, roles, memory, display) {}
 
 Received Corrector::Receive(const States& states) {
   Received result;
@@ -36,7 +39,7 @@ Received Corrector::Receive(const States& states) {
     }
     return result;
   }
-  std::vector<Entry> to_correct;
+  std::vector<Blender::Entry> to_correct;
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (!IsNews(states, i, body, &result)) continue;
@@ -46,10 +49,11 @@ Received Corrector::Receive(const States& states) {
     if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
   }
   ClosePlaced();
-  const std::map<int, BodyState> common = CommonDifferences(states, to_correct);
-  for (const auto& [i, body] : to_correct) {
-    Correct(body, states, i, common.at(world_.mechanism(body)));
+  if (config_.policy->GoesBack(roles_.self())) {
+    const auto asks = [&](const Blender::Entry& e) { return replay_.Ask(e.second, states.tick); };
+    to_correct.erase(std::remove_if(to_correct.begin(), to_correct.end(), asks), to_correct.end());
   }
+  blender_.Correct(states, to_correct);
   if (result.used > 0) display_.AddAge(world_.tick() - states.tick);
   return result;
 }
@@ -100,7 +104,7 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
     ++result->unknown;
     return false;
   }
-  const bool trusts = config_.StampsInputs(roles_.self()) && roles_.Simulates(body);
+  const bool trusts = config_.policy->GoesBack(roles_.self()) && roles_.Simulates(body);
   if (track.placed && trusts && replay_.LacksEdit(states.revision, states.tick)) {
     ++result->stale;  // its sender will roll back and send another state
     return false;
@@ -147,7 +151,7 @@ void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, b
     by_now = memory_.MovedOn(body, world_.tick());
     by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
     if (!memory_.snapshots().falls(body)) {  // a falling one bounces off anchored shapes already
-      by_now.position = WayTo(body, remote.position, tick, by_now.position);
+      by_now.position = WayTo(world_, memory_, body, remote.position, tick, by_now.position);
     }
   }
   PlaceBody(body, by_now, asleep);

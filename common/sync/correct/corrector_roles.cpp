@@ -2,11 +2,13 @@
 /// body that becomes displayed continues from its current state.
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/corrector.h"
+#include "common/sync/reach/way_to.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -26,7 +28,7 @@ Motion Corrector::WantedMotion(int body) const {
   if (roles_.RoleOf(m) != kRoleRemote) {
     return presence_.Idle(m) ? Motion::kAbsent : Motion::kDynamic;
   }
-  if (config_.mode != Mode::kBuffer) return Motion::kKinematic;
+  if (!config_.policy->Reckons()) return Motion::kKinematic;
   return presence_.Near(m) ? Motion::kPrescribed : Motion::kAbsent;
 }
 
@@ -159,7 +161,7 @@ bool Corrector::BeginToSimulate(int body) {
   // The display moves bodies through walls: its path proves nothing.
   memory_.track(body).dynamic_since = now;
   if (!memory_.snapshots().falls(body)) {  // a falling one bounces off anchored shapes already
-    state.position = WayTo(body, told, told_tick, state.position);
+    state.position = WayTo(world_, memory_, body, told, told_tick, state.position);
   }
   world_.Write(body, state);
   display_.Moved(body, Minus(state, before));

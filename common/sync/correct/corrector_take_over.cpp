@@ -6,6 +6,7 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/corrector.h"
+#include "common/sync/reach/way_to.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -89,7 +90,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
 void Corrector::BringBack(int body, const BodyState& told, std::int64_t tick) {
   const BodyState here = world_.Read(body);
   BodyState back = here;
-  back.position = WayTo(body, told.position, tick, here.position);
+  back.position = WayTo(world_, memory_, body, told.position, tick, here.position);
   if (back.position == here.position) return;
   back.velocity = told.velocity;
   back.spin = told.spin;
@@ -112,7 +113,7 @@ void Corrector::ApplyDifference(int body, std::int64_t from, const BodyState& di
   const BodyState local = world_.Read(body);
   const float seconds = static_cast<float>(now - from) * world_.dt();
   BodyState moved = PlusScaled(local, MovedOn(off, seconds), 1);
-  moved.position = WayTo(body, told.position, told_tick, moved.position);
+  moved.position = WayTo(world_, memory_, body, told.position, told_tick, moved.position);
   for (std::int64_t t = from; t < now; ++t) {
     BodyState* past = memory_.history().At(t, body);
     const float after = static_cast<float>(t - from) * world_.dt();

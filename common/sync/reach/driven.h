@@ -58,7 +58,7 @@ class Drivers {
   int revision_ = -1;                     // revision that driven_ belongs to
   std::vector<std::vector<int>> driven_;  // by player
   std::vector<std::vector<int>> moved_;   // by player: by axes only
-  std::vector<char> by_axes_;             // by mechanism
+  std::vector<char> by_axes_;             // rebuilt by Look, by mechanism
   std::vector<char> belts_, concerns_;    // by player
   std::vector<int> concerned_;            // players
 };

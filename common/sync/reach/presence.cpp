@@ -94,27 +94,35 @@ class Presence::Sorted {
 
 Presence::Presence(const SyncConfig& config, const World& world, const Roles& roles,
                    const BodyMemory& memory)
-    : config_(config), world_(world), roles_(roles), memory_(memory) {
-  Remap();
+    : config_(config),
+      world_(world),
+      roles_(roles),
+      memory_(memory),
+      near_(memory.table(), MechanismRule::kFresh, 1),
+      may_idle_(memory.table(), MechanismRule::kScratch),
+      idle_(memory.table(), MechanismRule::kFresh, kNotIdle),
+      needed_until_(memory.table(), MechanismRule::kFresh, -1),
+      rested_(memory.table(), BodyRule::kFresh),
+      lies_(memory.table(), MechanismRule::kScratch),
+      needed_in_(memory.table(), MechanismRule::kFresh, -1),
+      near_before_(memory.table(), MechanismRule::kScratch),
+      idle_before_(memory.table(), MechanismRule::kScratch),
+      edited_(memory.table(), [this](const BodyRemap&) { Start(); }) {
+  Start();
 }
 
-void Presence::Remap() {
-  near_.assign(world_.composition().mechanisms.size(), 1);
+void Presence::Start() {
   unwatched_.clear();
-  idle_.assign(near_.size(), kNotIdle);
-  needed_until_.assign(near_.size(), -1);
-  may_idle_ = MayIdle(world_);
-  rested_.assign(static_cast<std::size_t>(world_.body_count()), {});
-  resting_.Clear(rested_.size());
+  may_idle_.values() = MayIdle(world_);
+  resting_.Clear(rested_.values().size());
   rests_.clear();
   fastest_ = 0;
-  needed_in_.assign(near_.size(), -1);
   around_.min.setConstant(-1e9f);
   around_.max.setConstant(1e9f);
 }
 
 bool Presence::CheckIfDue() {
-  if (config_.mode != Mode::kBuffer) return false;
+  if (!config_.policy->Reckons()) return false;
   // Peers check in different ticks, so that a machine with many peers has even load.
   const int every = std::max(1, config_.tick_hz / kLooksPerSecond);
   if ((world_.tick() + roles_.self()) % every != 0) return false;
@@ -123,21 +131,20 @@ bool Presence::CheckIfDue() {
 }
 
 bool Presence::CheckIfRequested() {
-  if (config_.mode != Mode::kBuffer || !std::exchange(asked_, false)) return false;
+  if (!config_.policy->Reckons() || !std::exchange(asked_, false)) return false;
   Look();
   return true;
 }
 
 bool Presence::Need(int mechanism) {
-  const auto m = static_cast<std::size_t>(mechanism);
-  needed_until_[m] = world_.tick() + config_.tick_hz;
-  return std::exchange(idle_[m], kNotIdle) != kNotIdle;
+  needed_until_[mechanism] = world_.tick() + config_.tick_hz;
+  return std::exchange(idle_[mechanism], kNotIdle) != kNotIdle;
 }
 
 bool Presence::NeedAll() {
   const auto idle = [](std::int32_t epoch) { return epoch != kNotIdle; };
   if (std::none_of(idle_.begin(), idle_.end(), idle)) return false;
-  idle_.assign(idle_.size(), kNotIdle);
+  idle_.Reset();
   return true;
 }
 
@@ -146,13 +153,13 @@ void Presence::FindChanged() {
   stirred_.clear();
   const bool known = world_.ChangedSince(change_, &stirred_);
   change_ = world_.last_change();
-  for (const int body : stirred_) rested_[static_cast<std::size_t>(body)].changed_in = looks_;
+  for (const int body : stirred_) rested_[body].changed_in = looks_;
   if (known) return;
   for (Rested& rested : rested_) rested.changed_in = looks_;
 }
 
 void Presence::Rest(int body, std::uint64_t still) {
-  Rested& rested = rested_[static_cast<std::size_t>(body)];
+  Rested& rested = rested_[body];
   rested.seen_in = looks_;
   const bool kept = resting_.Has(body);
   if (kept && still != 0 && rested.still == still) return;
@@ -166,7 +173,7 @@ void Presence::Rest(int body, std::uint64_t still) {
 
 void Presence::ForgetOthers() {
   const auto rests = [&](int body) {
-    if (rested_[static_cast<std::size_t>(body)].seen_in == looks_) return true;
+    if (rested_[body].seen_in == looks_) return true;
     resting_.Take(body);
     return false;
   };
@@ -176,7 +183,7 @@ void Presence::ForgetOthers() {
 
 /// Marks all resting bodies of a mechanism as needed.
 void Presence::Reach(int mechanism) {
-  needed_in_[static_cast<std::size_t>(mechanism)] = looks_;
+  needed_in_[mechanism] = looks_;
   EachIdOf(world_.composition(), mechanism, [&](PartId id) {
     const int body = world_.BodyOfId(id);
     if (body >= 0 && resting_.Has(body)) needed_.push_back(body);
@@ -195,9 +202,8 @@ void Presence::FindNeeded() {
                         });
   };
   for (const MovingBox& box : movers_) {
-    each(box, kRestSeconds + kRestKeep, [&](int m) {
-      return kRestSeconds + (idle_[static_cast<std::size_t>(m)] == kNotIdle ? kRestKeep : 0);
-    });
+    each(box, kRestSeconds + kRestKeep,
+         [&](int m) { return kRestSeconds + (idle_[m] == kNotIdle ? kRestKeep : 0); });
   }
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     MovingBox box = resting_.at(needed_[i]);
@@ -207,12 +213,11 @@ void Presence::FindNeeded() {
 }
 
 void Presence::FindIdle() {
-  if (unwatched_.empty()) return idle_.assign(idle_.size(), kNotIdle);
-  for (std::size_t m = 0; m < idle_.size(); ++m) {
-    const bool own = roles_.RoleOf(static_cast<int>(m)) == kRoleAuthority;
-    const bool idle =
-        own && lies_[m] != 0 && !Needed(static_cast<int>(m)) && needed_until_[m] < world_.tick();
-    idle_[m] = idle ? roles_.table().at(static_cast<int>(m)).epoch : kNotIdle;
+  if (unwatched_.empty()) return idle_.Reset();
+  for (int m = 0; m < idle_.size(); ++m) {
+    const bool own = roles_.RoleOf(m) == kRoleAuthority;
+    const bool idle = own && lies_[m] != 0 && !Needed(m) && needed_until_[m] < world_.tick();
+    idle_[m] = idle ? roles_.table().at(m).epoch : kNotIdle;
   }
 }
 
@@ -220,7 +225,7 @@ void Presence::SortOut() {
   simulated_.clear();
   movers_.clear();
   displayed_.clear();
-  lies_ = may_idle_;
+  lies_.values() = may_idle_.values();
   for (const int body : memory_.tended()) {
     const int m = world_.mechanism(body);
     if (roles_.RoleOf(m) == kRoleRemote) {
@@ -230,7 +235,7 @@ void Presence::SortOut() {
       }
       continue;
     }
-    const Rested& rested = rested_[static_cast<std::size_t>(body)];
+    const Rested& rested = rested_[body];
     const bool as_before =
         rested.still != 0 && rested.seen_in == looks_ - 1 && rested.changed_in != looks_;
     const bool unwatched = Unwatched(m);
@@ -245,7 +250,7 @@ void Presence::SortOut() {
     // (RestCommit::AfterStep).
     const BodyTrack& track = memory_.track(body);
     if (!rests || !track.at_rest || !(track.idle || world_.motion(body) == Motion::kDynamic)) {
-      lies_[static_cast<std::size_t>(m)] = 0;
+      lies_[m] = 0;
     }
   }
   movers_.insert(movers_.end(), simulated_.begin(), simulated_.end());
@@ -253,12 +258,12 @@ void Presence::SortOut() {
 
 /// Finds displayed mechanisms that may meet a simulated one.
 void Presence::FindNear() {
-  near_.swap(near_before_);
-  near_.assign(near_before_.size(), 0);
+  near_.values().swap(near_before_.values());
+  std::fill(near_.begin(), near_.end(), char{0});
   const Sorted there(&simulated_, kNearSeconds + kNearKeep);
   if (there.empty()) displayed_.clear();  // no simulated body could touch them
   for (const int body : displayed_) {
-    const auto m = static_cast<std::size_t>(world_.mechanism(body));
+    const int m = world_.mechanism(body);
     if (near_[m] != 0) continue;
     const float seconds = kNearSeconds + (near_before_[m] != 0 ? kNearKeep : 0);
     if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near_[m] = 1;
@@ -286,17 +291,15 @@ void Presence::Look() {
     around_.max.array() += kAround;
   }
   FindNear();
-  idle_before_ = idle_;
+  idle_before_.values() = idle_.values();
   FindIdle();
   // A simulated mechanism would be near if it became displayed.
   for (const int body : world_.present()) {
-    if (roles_.Simulates(body)) near_[static_cast<std::size_t>(world_.mechanism(body))] = 1;
+    if (roles_.Simulates(body)) near_[world_.mechanism(body)] = 1;
   }
   changed_.clear();
-  for (std::size_t m = 0; m < near_.size(); ++m) {
-    if (near_[m] != near_before_[m] || idle_[m] != idle_before_[m]) {
-      changed_.push_back(static_cast<int>(m));
-    }
+  for (int m = 0; m < near_.size(); ++m) {
+    if (near_[m] != near_before_[m] || idle_[m] != idle_before_[m]) changed_.push_back(m);
   }
 }
 

@@ -18,13 +18,15 @@
 #include "common/sync/peer_set.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
+#include "common/sync/table/body_column.h"
+#include "common/sync/table/mechanism_column.h"
 
 namespace seam {
 
 class Presence {
  public:
-  /// All must outlive this. Initially every mechanism is near. Bodies that `memory` has parked are
-  /// never near.
+  /// All must outlive this. Initially, and after an edit that changes bodies, every mechanism is
+  /// near until the next check. Bodies that `memory` has parked are never near.
   Presence(const SyncConfig& config, const World& world, const Roles& roles,
            const BodyMemory& memory);
 
@@ -38,11 +40,11 @@ class Presence {
   /// Mechanisms with another result in the last check than in the one before; ascending.
   const std::vector<int>& changed() const { return changed_; }
   /// True if a displayed mechanism has to be present.
-  bool Near(int mechanism) const { return near_[static_cast<std::size_t>(mechanism)] != 0; }
+  bool Near(int mechanism) const { return near_[mechanism] != 0; }
   /// True if a mechanism is this peer's own, at rest, and need not be present.
   bool Idle(int mechanism) const {
-    const auto m = static_cast<std::size_t>(mechanism);
-    return idle_[m] != kNotIdle && idle_[m] == roles_.table().at(mechanism).epoch &&
+    const std::int32_t epoch = idle_[mechanism];
+    return epoch != kNotIdle && epoch == roles_.table().at(mechanism).epoch &&
            roles_.RoleOf(mechanism) == kRoleAuthority;
   }
   /// Keeps a mechanism from being idle for a second, because something other than a body is about
@@ -61,8 +63,6 @@ class Presence {
     unwatched_ = std::move(unwatched);
     doubtful_ = doubtful;
   }
-  /// Call when the bodies have changed. Every mechanism is near until the next check.
-  void Remap();
   /// Requires that no mechanism is idle (NeedAll).
   void Persist(StateArchive& a);
 
@@ -80,6 +80,8 @@ class Presence {
  private:
   class Sorted;
   static constexpr std::int32_t kNotIdle = -1;
+  /// Starts anew with the world's bodies.
+  void Start();
   void Look();
   /// Sorts bodies into moving, displayed and resting ones.
   void SortOut();
@@ -100,18 +102,15 @@ class Presence {
   void Rest(int body, std::uint64_t still);
   void ForgetOthers();
   void Reach(int mechanism);
-  bool Needed(int mechanism) const {
-    return needed_in_[static_cast<std::size_t>(mechanism)] == looks_;
-  }
+  bool Needed(int mechanism) const { return needed_in_[mechanism] == looks_; }
 
-  std::vector<char> near_;       // by mechanism
-  std::vector<char> unwatched_;  // by mechanism; empty: none
+  MechanismColumn<char> near_;
+  std::vector<char> unwatched_;  // see LeaveUnwatched; empty: none
   PeerSet doubtful_;
-  std::vector<char> may_idle_;              // by mechanism, see MayIdle
-  bool asked_ = false;                      // see Ask
-  std::vector<std::int32_t> idle_;          // by mechanism: its epoch when it became idle, or
-                                            // kNotIdle
-  std::vector<std::int64_t> needed_until_;  // by mechanism: tick, see Need
+  MechanismColumn<char> may_idle_;              // see MayIdle
+  bool asked_ = false;                          // see Ask
+  MechanismColumn<std::int32_t> idle_;          // its epoch when it became idle, or kNotIdle
+  MechanismColumn<std::int64_t> needed_until_;  // tick, see Need
   std::vector<int> changed_;
   // Resting bodies are kept from check to check, since most have not moved.
   struct Rested {
@@ -119,22 +118,23 @@ class Presence {
     int seen_in = -1;         // last check in which it rested
     int changed_in = -1;      // last check before which it may have changed
   };
-  std::vector<Rested> rested_;
+  BodyColumn<Rested> rested_;
   BoxIndex<MovingBox> resting_;
   std::vector<int> rests_;    // bodies in resting_; some rest no more
   float fastest_ = 0;         // speed of the fastest of them, m/s
   std::uint64_t change_ = 0;  // World::last_change at the last check
   std::vector<int> stirred_;  // bodies, for FindChanged
-  std::vector<char> lies_;    // in this check, by mechanism that may idle: all of its bodies rest
+  MechanismColumn<char> lies_;  // in this check, if it may idle: all of its bodies rest
   int looks_ = 0;
-  std::vector<int> needed_in_;  // by mechanism: last check that needed it, see FindNeeded
-  std::vector<int> needed_;     // resting bodies needed in this check
+  MechanismColumn<int> needed_in_;  // last check that needed it, see FindNeeded
+  std::vector<int> needed_;         // resting bodies needed in this check
   // For this check; members only to reuse their memory, since a client checks ten times a second.
   std::vector<MovingBox> simulated_, movers_;
   std::vector<int> displayed_;  // bodies
-  std::vector<char> near_before_;
-  std::vector<std::int32_t> idle_before_;
+  MechanismColumn<char> near_before_;
+  MechanismColumn<std::int32_t> idle_before_;
   MovingBox around_;
+  EditHook edited_;
 };
 
 }  // namespace seam

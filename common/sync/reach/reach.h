@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/physics/world.h"
-#include "common/sync/input_track.h"
+#include "common/sync/inputs/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/reach/driven.h"
 #include "common/sync/reach/zones.h"
@@ -40,7 +40,7 @@ class Reach {
   const std::vector<InputTrack>& inputs_;
   static constexpr std::int64_t kComplete = INT64_MAX;
   std::int64_t looked_ = -1;            // tick of the last Look
-  std::vector<std::int64_t> complete_;  // by mechanism; kComplete: up to looked_
+  std::vector<std::int64_t> complete_;  // rebuilt by Look, by mechanism; kComplete: all
   std::vector<int> open_;               // mechanisms with missing inputs
 };
 

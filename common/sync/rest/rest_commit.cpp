@@ -5,28 +5,17 @@
 
 #include "common/base/geometry.h"
 #include "common/base/state_archive.h"
-#include "common/sync/reconcile/reconcile.h"
-#include "common/sync/rest/rest_disturbed.h"
 #include "common/sync/rest/rest_islands.h"
+#include "common/sync/state_arithmetic.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
 
-/// The engine's sleep thresholds, m/s and rad/s, and the factor above them that wakes a committed
-/// body.
-constexpr float kSleepSpeed = 0.01f, kSleepSpin = 0.035f, kWakeShare = 1.4f;
-/// ...if exceeded for this long in a row, s: a corrected copy next to it pushes only for a tick or
-/// two. The time doubles with each release, at most kWaitDoublings times: two peers whose copies
-/// lie differently would otherwise wake each other forever.
-constexpr double kPushedFor = 0.1;
-constexpr int kWaitDoublings = 5;
-/// An impact, m/s and rad/s: wakes the body at once.
-constexpr float kWakeImpactSpeed = 0.5f;
 /// A woken copy goes back to rest if its authority has not reported motion for this long, s: more
-/// than the round trip of a slow path. Where states are sent only for input-complete ticks, the
-/// input has to reach the authority first, and the state takes as long again.
-constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
+/// than two round trips of a slow path, because the input has to reach the authority first, and the
+/// state takes as long again.
+constexpr double kBackAfter = 2;
 
 /// Rewrites our past of the body: it has rested since the commitment, whatever this peer assumed.
 void WriteHistory(const RestRecord& rest, std::int64_t now, int body, BodyMemory* memory) {
@@ -39,19 +28,17 @@ void WriteHistory(const RestRecord& rest, std::int64_t now, int body, BodyMemory
 }  // namespace
 
 RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& roles,
-                       const Drivers& drivers, BodyMemory& memory, Display& display,
-                       const std::vector<InputTrack>& inputs, const Reach& reach)
+                       BodyMemory& memory, Display& display, const Reach& reach)
     : config_(config),
       world_(world),
       roles_(roles),
-      drivers_(drivers),
       memory_(memory),
       display_(display),
-      inputs_(inputs),
       reach_(reach),
-      table_(world.body_count()),
-      watch_(world),
-      disturbed_(static_cast<std::size_t>(world.body_count())) {}
+      table_(memory.table()),
+      watch_(world, memory.table()),
+      disturbed_(memory.table(), BodyRule::kSame),
+      after_edit_(memory.table(), [this](const BodyRemap&) { FindHeld(); }) {}
 
 std::int64_t RestCommit::Ticks(double seconds) const {
   return static_cast<std::int64_t>(seconds * config_.tick_hz);
@@ -124,7 +111,7 @@ void RestCommit::FindDue() {
 
 void RestCommit::BeforeStep() {
   if (Off()) return;
-  if (!Trusts()) driven_ = DrivenIn(world_, drivers_, inputs_, world_.tick() + 1);
+  Prepare();
   FindDue();
   for (const int body : due_) {
     EndOutdated(body);
@@ -134,7 +121,7 @@ void RestCommit::BeforeStep() {
 }
 
 void RestCommit::Hold(int body) {
-  const std::int64_t back_after = Ticks(Trusts() ? kBackAfterTrusted : kBackAfter);
+  const std::int64_t back_after = Ticks(BackAfter());
   Disturbance& d = disturbed(body);
   if (d.released_tick >= 0 && world_.tick() - d.released_tick >= back_after) {
     d.released_tick = -1;
@@ -148,52 +135,20 @@ void RestCommit::Hold(int body) {
     LetGo(body);  // a replay found an impact
   }
   if (!Holds(body)) return;
-  const BodyState now = world_.Read(body);
   const bool simulated = world_.motion(body) == Motion::kDynamic && world_.awake(body);
-  const bool moved = now.velocity.squaredNorm() > 0 || now.spin != 0;
-  if (simulated && (Trusts() || edited_ || moved || Driven(body))) {
+  if (simulated && (edited_ || IsDisturbed(body))) {
     LetGo(body);
   } else {
     Put(body);
   }
 }
 
-/// Returns true if a held body that the last step pushed is to be released.
-bool RestCommit::ExceedsWakeLimit(int body) {
-  const BodyState now = world_.Read(body);
-  const float speed = now.velocity.norm(), spin = std::fabs(now.spin);
-  if (speed > kWakeImpactSpeed || spin > kWakeImpactSpeed) return true;
-  Disturbance& d = disturbed(body);
-  const bool pushed = speed > kWakeShare * kSleepSpeed || spin > kWakeShare * kSleepSpin;
-  d.pushed_ticks = pushed ? d.pushed_ticks + 1 : 0;
-  if (d.pushed_ticks < Ticks(kPushedFor) << std::min(d.times, kWaitDoublings)) return false;
-  ++d.times;
-  d.pushed_ticks = 0;
-  return true;
-}
+double RestCommit::BackAfter() const { return kBackAfter; }
 
-/// Decides for each body of an island that the engine woke in the last step. An own body touched
-/// only by own bodies stays awake: no other peer's word is needed. Where all bodies are held and
-/// have several owners, the engine wakes bodies that lean on slightly displaced copies in every
-/// step; these count as pushes.
 void RestCommit::HoldIsland(const std::vector<int>& island) {
-  bool own_awake = false, others_awake = false, driven = false, only_own = true;
-  for (const int body : island) {
-    const bool struck = world_.awake(body) && world_.Read(body).velocity.norm() > kWakeImpactSpeed;
-    driven = driven || struck || Driven(body);
-    only_own = only_own && Own(body);
-    if (Holds(body) || !world_.awake(body)) continue;
-    (Own(body) ? own_awake : others_awake) = true;
-  }
   for (const int body : island) {
     if (!Holds(body) || !world_.awake(body)) continue;
-    const bool by_own = Own(body) && (own_awake || (only_own && !others_awake));
-    const bool moves = world_.motion(body) == Motion::kDynamic;
-    if (moves && (Trusts() || by_own || driven || ExceedsWakeLimit(body))) {
-      LetGo(body);
-    } else {
-      Put(body);
-    }
+    world_.motion(body) == Motion::kDynamic ? LetGo(body) : Put(body);
   }
 }
 
@@ -220,21 +175,12 @@ void RestCommit::AfterStep() {
   for (const Rest& rest : waiting) Receive(rest);
 }
 
-void RestCommit::Remap(const BodyRemap& change) {
-  table_.Remap(change.bodies);
-  std::vector<Disturbance> disturbed;
-  for (const BodyOrigin& origin : change.bodies) {
-    const bool same = origin.body >= 0 && origin.same;
-    disturbed.push_back(same ? disturbed_[static_cast<std::size_t>(origin.body)] : Disturbance{});
-  }
-  disturbed_ = std::move(disturbed);
-  for (int body = 0; body < world_.body_count(); ++body) {
-    memory_.track(body).at_rest =
-        table_.at(body).committed && this->disturbed(body).released_tick < 0;
-  }
+void RestCommit::FindHeld() {
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (this->disturbed(body).released_tick >= 0) freed_.push_back(body);
+    const bool released = disturbed(body).released_tick >= 0;
+    memory_.track(body).at_rest = table_.at(body).committed && !released;
+    if (released) freed_.push_back(body);
   }
   watch_.StartAnew();
   committed_.clear();
@@ -243,7 +189,7 @@ void RestCommit::Remap(const BodyRemap& change) {
 void RestCommit::StartAnew() {
   table_.Clear();
   watch_.StartAnew();
-  disturbed_.assign(disturbed_.size(), Disturbance{});
+  disturbed_.Reset();
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) memory_.track(body).at_rest = false;
   committed_.clear();

@@ -6,14 +6,11 @@
 ///   authority   asleep .25 s --> commit --> Rest --> server (right, epoch) --> all other peers
 ///   receivers   Rest --> written, asleep, held --> a newer state of the authority ends it
 ///
-/// A held body does not wake from a small disturbance. It wakes when its speed exceeds kWakeShare
-/// times the engine's sleep threshold for some ticks in a row, or from an impact, an edit or an
-/// input. A copy woken here goes back to rest if its authority stays silent.
-/// If an island has several owners, their copies differ and the engine may never let them sleep. A
-/// peer then commits its own bodies once they have lain still, whatever the copies do; if that
-/// fails, the lowest peer commits, and finally every peer.
-/// Rules that stamp inputs need none of this: their copies are equal and wake and sleep alike. They
-/// commit only sleep of an input-complete tick, because earlier sleep may rest on an assumed input.
+/// This class trusts the physics: with rollback and in mode central all peers come to the same
+/// sleep and waking from the same inputs, or one peer simulates everything. A held body that the
+/// engine wakes is released. Only sleep of an input-complete tick is committed, because earlier
+/// sleep may rest on an assumed input. A copy woken here goes back to rest if its authority stays
+/// silent. DistrustedRest (common/sync/blend/) serves the modes whose copies differ.
 
 #include <cstdint>
 #include <vector>
@@ -22,9 +19,7 @@
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/display.h"
-#include "common/sync/input_track.h"
 #include "common/sync/mode.h"
-#include "common/sync/reach/driven.h"
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_blocks.h"
 #include "common/sync/rest/rest_table.h"
@@ -35,11 +30,12 @@ namespace seam {
 
 class RestCommit {
  public:
-  /// All must outlive this. `inputs`: by player. Does nothing in mode oracle or in a scene without
-  /// sleep.
-  RestCommit(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
-             BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs,
-             const Reach& reach);
+  /// All must outlive this. Does nothing in mode oracle or in a scene without sleep.
+  RestCommit(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
+             Display& display, const Reach& reach);
+  RestCommit(const RestCommit&) = delete;
+  RestCommit& operator=(const RestCommit&) = delete;
+  virtual ~RestCommit() = default;
 
   /// Call immediately before a step. Puts each held body exactly at its rest pose.
   void BeforeStep();
@@ -51,7 +47,6 @@ class RestCommit {
   void PutBack();
   /// Call when an edit was applied: a body that is awake before the next step was woken by it.
   void MarkEdited() { edited_ = true; }
-  void Remap(const BodyRemap& change);
   /// Forgets all rest.
   void StartAnew();
   /// Call after BodyMemory::Persist. Messages of future ticks are not saved.
@@ -89,40 +84,47 @@ class RestCommit {
   /// Number of messages kept for a future tick.
   std::size_t waiting() const { return waiting_.size(); }
 
- private:
+ protected:
   /// Disturbances of a held body.
   struct Disturbance {
     std::int64_t released_tick = -1;  ///< when it was released here, its authority still silent;
                                       ///< -1: it was not
-    int pushed_ticks = 0;          ///< ticks in a row
-    int times = 0;                 ///< releases by pushes since its authority last spoke of it
+    int pushed_ticks = 0;             ///< ticks in a row; DistrustedRest
+    int times = 0;                    ///< releases by pushes since its authority last spoke of it
   };
 
-  bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
-  /// True if the physics alone decides about waking and sleeping, and no body is held against it:
-  /// all peers come to the same result from the same inputs, or one peer simulates everything.
-  bool Trusts() const {
-    return config_.StampsInputs(roles_.self()) || config_.mode == Mode::kCentral;
+  /// Call before the decisions of a step.
+  virtual void Prepare() {}
+  /// True if a held, simulated body that is awake before a step is to be released.
+  virtual bool IsDisturbed(int) const { return true; }
+  /// Releases bodies of an island that the engine woke in the last step, or puts them back.
+  virtual void HoldIsland(const std::vector<int>& island);
+  /// True if these own bodies of an island may be committed though some are awake.
+  virtual bool MayCommitAwake(const std::vector<int>&, const std::vector<int>&) const {
+    return false;
   }
+  /// Time after which a woken copy goes back to rest if its authority stays silent, s.
+  virtual double BackAfter() const;
+
+  const World& world() const { return world_; }
+  const RestWatch& watch() const { return watch_; }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   int AuthorityOf(int body) const { return roles_.table().at(world_.mechanism(body)).authority; }
-  Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
+  Disturbance& disturbed(int body) { return disturbed_[body]; }
   std::int64_t Ticks(double seconds) const;
-  void EndOutdated(int body);
-  void FindDue();
-  void Hold(int body);
-  /// Valid between BeforeStep and AfterStep. False where inputs are trusted to wake the bodies that
-  /// they move.
-  bool Driven(int body) const {
-    return !Trusts() && driven_[static_cast<std::size_t>(world_.mechanism(body))];
-  }
+  /// Finds held and released bodies again after an edit.
+  void FindHeld();
   /// Writes the body's rest pose, asleep; its view glides there.
   void Put(int body);
   /// Accepts a disturbance as real. The rest of an own body ends; a copy moves on until its
   /// authority speaks, or until it goes back.
   void LetGo(int body);
-  bool ExceedsWakeLimit(int body);
-  void HoldIsland(const std::vector<int>& island);
+
+ private:
+  bool Off() const { return config_.policy->IsOracle() || !world_.scene().solver.sleep; }
+  void EndOutdated(int body);
+  void FindDue();
+  void Hold(int body);
   void CommitIsland(const std::vector<int>& island);
   bool MayCommit(const std::vector<int>& island, const std::vector<int>& own) const;
   void Commit(int body);
@@ -133,15 +135,12 @@ class RestCommit {
   const SyncConfig& config_;
   World& world_;
   const Roles& roles_;
-  const Drivers& drivers_;
   BodyMemory& memory_;
   Display& display_;
-  const std::vector<InputTrack>& inputs_;
   const Reach& reach_;
   RestTable table_;
   RestWatch watch_;
-  std::vector<Disturbance> disturbed_;  // by body
-  std::vector<bool> driven_;            // by mechanism: an input of this step moves it
+  BodyColumn<Disturbance> disturbed_;
   std::vector<int> freed_;              // bodies released here, and some that no longer are
   std::vector<int> due_;                // bodies that this step has to check
   mutable int open_ = 0;                // a body that was not held at the last call of all()
@@ -149,6 +148,7 @@ class RestCommit {
   std::vector<int> committed_;  // bodies, since the last Take; some twice
   std::int64_t number_ = 0;     // of the next Rest
   std::vector<Rest> waiting_;   // messages of future ticks
+  EditHook after_edit_;
 };
 
 }  // namespace seam

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "common/base/geometry.h"
-#include "common/sync/reconcile/reconcile.h"
 #include "common/sync/rest/rest_commit.h"
+#include "common/sync/state_arithmetic.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -14,10 +14,6 @@ namespace {
 
 /// Time that an island must have slept before it is committed, s.
 constexpr double kAsleepFor = 0.25;
-/// Waits before own bodies of an island with several owners are committed, s. kStillFor: they are
-/// still for twice the engine's half second. kSlowFor: all hardly move for so long that the peers
-/// must disagree; the lowest peer commits. kSlowForAnybody: any peer commits.
-constexpr double kStillFor = 1, kSlowFor = 2.5, kSlowForAnybody = 4;
 /// A copy that is moved farther than this, m and rad, may have supported own bodies.
 constexpr float kMoved = 0.005f;
 /// Number of times that an own body at rest is woken by such a move; after that its pose is as good
@@ -29,27 +25,14 @@ constexpr double kWaitingFor = 2;
 }  // namespace
 
 bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int>& own) const {
-  const auto each = [](const std::vector<int>& bodies, const auto& holds) {
-    return std::all_of(bodies.begin(), bodies.end(), holds);
-  };
+  const bool complete = config_.policy->SendsCompleteTicks();
   const auto asleep = [&](int b) {
     const std::int64_t assumed =
-        config_.rolls_back ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
+        complete ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
     return watch_.asleep(b) >= Ticks(kAsleepFor) + assumed;
   };
-  if (each(own, asleep)) return true;
-  if (Trusts()) return false;
-  if (each(island, [&](int b) { return Own(b); })) return false;
-  if (!each(island, [&](int b) { return !Driven(b); })) return false;
-  if (each(own, [&](int b) { return watch_.still(b) >= Ticks(kStillFor); })) return true;
-  const auto slow = [&](double seconds) {
-    if (!each(own, [&](int b) { return watch_.still(b) > config_.send_every(); })) return false;
-    return each(island, [&](int b) { return watch_.slow(b) >= Ticks(seconds); });
-  };
-  const bool lowest = each(island, [&](int b) {
-    return Holds(b) || roles_.table().at(world_.mechanism(b)).authority >= roles_.self();
-  });
-  return slow(kSlowForAnybody) || (lowest && slow(kSlowFor));
+  if (std::all_of(own.begin(), own.end(), asleep)) return true;
+  return MayCommitAwake(island, own);
 }
 
 void RestCommit::CommitIsland(const std::vector<int>& island) {
@@ -139,7 +122,8 @@ bool RestCommit::Receive(const Rest& rest) {
 /// Returns true if an awake simulated copy was at that pose at `tick`, so that it was woken later:
 /// the commitment merely arrives late.
 bool RestCommit::WokenSince(int body, std::int64_t tick, const BodyState& pose) const {
-  if (!Trusts() || !roles_.Simulates(body) || !world_.awake(body)) return false;
+  if (!config_.policy->TrustsSleep() || !roles_.Simulates(body) || !world_.awake(body))
+    return false;
   const BodyState* then = memory_.history().At(tick, body);
   if (then == nullptr) return false;
   const BodyState off = Minus(pose, *then);

@@ -1,7 +1,7 @@
 #include "common/sync/rest/rest_table.h"
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
 
 #include "common/base/bytes.h"
 #include "common/scene/persist_state.h"
@@ -29,15 +29,22 @@ std::uint64_t HashOfBody(PartId id, const RestRecord& record) {
 
 }  // namespace
 
+RestTable::RestTable(const BodyTable& table)
+    : records_(table, BodyRule::kSame),  // an unchanged body keeps its id
+      hashes_(table, BodyRule::kSame, 0),
+      edited_(table, [this](const BodyRemap&) {
+        sum_ = std::accumulate(hashes_.begin(), hashes_.end(), std::uint64_t{0});
+      }) {}
+
 void RestTable::SetHash(int body, std::uint64_t hash) {
-  std::uint64_t& known = hashes_[static_cast<std::size_t>(body)];
+  std::uint64_t& known = hashes_[body];
   sum_ += hash - known;
   known = hash;
 }
 
 void RestTable::Commit(int body, PartId id, std::int32_t epoch, std::int64_t tick,
                        const BodyState& pose) {
-  RestRecord& record = records_[static_cast<std::size_t>(body)];
+  RestRecord& record = records_[body];
   record = {true, epoch, tick, pose};
   record.pose.velocity.setZero();
   record.pose.spin = 0;
@@ -45,28 +52,14 @@ void RestTable::Commit(int body, PartId id, std::int32_t epoch, std::int64_t tic
 }
 
 void RestTable::End(int body) {
-  records_[static_cast<std::size_t>(body)].committed = false;
+  records_[body].committed = false;
   SetHash(body, 0);
 }
 
 void RestTable::Clear() {
-  records_.assign(records_.size(), RestRecord{});
-  hashes_.assign(hashes_.size(), 0);
+  records_.Reset();
+  hashes_.Reset();
   sum_ = 0;
-}
-
-void RestTable::Remap(const std::vector<BodyOrigin>& origins) {
-  std::vector<RestRecord> records;
-  std::vector<std::uint64_t> hashes;
-  sum_ = 0;
-  for (const BodyOrigin& origin : origins) {
-    const bool same = origin.body >= 0 && origin.same;  // so it keeps its id
-    records.push_back(same ? at(origin.body) : RestRecord{});
-    hashes.push_back(same ? HashOf(origin.body) : 0);
-    sum_ += hashes.back();
-  }
-  records_ = std::move(records);
-  hashes_ = std::move(hashes);
 }
 
 std::vector<Rest> RestTable::Pack(const World& world, int peer, std::vector<int> bodies,
@@ -101,8 +94,7 @@ void RestTable::Persist(StateArchive& a, const World& world) {
     a.Tick(&record->tick);
     seam::Persist(a, &record->pose);
   });
-  for (std::size_t i = 0; a.reading() && i < records_.size(); ++i) {
-    const auto body = static_cast<int>(i);
+  for (int body = 0; a.reading() && body < records_.size(); ++body) {
     if (at(body).committed) SetHash(body, HashOfBody(world.id(body), at(body)));
   }
 }

@@ -6,6 +6,7 @@
 
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
+#include "common/sync/table/body_column.h"
 
 namespace seam {
 
@@ -16,31 +17,25 @@ struct RestRecord {
   BodyState pose;          ///< velocity is zero
 };
 
-/// One record per body, by index.
+/// One record per body, by index. After an edit only those of unchanged bodies are left.
 class RestTable {
  public:
-  explicit RestTable(int body_count)
-      : records_(static_cast<std::size_t>(body_count)),
-        hashes_(static_cast<std::size_t>(body_count), 0) {}
+  explicit RestTable(const BodyTable& table);
 
-  const RestRecord& at(int body) const { return records_[static_cast<std::size_t>(body)]; }
+  const RestRecord& at(int body) const { return records_[body]; }
   /// Records a commitment. `id`: the body's id. The velocity of `pose` is dropped.
   void Commit(int body, PartId id, std::int32_t epoch, std::int64_t tick, const BodyState& pose);
   /// Moves the commitment to a later tick: the body still rests there.
-  void Prolong(int body, std::int64_t tick) {
-    records_[static_cast<std::size_t>(body)].tick = tick;
-  }
+  void Prolong(int body, std::int64_t tick) { records_[body].tick = tick; }
   void End(int body);
   void Clear();
-  /// Carries records over after an edit; only those of unchanged bodies survive.
-  void Remap(const std::vector<BodyOrigin>& origins);
 
   void Persist(StateArchive& a, const World& world);
 
   /// Sum of the hashes of all bodies; 0 if none is committed.
   std::uint64_t Hash() const { return sum_; }
   /// Hash of a committed body's id, epoch and pose bits; 0 if it is not committed.
-  std::uint64_t HashOf(int body) const { return hashes_[static_cast<std::size_t>(body)]; }
+  std::uint64_t HashOf(int body) const { return hashes_[body]; }
   /// Packs the commitments of these bodies (ascending, all committed), sorted by tick, into as few
   /// messages as fit datagrams. Ticks below `least_tick` are raised to it. `utime` and `number` are
   /// left 0.
@@ -50,9 +45,10 @@ class RestTable {
  private:
   void SetHash(int body, std::uint64_t hash);
 
-  std::vector<RestRecord> records_;
-  std::vector<std::uint64_t> hashes_;  // by body
-  std::uint64_t sum_ = 0;              // of hashes_
+  BodyColumn<RestRecord> records_;
+  BodyColumn<std::uint64_t> hashes_;
+  std::uint64_t sum_ = 0;  // of hashes_
+  EditHook edited_;
 };
 
 }  // namespace seam

@@ -16,12 +16,15 @@ constexpr float kTurnWeight = 2;
 
 }  // namespace
 
-RestWatch::RestWatch(const World& world) : world_(world) { StartAnew(); }
+RestWatch::RestWatch(const World& world, const BodyTable& table)
+    : world_(world), tracks_(table, BodyRule::kFresh) {
+  StartAnew();
+}
 
 void RestWatch::StartAnew() {
-  tracks_.assign(static_cast<std::size_t>(world_.body_count()), Track{});
+  tracks_.Reset();
   for (int body = 0; body < world_.body_count(); ++body) {
-    Track& track = tracks_[static_cast<std::size_t>(body)];
+    Track& track = tracks_[body];
     track.still = track.slow = {world_.Read(body), world_.tick()};
     track.looked = world_.tick();
   }
@@ -37,7 +40,7 @@ void RestWatch::Follow(const BodyState& now, float distance, Near* near) const {
 
 void RestWatch::Look() {
   for (const int body : world_.present()) {
-    Track& track = tracks_[static_cast<std::size_t>(body)];
+    Track& track = tracks_[body];
     if (track.looked != world_.tick() - 1) track.asleep_since = -1;  // it was absent
     track.looked = world_.tick();
     if (world_.awake(body)) {

@@ -3,15 +3,16 @@
 /// speed, because small corrections disturb the speed again and again.
 
 #include <cstdint>
-#include <vector>
 
 #include "common/physics/world.h"
+#include "common/sync/table/body_column.h"
 
 namespace seam {
 
 class RestWatch {
  public:
-  explicit RestWatch(const World& world);
+  /// Both must outlive this.
+  RestWatch(const World& world, const BodyTable& table);
 
   /// Call after a step. Absent bodies are skipped; their times must not be asked for.
   void Look();
@@ -35,12 +36,12 @@ class RestWatch {
     std::int64_t looked = 0;  // tick of the last Look that saw it
     Near still, slow;
   };
-  const Track& of(int body) const { return tracks_[static_cast<std::size_t>(body)]; }
+  const Track& of(int body) const { return tracks_[body]; }
   std::int64_t Since(std::int64_t tick) const { return tick < 0 ? 0 : world_.tick() - tick; }
   void Follow(const BodyState& now, float distance, Near* near) const;
 
   const World& world_;
-  std::vector<Track> tracks_;
+  BodyColumn<Track> tracks_;
 };
 
 }  // namespace seam

@@ -52,7 +52,7 @@ class JointCloser {
   }
 
   const World& world_;
-  std::vector<Jointed> mechanisms_;
+  std::vector<Jointed> mechanisms_;  // rebuilt by Rebuild, by mechanism
 };
 
 }  // namespace seam

@@ -48,10 +48,11 @@ class Reckoner {
   const PathSpeed& Speed(int body) { return Reckoned(body).speed[static_cast<std::size_t>(body)]; }
 
  private:
+  /// By body; those of bodies that are not done_ are old.
   struct Paths {
-    std::vector<BodyState> heard;        // by body; of jointed mechanisms
-    std::vector<BodyState> here, there;  // by body
-    std::vector<PathSpeed> speed;        // by body
+    std::vector<BodyState> heard;  // of jointed mechanisms
+    std::vector<BodyState> here, there;
+    std::vector<PathSpeed> speed;
   };
   struct Heard;
   struct Common;
@@ -70,7 +71,7 @@ class Reckoner {
   const Snapshots& snapshots_;
   const JointCloser& joints_;
   std::int64_t next_ = 0;
-  std::vector<bool> done_;  // by mechanism
+  std::vector<bool> done_;  // rebuilt by Begin, by mechanism
   Paths paths_;
   /// Cached flight of a falling body since its newest state.
   struct Flown {
@@ -78,7 +79,7 @@ class Reckoner {
     Vec2 from{0, 0};                   // m, position in that state
     BodyState state;
   };
-  std::vector<Flown> flown_;     // by body
+  std::vector<Flown> flown_;     // rebuilt for each revision, by body
   int revision_ = -1;            // world revision that flown_ belongs to
   std::vector<Heard> together_;  // bodies of the mechanism being extrapolated that move as one
   std::vector<PathSpeed> open_;  // speeds of its bodies before its joints were closed

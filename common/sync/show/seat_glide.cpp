@@ -41,10 +41,9 @@ bool SeatGlide::IsGentle(int mechanism) const {
 
 bool SeatGlide::HoldBack(const World& world, const std::vector<int>& bodies,
                          std::vector<BodyState>* poses) const {
-  if (shown_.empty()) return false;
   float share = 1;
   for (const int body : bodies) {
-    const ShownPose& before = shown_[static_cast<std::size_t>(body)];
+    const ShownPose& before = shown_[body];
     if (before.tick != world.tick() - 1) return false;
     const BodyState& pose = (*poses)[static_cast<std::size_t>(body)];
     const float speed = std::max(pose.velocity.norm(), before.pose.velocity.norm());
@@ -54,7 +53,7 @@ bool SeatGlide::HoldBack(const World& world, const std::vector<int>& bodies,
   }
   if (share == 1) return false;
   for (const int body : bodies) {
-    const BodyState& before = shown_[static_cast<std::size_t>(body)].pose;
+    const BodyState& before = shown_[body].pose;
     BodyState& pose = (*poses)[static_cast<std::size_t>(body)];
     pose.position = before.position + share * (pose.position - before.position);
     if (std::fabs(pose.spin) > kSpinSeen) continue;
@@ -65,10 +64,8 @@ bool SeatGlide::HoldBack(const World& world, const std::vector<int>& bodies,
 
 void SeatGlide::Shown(const World& world, const std::vector<int>& bodies,
                       const std::vector<BodyState>& poses) {
-  shown_.resize(static_cast<std::size_t>(world.body_count()));
   for (const int body : bodies) {
-    const auto i = static_cast<std::size_t>(body);
-    shown_[i] = {world.tick(), poses[i]};
+    shown_[body] = {world.tick(), poses[static_cast<std::size_t>(body)]};
   }
 }
 

@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "common/physics/world.h"
+#include "common/sync/table/body_column.h"
 
 namespace seam {
 
 class SeatGlide {
  public:
+  explicit SeatGlide(const BodyTable& table) : shown_(table, BodyRule::kFresh) {}
+
   /// Call once a tick.
   void Look(const World& world);
   /// True if a mechanism's view is to glide gently.
@@ -26,17 +29,15 @@ class SeatGlide {
   /// Records the poses as displayed.
   void Shown(const World& world, const std::vector<int>& bodies,
              const std::vector<BodyState>& poses);
-  /// Call when bodies were recreated.
-  void Forget() { shown_.clear(); }
 
  private:
   struct ShownPose {
-    std::int64_t tick = -1;
+    std::int64_t tick = -2;  // before any tick's predecessor
     BodyState pose;
   };
-  std::vector<int> ticks_;        // by player: ticks left
-  std::vector<int> gentle_;       // mechanisms
-  std::vector<ShownPose> shown_;  // by body; empty: none
+  std::vector<int> ticks_;   // by player: ticks left
+  std::vector<int> gentle_;  // mechanisms
+  BodyColumn<ShownPose> shown_;
 };
 
 }  // namespace seam

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/lab/exact/front.h"
+#include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/physics_row.h"
-#include "tests/lab/report/csv_table.h"
 #include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 

@@ -11,9 +11,9 @@
 #include "common/base/process.h"
 #include "common/physics/part_places.h"
 #include "tests/lab/exact/scene_truth.h"
+#include "tests/lab/experiment/jobs.h"
 #include "tests/lab/hard/exact_judge.h"
 #include "tests/lab/hard/script_player.h"
-#include "tests/lab/jobs.h"
 
 namespace seam {
 namespace {

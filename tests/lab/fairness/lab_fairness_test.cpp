@@ -4,12 +4,13 @@
 
 #include "common/base/check.h"
 #include "common/net/memory.h"
-#include "common/sync/input_source.h"
-#include "tests/lab/commands.h"
+#include "common/sync/inputs/input_source.h"
+#include "tests/lab/experiment/probes.h"
 #include "tests/lab/fairness/fairness.h"
 #include "tests/lab/fairness/lagging_net.h"
 #include "tests/lab/fairness/mirrored_script.h"
 #include "tests/lab/report/sessions/fairness_section.h"
+#include "tests/lab/report/validity.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
@@ -141,7 +142,7 @@ TEST(FairnessTable, HasMeansAndThe95thPercentileAndNamesInvalidRows) {
                           "strict" + paths + ",87,30,100,100,94,100,102,-6,2\n" + key +
                           "buffer/fade" + paths + "the cars did not meet,,,,,,,,,\n",
                       "fairness.csv");
-  EXPECT_EQ(InvalidRows(csv), 1u);
+  EXPECT_EQ(FindValidity(csv).invalid, 1u);
   const TextTable table = FairnessTable(csv, "script", "seam-lab fairness");
   ASSERT_EQ(table.rows.size(), 2u);
   const std::vector<std::string> strict = {"strict", "2", "100", "100 / 99", "−1", "6", "+0", "2"};
@@ -152,13 +153,14 @@ TEST(FairnessTable, HasMeansAndThe95thPercentileAndNamesInvalidRows) {
 
 TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndResumes) {
   const LabWorkspace work;
-  FairnessCommand command;
-  command.methods = {"buffer/fade"};
-  command.seeds = 1;
-  command.table = work / "fairness.csv";
-  command.jobs = 1;
-  command.quiet = true;
-  EXPECT_EQ(RunFairnessTable(command), 0);
+  const Probe probe = FairnessProbe();
+  ProbeOptions options = probe.defaults;
+  options.methods = {"buffer/fade"};
+  options.seeds = 1;
+  options.output.table = work / "fairness.csv";
+  options.output.jobs = 1;
+  options.output.quiet = true;
+  EXPECT_EQ(RunProbe(probe, options), 0);
   const std::string first = work.Read("fairness.csv");
   const CsvTable csv = CsvTable::Parse(first, "fairness.csv");
   ASSERT_EQ(csv.rows(), 4u);
@@ -166,11 +168,11 @@ TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndResumes) {
   EXPECT_EQ(csv.Text(1, "near"), "bob");
   EXPECT_EQ(csv.Text(1, "drive"), "script");
   EXPECT_EQ(csv.Text(2, "drive"), "random");
-  EXPECT_EQ(InvalidRows(csv), 0u);
-  EXPECT_EQ(RunFairnessTable(command), 0);
+  EXPECT_EQ(FindValidity(csv).invalid, 0u);
+  EXPECT_EQ(RunProbe(probe, options), 0);
   EXPECT_EQ(work.Read("fairness.csv"), first);
-  command.methods = {"buffer/none-such"};
-  EXPECT_THROW(RunFairnessTable(command), OperatorError);
+  options.methods = {"buffer/none-such"};
+  EXPECT_THROW(RunProbe(probe, options), OperatorError);
 }
 
 }  // namespace lab_fairness_test

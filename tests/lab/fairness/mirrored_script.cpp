@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 
 namespace seam {
 namespace {

@@ -10,9 +10,9 @@
 #include "common/base/process.h"
 #include "common/base/progress_count.h"
 #include "tests/lab/commands.h"
+#include "tests/lab/experiment/experiment.h"
 #include "tests/lab/gait/gains_text.h"
 #include "tests/lab/gait/gait_tune.h"
-#include "tests/lab/rows.h"
 
 namespace seam {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "common/base/check.h"
 #include "common/base/process.h"
+#include "tests/lab/experiment/jobs.h"
 #include "tests/lab/gait/cma_es.h"
-#include "tests/lab/jobs.h"
 
 namespace seam {
 namespace {

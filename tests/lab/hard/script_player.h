@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/sync/input_source.h"
+#include "common/sync/inputs/input_source.h"
 
 namespace seam {
 

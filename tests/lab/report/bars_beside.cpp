@@ -94,9 +94,9 @@ TextTable ChangeTable(const std::vector<ReportCase>& cases, const Before* before
   TextTable table;
   table.name = "changes";
   table.title = "What each change did to error_others_m";
-  table.header = {"scene",       "before: fade", "before: retrospect", "before: resimulate",
-                  "retrospect",  "resimulate",   "rollback, follow=0", "rollback",
-                  "central/own", "central/all"};
+  table.header = {"scene",      "before: fade",       "before: retrospect", "before: resimulate",
+                  "retrospect", "rollback, follow=0", "rollback",           "central/own",
+                  "central/all"};
   for (const ReportCase& at : cases) {
     if (!IsPlain(at) || at.Find(kDefaultMethod) == nullptr) continue;
     std::vector<std::string> row = {at.Name()};
@@ -110,7 +110,6 @@ TextTable ChangeTable(const std::vector<ReportCase>& cases, const Before* before
       row.push_back(CellOf(found, MedianOf(found, "error_others_m")));
     };
     cell(&at, "retrospect");
-    cell(&at, "resimulate");
     cell(With(at, "follow=0", cases), kDefaultMethod);
     cell(&at, kDefaultMethod);
     cell(&at, "central/own");

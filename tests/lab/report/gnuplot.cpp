@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "common/base/check.h"
-#include "tests/lab/jobs.h"
+#include "tests/lab/experiment/jobs.h"
 
 namespace seam {
 namespace {

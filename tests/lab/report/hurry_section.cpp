@@ -155,10 +155,10 @@ TextTable ShortTable(const std::vector<ReportCase>& all) {
                                return std::count(names.begin(), names.end(), at.Name()) == 0;
                              }),
               cases.end());
-  TextTable table = ErrorTable(
-      cases, {"strict", kCentralMethod, "fade", "retrospect", "resimulate", kDefaultMethod});
+  TextTable table =
+      ErrorTable(cases, {"strict", kCentralMethod, "fade", "retrospect", kDefaultMethod});
   table.name = "short";
-  table.title = "error_others_m of six methods";
+  table.title = "error_others_m of five methods";
   return table;
 }
 

@@ -15,8 +15,8 @@ struct Known {
 
 /// Colours of Okabe and Ito ("Color Universal Design", 2008), without their yellow, which is
 /// too light for a line on white; no two have colour and dash in common.
-const std::array<Known, 15>& Methods() {
-  static const std::array<Known, 15> methods = {{
+const std::array<Known, 13>& Methods() {
+  static const std::array<Known, 13> methods = {{
       {"oracle", {"#999999", "solid", 1.0, 0, 0.6}},
       {"central", {"#000000", "solid", 1.5, 4, 0.7}},
       {"central/own", {"#000000", "(6,3)", 1.5, 4, 0.7}},
@@ -26,9 +26,7 @@ const std::array<Known, 15>& Methods() {
       {"interleave", {"#56b4e9", "(8,4)", 1.5, 6, 0.6}},
       {"compensated", {"#e69f00", "(8,3,2,3)", 1.5, 10, 0.7}},
       {"fade", {"#009e73", "solid", 1.7, 9, 0.7}},
-      {"pvb", {"#56b4e9", "solid", 1.5, 12, 0.7}},
       {"spring", {"#cc79a7", "solid", 1.5, 14, 0.7}},
-      {"resimulate", {"#0072b2", "solid", 1.7, 5, 0.6}},
       {"retrospect", {"#d55e00", "(8,3)", 1.7, 7, 0.7}},
       {"rollback", {"#d55e00", "solid", 2.6, 13, 0.7}},
       {"buffer", {"#d55e00", "(2,2)", 1.5, 7, 0.5}},

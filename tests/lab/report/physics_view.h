@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/lab/report/csv_table.h"
+#include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/report/statistics.h"
 
 namespace seam {

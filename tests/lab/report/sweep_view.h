@@ -1,6 +1,6 @@
 #pragma once
-/// A sweep's table as curves need it: which column was varied, and the runs of each scene, drive
-/// and method along it.
+/// A view of a sweep's table for curves: the column that was varied, and the runs of each scene,
+/// drive and method along it.
 
 #include <functional>
 #include <map>
@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "tests/lab/report/csv_table.h"
+#include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/report/statistics.h"
 
 namespace seam {
 
-/// What is on the x axis.
+/// The quantity on the x axis.
 struct SweepAxis {
   std::string key;    ///< one_way_ms, loss_percent, send_hz, ...
   std::string name;   ///< "one-way latency"
@@ -31,7 +31,7 @@ struct SweepGroup {
 
 struct SweepView {
   SweepAxis axis;
-  std::string fixed;               ///< what all runs have in common: "loss=1%, 30 Hz"
+  std::string fixed;               ///< settings common to all runs: "loss=1%, 30 Hz"
   std::vector<SweepGroup> groups;  ///< in the order of the table
 };
 
@@ -49,12 +49,12 @@ struct SweepMeasure {
 const std::vector<SweepMeasure>& SweepMeasures();
 /// CPU time of server and clients, ms per second of the session.
 const SweepMeasure& CpuMeasure();
-/// What no method is expected to beat: the scene's own sensitivity, to a micrometre, to the wire's
-/// resolution and to barriers, and the information limit.
+/// Limits that no method is expected to beat: the scene's own sensitivity, to a micrometre, to the
+/// wire's resolution and to barriers, and the information limit.
 const std::vector<SweepMeasure>& FloorMeasures();
-/// Error of what clients see of others as a multiple of the information limit.
+/// Error of others' bodies on clients' screens as a multiple of the information limit.
 const SweepMeasure& LimitMeasure();
-/// What overlap the truth itself has.
+/// Overlap in the oracle itself.
 const SweepMeasure& OraclesPenetration();
 /// One of the above by its id, or "cpu".
 const SweepMeasure& MeasureNamed(const std::string& id);
@@ -62,12 +62,13 @@ const SweepMeasure& MeasureNamed(const std::string& id);
 /// "strict", "fade" for mode buffer with that rule, "central/all".
 std::string MethodName(const CsvTable& table, std::size_t row);
 
-/// Groups by scene and drive; takes for the axis the key column (impair is taken apart into
-/// one_way_ms, loss_percent and jitter_ms) with the most different values; what else was varied
-/// becomes part of the method's name. Throws OperatorError when the table is no sweep's.
+/// Groups by scene and drive. The axis is the key column with the most different values (impair is
+/// split into one_way_ms, loss_percent and jitter_ms); other columns that were varied become part
+/// of the method's name. Throws OperatorError when the table is no sweep's.
 SweepView ViewSweep(const CsvTable& table);
 
-/// Of one measure over the runs of one method at one x; nothing where no run has it.
+/// Returns quartiles of one measure over the runs of one method at one x; nothing where no run has
+/// it.
 std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& measure,
                                  const std::vector<std::size_t>& rows);
 /// The same over all runs of a group.

@@ -8,14 +8,8 @@
 #include "tests/lab/report/files.h"
 
 namespace seam {
-namespace {
 
 namespace fs = std::filesystem;
-
-/// Of ten rows at most one may be without figures: medians of what is left still mean something.
-constexpr std::size_t kInvalidOneOf = 10;
-
-}  // namespace
 
 Validity FindValidity(const CsvTable& table, const std::vector<std::size_t>& rows) {
   Validity validity;
@@ -47,7 +41,7 @@ std::vector<std::string> TablesNotValid(const std::string& data) {
     std::error_code none;  // a folder that is not there has no tables
     for (const fs::path& path : FilesIn(folder, ".csv", &none)) {
       const Validity validity = FindValidity(CsvTable::Load(path.string()));
-      if (validity.invalid * kInvalidOneOf <= validity.rows) continue;
+      if (!validity.too_many()) continue;
       lines.push_back(fmt::format("{}: {} of {} rows are not valid, the first: {}", path.string(),
                                   validity.invalid, validity.rows, validity.reason));
     }

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <vector>
 
-#include "tests/lab/report/csv_table.h"
+#include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/report/files.h"
 #include "tests/lab/report/report.h"
 

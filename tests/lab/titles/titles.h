@@ -1,6 +1,6 @@
 #pragma once
-/// Does a scene do what its title says? One sentence and one numeric test for each, asked of every
-/// peer's screen: docs/scenes.md has the sentences, seam-lab titles the table.
+/// Tests of scenes' titles: one sentence and one numeric test for each, applied to every peer's
+/// screen. docs/scenes.md has the sentences, seam-lab titles the table.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace seam {
 
-/// What was asked of one screen; keeps the first thing that was not so.
+/// The expectations of one screen; keeps the first that was missed.
 class Claims {
  public:
-  /// `what`: in which words it is missed.
+  /// `what`: the words for a miss.
   void Expect(bool kept, const std::string& what) {
     if (!kept && missed_.empty()) missed_ = what;
   }
@@ -20,7 +20,7 @@ class Claims {
   void Between(double value, double least, double most, const std::string& what);
   void AtLeast(double value, double least, const std::string& what);
 
-  /// Empty: all was so.
+  /// Empty: every expectation was met.
   const std::string& missed() const { return missed_; }
 
  private:
@@ -29,7 +29,7 @@ class Claims {
 
 struct Title {
   const char* scene;     ///< name of the file in scenes/
-  const char* sentence;  ///< what happens, in numbers
+  const char* sentence;  ///< the promise, in numbers
   void (*judge)(const Screen& screen, Claims* claims);
   int players = 0;    ///< that join, in the tests, 0: all
   double test_s = 0;  ///< of the tests' sessions, 0: the scene's own
@@ -40,8 +40,8 @@ const std::vector<Title>& Titles();
 /// Throws OperatorError for a scene that has none.
 const Title& TitleOf(const std::string& scene);
 
-/// Empty if the server and every client showed what the title says; otherwise who did not, and what
-/// was missed.
+/// Returns "" if the server and every client kept the title's promise; otherwise the first peer
+/// that did not, and its first miss.
 std::string MissedBy(const Title& title, const Recording& recording);
 
 // Each in its own file, and named in titles.cpp.

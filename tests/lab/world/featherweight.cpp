@@ -16,7 +16,7 @@ namespace seam {
 namespace {
 
 constexpr int kBodiesOnBricks = 100, kCars = 20, kPitch = 20;  // a car: three bodies; pitch in m
-constexpr float kRoad = 60;                            // m: the road over the roofs
+constexpr float kRoad = 60;                                    // m: the road over the roofs
 
 /// What rolls on the road and falls on roofs (or on the ground alone), and never rests.
 std::string Movers(float left, float right, bool city) {
@@ -184,7 +184,8 @@ TextTable FeatherweightBench(bool quick) {
       "Twenty cars (three bodies each) on a road over the roofs, forty boxes and balls that bounce "
       "on the roofs and fall between the towers; nothing sleeps. Without a city the same move on "
       "one chain. Memory is the growth of the process (resident set); the store is counted. Steps "
-      "and barriers: median ratio of CPU time, run in turns. A barrier (only mode resimulate makes "
+      "and barriers: median ratio of CPU time, run in turns. A barrier (only rules that go back "
+      "make "
       "them) builds the fixtures near the bodies anew: that is its price.";
   table.command = std::string("seam-lab world featherweight") + (quick ? " --quick" : "");
   return table;

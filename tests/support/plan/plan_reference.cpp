@@ -299,11 +299,11 @@ void Forbid(const AuthorityView& view, ReferencePlan* plan) {
 
 ReferencePlan PlanSlowly(const AuthorityView& view) {
   ReferencePlan plan(view.mechanisms.size());
-  if (view.mode == Mode::kOracle || view.mode == Mode::kCentral) return plan;
+  if (!view.policy->PlansAuthority()) return plan;
   for (std::size_t m = 0; m < plan.size(); ++m) {
     plan[m].authority = PlannedHolder(view, view.mechanisms[m]);
   }
-  if (view.mode == Mode::kBuffer) AddFollowers(view, &plan);
+  if (view.policy->PlansFollowers()) AddFollowers(view, &plan);
   BringTogether(view, &plan);
   Forbid(view, &plan);
   return plan;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "tests/lab/report/validity.h"
+
 namespace seam {
 namespace {
 
@@ -47,13 +49,6 @@ std::vector<std::string> Fields(const std::string& method, const Advantages& a) 
 }
 
 }  // namespace
-
-std::size_t InvalidRows(const CsvTable& csv) {
-  std::size_t invalid = 0;
-  for (std::size_t row = 0; row < csv.rows(); ++row)
-    invalid += csv.Text(row, "valid").empty() ? 0 : 1;
-  return invalid;
-}
 
 TextTable FairnessTable(const CsvTable& csv, const std::string& drive, const std::string& command) {
   csv.Require({"method", "drive", "near_path", "far_path", "valid", "momentum_oracle_ns",
@@ -98,7 +93,7 @@ TextTable FairnessTable(const CsvTable& csv, const std::string& drive, const std
     table.note = fmt::format(
         "The near player's path: {}, the far one's: {}, either way; each seed with both "
         "assignments. Above 0: the far player is hit harder. Of all {} rows {} are not valid.",
-        csv.Text(0, "near_path"), csv.Text(0, "far_path"), csv.rows(), InvalidRows(csv));
+        csv.Text(0, "near_path"), csv.Text(0, "far_path"), csv.rows(), FindValidity(csv).invalid);
   }
   table.command = command;
   table.open = true;

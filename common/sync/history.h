@@ -1,0 +1,65 @@
+#pragma once
+/// Recent states of a world's bodies, by tick, for retrospective corrections.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "common/scene/types.h"
+#include "common/sync/table/body_table.h"
+
+namespace seam {
+
+/// A ring of the last `capacity` ticks. Ticks are recorded one after another. After an edit each
+/// body has the past of the body that it came from, moved rigidly; the past of a new body is filled
+/// with its state then.
+class History final : public TableEntry {
+ public:
+  /// `now` returns the current state of a body; called at edits.
+  History(const BodyTable& table, int capacity_ticks, std::function<BodyState(int)> now);
+
+  /// Records all bodies' states after `tick`. Requires tick == newest() + 1, or empty and tick >=
+  /// 0; use Clear before a jump.
+  void Record(std::int64_t tick, const std::vector<BodyState>& states);
+  /// Begins a tick without states: until one is written, At(tick, body) returns an obsolete state.
+  /// Requires the same as Record.
+  void Begin(std::int64_t tick);
+  /// Stores a body's state after the newest tick. Requires that there is a newest tick.
+  void Put(int body, const BodyState& state);
+  /// Returns nullptr if the tick is not in the ring.
+  const BodyState* At(std::int64_t tick, int body) const;
+  BodyState* At(std::int64_t tick, int body);
+  std::int64_t newest() const;  ///< -1 when empty
+  std::int64_t oldest() const;  ///< -1 when empty
+  void Clear();
+
+ private:
+  // A body's ticks lie together, in pieces that are allocated at the first write: in a large room
+  // most bodies are never accessed, and the cost of a tick is the memory that it touches.
+  static constexpr int kPiece = 12;  // ticks
+  using Piece = std::array<BodyState, kPiece>;
+  bool Has(std::int64_t tick) const {
+    return count_ > 0 && tick <= newest_ && tick > newest_ - count_;
+  }
+  std::size_t PieceOf(int slot, int body) const {
+    return static_cast<std::size_t>(body * pieces_each_ + slot / kPiece);
+  }
+
+  using Pieces = std::vector<std::unique_ptr<Piece>>;
+  void Renumber(const BodyRemap& change) override;
+  /// Moves the past of an unchanged body to its new number.
+  void TakePast(Pieces* before, int from, int body);
+
+  const std::function<BodyState(int)> now_;
+  const int capacity_;
+  const int pieces_each_;  // per body
+  int bodies_ = 0;
+  int count_ = 0;
+  std::int64_t newest_ = -1;
+  int piece_ = 0, in_piece_ = 0;  // position of the newest tick, of each body
+  Pieces pieces_;
+};
+
+}  // namespace seam

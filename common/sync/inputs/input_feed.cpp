@@ -1,0 +1,18 @@
+#include "common/sync/inputs/input_feed.h"
+
+#include <algorithm>
+
+namespace seam {
+
+int InputFeed::Take(const InputTrack& track, std::int64_t acked, std::int64_t now, bool rides) {
+  const std::int64_t newest = track.newest();
+  const bool fresh = newest > sent_newest_;
+  if (newest <= acked || (!fresh && now <= sent_at_)) return 0;
+  const std::int64_t first = std::max(acked + 1, newest + 1 - kInputsRedundant);
+  if (!(rides && fresh) && !track.DiffersFromPrediction(first)) return 0;
+  sent_newest_ = newest;
+  sent_at_ = now;
+  return std::max(static_cast<int>(newest + 1 - first), kInputsAtLeast);
+}
+
+}  // namespace seam

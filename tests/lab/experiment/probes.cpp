@@ -1,0 +1,11 @@
+#include "tests/lab/experiment/probes.h"
+
+namespace seam {
+
+const std::vector<Probe>& Probes() {
+  static const std::vector<Probe> probes = {FairnessProbe(), TitlesProbe(), LoadProbe(),
+                                            HandOverProbe()};
+  return probes;
+}
+
+}  // namespace seam

@@ -1,0 +1,77 @@
+/// The ring of recent states.
+
+#include "common/sync/history.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace seam {
+namespace history_test {
+
+/// Two bodies with states that encode tick and body.
+std::vector<BodyState> StatesOf(std::int64_t tick) {
+  std::vector<BodyState> states(2);
+  for (std::size_t body = 0; body < 2; ++body) {
+    states[body].position = {static_cast<float>(tick), static_cast<float>(body)};
+  }
+  return states;
+}
+
+/// State of a body that an edit makes.
+BodyState Now(int body) { return StatesOf(-1)[static_cast<std::size_t>(body)]; }
+
+TEST(History, RemembersTheLastTicksAndNoOthers) {
+  const BodyTable bodies(2, 0);
+  History history(bodies, 5, Now);
+  EXPECT_EQ(history.newest(), -1);
+  EXPECT_EQ(history.oldest(), -1);
+  EXPECT_EQ(history.At(0, 0), nullptr);
+  for (std::int64_t tick = 7; tick < 30; ++tick) {
+    history.Record(tick, StatesOf(tick));
+    const std::int64_t oldest = std::max<std::int64_t>(7, tick - 4);
+    EXPECT_EQ(history.newest(), tick);
+    EXPECT_EQ(history.oldest(), oldest);
+    EXPECT_EQ(history.At(oldest - 1, 0), nullptr);
+    EXPECT_EQ(history.At(tick + 1, 0), nullptr);
+    EXPECT_EQ(history.At(-1, 0), nullptr);
+    for (std::int64_t t = oldest; t <= tick; ++t) {
+      for (int body = 0; body < 2; ++body) {
+        ASSERT_NE(history.At(t, body), nullptr);
+        const BodyState expected = StatesOf(t)[static_cast<std::size_t>(body)];
+        EXPECT_EQ(history.At(t, body)->position, expected.position);
+      }
+    }
+  }
+}
+
+TEST(History, CorrectionsStayAndClearForgets) {
+  const BodyTable bodies(2, 0);
+  History history(bodies, 5, Now);
+  history.Record(0, StatesOf(0));
+  history.Record(1, StatesOf(1));
+  history.At(0, 1)->spin = 3;
+  history.Record(2, StatesOf(2));
+  EXPECT_EQ(history.At(0, 1)->spin, 3);
+  EXPECT_EQ(history.At(0, 0)->spin, 0);
+  history.Clear();
+  EXPECT_EQ(history.newest(), -1);
+  EXPECT_EQ(history.At(2, 0), nullptr);
+  history.Record(100, StatesOf(100));  // a jump is fine now
+  EXPECT_EQ(history.oldest(), 100);
+  EXPECT_EQ(history.At(99, 0), nullptr);
+}
+
+TEST(HistoryDeathTest, AGapAborts) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const BodyTable bodies(2, 0);
+  History history(bodies, 5, Now);
+  history.Record(3, StatesOf(3));
+  EXPECT_DEATH(history.Record(5, StatesOf(5)), "assertion failed");
+  EXPECT_DEATH(history.Record(3, StatesOf(3)), "assertion failed");
+  EXPECT_DEATH(history.Record(4, std::vector<BodyState>(1)), "assertion failed");
+  EXPECT_DEATH(history.At(3, 2), "assertion failed");
+}
+
+}  // namespace history_test
+}  // namespace seam
