@@ -12,8 +12,8 @@ namespace {
 /// Multiplications of a factorisation above which contacts are relaxed.
 constexpr long kDirectMost = 30000;
 /// Multiplications of a tick, solves included, above which a heap is left to the engine or relaxed:
-/// the larger of kTickMost and the cost of kFactorsMost factorisations in each substep.
-constexpr long kTickMost = 800000, kFactorsMost = 20;
+/// the larger of kSolveMost and the cost of kFactorsMost factorisations in each substep.
+constexpr long kSolveMost = 800000, kFactorsMost = 20;
 /// Number of contact points from which an island is a heap. A mechanism in contact with itself is
 /// expensive, too, but is not left to the engine.
 constexpr int kPointsOfHeap = 24;
@@ -243,7 +243,7 @@ long ExactStep::Build(Found* found, bool relaxed) {
   island.work_most = std::numeric_limits<long>::max();
   if (solver_.joints == JointSolving::kAuto && !relaxed && IsHeap(*found)) {
     island.work_most =
-        std::max(kTickMost / solver_.substeps, kFactorsMost * cost * long{solver_.joint_substeps});
+        std::max(kSolveMost / solver_.substeps, kFactorsMost * cost * long{solver_.joint_substeps});
   }
   if (relaxed || cost <= kDirectMost) return cost;
   if (solver_.joints == JointSolving::kAuto) {
