@@ -65,7 +65,7 @@ TEST(Grid, ThePredictionOfCentralIsPartOfTheMethodAndTheKey) {
   EXPECT_NE(grid.points[1].key.find(",central,all,"), std::string::npos) << grid.points[1].key;
   EXPECT_EQ(grid.points[0].scene->input_delay_ticks, 0);
   EXPECT_EQ(grid.points[2].scene->input_delay_ticks, 4);
-  const std::string values = PointValues(grid.points[2]);
+  const std::string values = CsvRow(PointValues(grid.points[2]));
   EXPECT_EQ(values.substr(values.rfind(',')), ",4") << "input_delay_ticks is the last column";
   for (const char* wrong : {"[\"central/most\"]", "[\"strict/own\"]", "[\"buffer/own\"]",
                             "[\"central/fade\"]", "[\"central\", \"central/all\"]"}) {
@@ -105,10 +105,10 @@ loss_percent = [2.5]
                                     "solver.skin=0.0025;buffer=5\",buffer,rollback,"),
             std::string::npos)
       << grid.points[8].key;
-  EXPECT_EQ(PointValues(grid.points[15]), ",50,12,2.5,60,4,8,3,0.0025,7.5,0");
+  EXPECT_EQ(CsvRow(PointValues(grid.points[15])), "50,12,2.5,60,4,8,3,0.0025,7.5,0");
   const Grid named = GridOf(files, "scenes = \"scenes/crossing.toml\"\nimpair = \"4g\"");
   // 4g: p = 0.0115 and r = 0.25 lose (0.0115 * 0.8 + 0.25 * 0.005) / 0.2615 of all.
-  EXPECT_EQ(PointValues(named.points[0]), ",50,20,3.99618,60,1,8,3,,25,0");
+  EXPECT_EQ(CsvRow(PointValues(named.points[0])), "50,20,3.99618,60,1,8,3,,25,0");
 }
 
 TEST(Grid, DefaultsAreThoseOfRunWithTheScenesOwnDuration) {

@@ -48,7 +48,7 @@ class DistrustedRest : public RestCommit {
   const int send_every_;
   const Drivers& drivers_;
   const std::vector<InputTrack>& inputs_;
-  std::vector<bool> driven_;  // by mechanism: an input of this step moves it
+  std::vector<bool> driven_;  // scratch, by mechanism: an input moves it
 };
 
 /// Makes the RestCommit of the room's mode. See DistrustedRest.

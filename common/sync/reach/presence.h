@@ -16,6 +16,7 @@
 #include "common/sync/body_memory.h"
 #include "common/sync/mode.h"
 #include "common/sync/peer_set.h"
+#include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
 #include "common/sync/table/body_column.h"
 #include "common/sync/table/mechanism_column.h"

@@ -22,7 +22,7 @@ struct ServerTestAccess {
   }
   static Replica& ReplicaOf(Server& server) { return server.replica_; }
   static AuthorityManager& ManagerOf(Server& server) { return server.authority_; }
-  static std::size_t WaitingEdits(const Server& server) { return server.edits_.waiting(); }
+  static std::size_t WaitingEdits(const Server& server) { return server.edits_->waiting(); }
 };
 
 }  // namespace seam
