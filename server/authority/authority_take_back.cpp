@@ -61,7 +61,7 @@ void AuthorityManager::Persist(StateArchive& a) {
     a.Flag(&memory->open);
     a.Real(&memory->contested);
   });
-  a.List(&plan_, memory_.size(), [&](PlannedAuthority* planned) {
+  a.List(&plan_, static_cast<std::size_t>(memory_.size()), [&](PlannedAuthority* planned) {
     a.Int(&planned->authority, 0, kPeersMax - 1);
     planned->secondaries.Persist(a);
     a.Flag(&planned->decided);
@@ -69,11 +69,12 @@ void AuthorityManager::Persist(StateArchive& a) {
   a.Int(&see_all_, 0, INT32_MAX);
   a.Flag(&plan_due_);
   if (!a.reading()) return;
-  a.Require(plan_.empty() || plan_.size() == memory_.size(), "a plan of other mechanisms");
+  const auto count = static_cast<std::size_t>(memory_.size());
+  a.Require(plan_.empty() || plan_.size() == count, "a plan of other mechanisms");
   open_.clear();
-  for (std::size_t m = 0; m < memory_.size(); ++m) {
+  for (int m = 0; m < memory_.size(); ++m) {
     if (plan_.empty()) memory_[m].open = false;
-    if (memory_[m].open) open_.push_back(static_cast<int>(m));
+    if (memory_[m].open) open_.push_back(m);
   }
 }
 

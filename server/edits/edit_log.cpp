@@ -236,7 +236,7 @@ void EditLog::Persist(StateArchive& a) {
   a.Section("edits");
   const Topology& topology = world_.topology();
   if (!a.reading()) {
-    SEAM_ASSERT(unapplied_.empty());
+    SEAM_ASSERT(ordered_ == topology.revision());
     pending_.erase(std::remove_if(pending_.begin(), pending_.end(),
                                   [this](const Pending& pending) { return IsStale(pending); }),
                    pending_.end());
