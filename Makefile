@@ -87,24 +87,25 @@ EXPORT := $(call obj,$(filter render/export/%,$(SOURCES))) $(call alone,render/c
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 # What seam-lab has from the tests.
 LAB_SUPPORT := $(call obj,tests/support/plan/plain_scene.cpp)
-TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
+TEST_SOURCES := $(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES)))
+TESTS := $(call obj,$(TEST_SOURCES))
 # Everything that may be compiled: the units, and each source alone.
-OBJECTS := $(call alone,$(SOURCES)) $(UNITS:%=$(OUT)/unity/%.o)
+OBJECTS_ALONE := $(call alone,$(SOURCES))
+OBJECTS := $(OBJECTS_ALONE) $(UNITS:%=$(OUT)/unity/%.o)
 CODEC := $(filter $(OUT)/common/codec/% $(OUT)/unity/common/codec%,$(OBJECTS))
 PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
 # Processes and long simulations: what `make check-fast` leaves out.
-SLOW := JoinLeave*:SwarmProgram*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
-	:RecordFailure*:ReviewPage*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
+slow = $(filter tests/process/% $(foreach s,$(1),$(if $(findstring /slow/,$(s)),$(s))),$(1))
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
 SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all docs help deps demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
+.PHONY: all check check-includes objects docs help deps demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
 	lint compile_commands.json install install-built clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
@@ -222,7 +223,16 @@ $(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml)
 	  $(OUT)/$$p --generate zsh > $(@D)/zsh/_$$p && $(OUT)/$$p --generate fish > $(@D)/fish/$$p.fish || exit 1; done
 	@touch $@
 
-docs: $(OUT)/share/.stamp            ## man pages, completion for bash, zsh, fish: build/release/share/
+# An example of a page to look through: three methods on one network.
+docs/review.html: $(PROGRAMS)
+	@mkdir -p $(OUT)/review
+	@for method in 'buffer rollback' 'buffer interleave' strict; do set -- $$method; \
+	  $(OUT)/seam-lab run crossing --mode $$1 $${2:+--reconcile $$2} --impair demo --no-floor --force \
+	    -o $(OUT)/review/$${2:-strict}.lcm >/dev/null || exit 1; done
+	$(OUT)/seam-render --page $(OUT)/review/rollback.lcm $(OUT)/review/interleave.lcm $(OUT)/review/strict.lcm \
+	  --force -o $@
+
+docs: $(OUT)/share/.stamp docs/review.html   ## man pages and completion (build/release/share/), an example of a review page
 
 # The test of golden hashes alone, with only what steps a world (tests/hashes.sh). PRECOMPILED: a header that every
 # file is compiled after, with itself compiled first, which halves the work.
@@ -235,6 +245,31 @@ WORLD := $(call obj,$(foreach room,base scene topology physics stages,$(filter c
 $(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(WORLD)
 	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
 
+# The folder of tests of a room: tests/sync of common/sync and of common/sync/reach. The tests of a room below server
+# and client link without them.
+ifneq ($(ROOM),)
+ROOM_FOLDER := $(shell d='$(patsubst tests/%,%,$(patsubst common/%,%,$(ROOM:/=)))'; \
+	while [ "$$d" != . ] && [ ! -d "tests/$$d" ]; do d=$$(dirname "$$d"); done; [ "$$d" = . ] || echo "tests/$$d")
+ifeq ($(ROOM_FOLDER),)
+$(error make check: $(ROOM) has no folder of tests; ROOM is one of $(patsubst tests/%/,%,$(wildcard tests/*/)))
+endif
+ROOM_SOURCES := $(filter $(ROOM_FOLDER)/%,$(SOURCES))
+ROOM_TESTS := $(call obj,$(filter-out $(call slow,$(ROOM_SOURCES)),$(ROOM_SOURCES)))
+ROOM_USES := $(shell grep -lE '"(server|client|render|tests/lab|tests/support/[a-z_]+)/|tests/support/($(subst $() ,|,$(patsubst \
+	tests/support/%,%,$(shell grep -lE '"(server|client|render|tests/lab)/' tests/support/*.h))))"' $(ROOM_SOURCES))
+ROOM_NEEDS := $(call obj,$(filter $(if $(ROOM_USES),tests/support/%,$(wildcard tests/support/*.cpp)),$(SOURCES))) \
+	$(if $(ROOM_USES),$(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER))
+ROOM_PROGRAM := $(OUT)/seam-tests-$(subst /,-,$(ROOM_FOLDER:tests/%=%))
+$(ROOM_PROGRAM): $(sort $(ROOM_TESTS) $(ROOM_NEEDS)) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(if $(ROOM_USES),$(RENDER_LIBS) $(SERVER_LIBS)) -lgtest -lgtest_main -o $@
+
+check: build/.deps-build $(ROOM_PROGRAM)   ## ROOM=common/sync: build and run the tests of that room
+	SEAM_BIN=$(OUT) $(ROOM_PROGRAM) --gtest_brief=1
+else
+check:
+	@echo 'make check ROOM=FOLDER: the tests of one room, such as common/sync; all of them: make test' >&2; exit 2
+endif
+
 tests: build/.deps-build build/.deps-report build/.deps-test all $(OUT)/seam-tests $(OUT)/libseam.a   ## build the tests
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
@@ -246,9 +281,16 @@ sanitize:                            ## the tests of what reads from outside, un
 	@$(MAKE) --no-print-directory BUILD=asan build/.deps-build build/asan/seam-tests-core
 	tests/run.sh build/asan seam-tests-core
 
-check-fast: FILTER := -$(subst $() ,,$(SLOW))
-check-fast: tests                    ## build and run the tests that take no processes or long simulations
-	$(run-tests) --gtest_brief=1
+FAST_TESTS := $(call obj,$(filter-out $(call slow,$(TEST_SOURCES)),$(TEST_SOURCES)))
+$(OUT)/seam-tests-fast: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(FAST_TESTS) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
+
+check-fast: all $(OUT)/seam-tests-fast   ## build and run the tests that take no processes or long simulations
+	SEAM_BIN=$(OUT) $(OUT)/seam-tests-fast --gtest_brief=1
+
+check-includes: $(GEN)/.stamp        ## compile each source by itself: does it include what it needs? ten minutes
+	@$(MAKE) --no-print-directory -k UNITY=0 OUT=build/includes CXXFLAGS='$(CXXFLAGS) -fsyntax-only' objects
+objects: $(OBJECTS_ALONE)
 
 soak: FILTER := $(SOAKED)
 soak: tests                          ## SOAK=300: so many times the seeds of cluster and fuzz tests: half an hour

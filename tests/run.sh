@@ -16,7 +16,7 @@ export SEAM_BIN=$bin
 
 # Suites that start programs or wait for datagrams: a busy processor makes them late.
 timed=$(sed -nE 's/^TEST(_F|_P)?\((\w+),.*/\2.*/p' tests/process/*.cpp tests/net/net_udp_test.cpp \
-  tests/record/bus_test.cpp tests/render/render_live_test.cpp | sort -u | paste -sd:)
+  tests/record/slow/bus_test.cpp tests/render/slow/render_live_test.cpp | sort -u | paste -sd:)
 
 pids=()
 trap 'kill "${pids[@]}" 2>/dev/null; exit 130' INT TERM
