@@ -175,6 +175,8 @@ void Replay::WriteKnownStates(int body) {
     BodyState state = *heard;
     state.angle = UnwrapAngle(state.angle, local.angle);
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
+    // Rounds as all corrections do, which add a difference.
+    state = PlusScaled(local, Minus(state, local), 1);
     if (!Agrees(Minus(state, local))) {
       world_.Write(body, WithinLimits(state, world_.scene().speed_limit), moves);
     }
