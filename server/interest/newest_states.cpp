@@ -7,12 +7,10 @@
 #include "common/base/geometry.h"
 #include "common/sync/quantize.h"
 #include "common/sync/reach/reach.h"
+#include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
-
-/// The angle of a wheel that spins faster than this is not visible, rad/s.
-constexpr float kSpinSent = 6;
 
 /// Returns an upper bound of the distance from a body's origin to its farthest point, m.
 float ReachOf(const World& world, int body) {
@@ -47,7 +45,7 @@ bool NewestStates::IsNews(const Body& body, const WireBody& told, const Reckonin
     way -= (seconds * (seconds + step) / 2) * world_.scene().gravity;
   }
   float off = way.norm();
-  if (std::abs(static_cast<int>(now.spin)) * kSpeed < kSpinSent) {
+  if (std::abs(static_cast<int>(now.spin)) * kSpeed < kSpinSeen) {
     const auto steps =
         static_cast<std::int16_t>(static_cast<std::uint16_t>(now.angle - told.angle));
     const float turn = static_cast<float>(steps * kAngleQuantum) - seconds * kSpeed * told.spin;

@@ -31,7 +31,7 @@ BodyTrack Lived(int seed) {
   track.asleep_since = seed + 5;
   track.changed_at = -seed;
   track.pull.arrived = seed + 6;
-  track.pull.arrival.spin = static_cast<float>(seed + 7);
+  track.pull.memory.asked.x() = static_cast<float>(seed + 7);
   track.pull.memory.share = 0.5f;
   return track;
 }
@@ -72,7 +72,7 @@ TEST_F(BodyMemoryTest, ARemapKeepsTheMemoryOfUnchangedBodies) {
   EXPECT_EQ(track.asleep_since, 205);
   EXPECT_EQ(track.changed_at, -200);
   EXPECT_EQ(track.pull.arrived, 206);
-  EXPECT_EQ(track.pull.arrival.spin, 207);
+  EXPECT_EQ(track.pull.memory.asked.x(), 207);
   EXPECT_EQ(track.pull.memory.share, 0.5f);
 }
 
