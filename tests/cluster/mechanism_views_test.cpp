@@ -116,12 +116,11 @@ TEST(MechanismViews, JointsAreNoFurtherOpenThanInTheOracle) {
   for (const Method& method : {Method{"buffer", "retrospect"}, Method{"buffer", "rollback"},
                                Method{"central", ""}, Method{"strict", ""}}) {
     // If its crash differs from the oracle's, a copy's own engine opens the doll's joints: strict
-    // knows nothing of the others, and central replays late inputs.
+    // knows nothing of the others, and central and rollback replay late inputs.
     const std::string name = std::string(method.mode) + method.reconcile;
     const double on_4g = name == "strict"             ? 0.045
                          : name == "bufferretrospect" ? 0.012
-                         : name == "central"          ? 0.01
-                                                      : 0.005;
+                                                      : 0.01;
     const bool crashes = name == "bufferretrospect";
     for (const Network& network :
          {Network{"4g", on_4g}, Network{"delay=200ms", crashes ? 0.045 : 0.02}}) {
