@@ -4,7 +4,7 @@
 #include <map>
 
 #include "common/scene/mechanism_ids.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 #include "common/sync/edits/edit_order.h"
 #include "common/sync/replica.h"
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 
 namespace seam {
 namespace {

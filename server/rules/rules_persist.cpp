@@ -2,7 +2,7 @@
 
 #include "common/scene/charges/charge.h"
 #include "common/scene/part_rules.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 #include "server/rules/rules.h"
 #include "server/rules/script_room.h"
 #include "server/script/saved_script.h"

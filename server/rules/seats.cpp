@@ -5,7 +5,7 @@
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 #include "common/stages/make_stages.h"
 
 namespace seam {

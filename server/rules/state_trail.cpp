@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 
 namespace seam {
 

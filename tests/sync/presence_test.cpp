@@ -180,7 +180,7 @@ a = "car"
 b = "wheel"
 frequency = 5
 )",
-            "rollback");
+            "retrospect");  // rollback would replay from the state heard
   constexpr int kCar = 1, kWheel = 2;
   line.Steps(10);
   line.Hear(kCar, {60, 0}, {0, 0});

@@ -8,7 +8,7 @@
 #include "common/physics/joint_impulses.h"
 #include "common/physics/stage.h"
 #include "common/physics/world_impl.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 #include "common/scene/scene_limits.h"
 
 namespace seam {

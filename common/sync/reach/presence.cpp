@@ -7,7 +7,7 @@
 #include "common/physics/stage.h"
 #include "common/scene/forces.h"
 #include "common/scene/mechanism_ids.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 #include "common/sync/reach/reach.h"
 
 namespace seam {

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "common/base/bytes.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 
 namespace seam {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 
 namespace seam {
 namespace {

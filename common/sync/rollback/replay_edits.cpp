@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/base/geometry.h"
-#include "common/scene/persist_state.h"
+#include "common/scene/saved/persist_state.h"
 #include "common/sync/rollback/replay.h"
 
 namespace seam {
