@@ -170,7 +170,8 @@ class SpecReader {
 
   std::int64_t Rate() const {
     static const std::map<std::string, double> kRateUnits = {{"b", 1}, {"kb", 1e3}, {"Mb", 1e6}};
-    const double rate = Scaled(Value(0, 1), kRateUnits, "a rate such as 5Mb (b, kb or Mb per second)");
+    const double rate =
+        Scaled(Value(0, 1), kRateUnits, "a rate such as 5Mb (b, kb or Mb per second)");
     if (rate < 1000 || rate > 1e11) Fail("the rate must be from 1kb to 100000Mb");
     return std::llround(rate);
   }
