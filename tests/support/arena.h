@@ -71,7 +71,7 @@ function on_tick()
     room.made[#room.made + 1] = {name = name, by = {"keeper", room.count}, good = true}
     world.add_part{name = name, box = {0.3, 0.3}, position = {-3 + 6 * math.random(), 4}}
   end
-  if room.count % 10 == 0 then world.impulse("lying", (math.random() - 0.5) / 20, 1) end
+  if room.count % 10 == 0 then world.impulse("lying", (math.random() - 0.5) / 20, 0.2) end
   if room.count == 40 then world.weld("crate.0.0", "crate.0.1") end
 end
 
