@@ -48,7 +48,7 @@ class AuthoritySource : public RuleSource {
   const AuthorityManager& authority_;
   Stats& stats_;
   StateTrail trail_;
-  std::vector<Blow> blows_;                                     // since the last TakeBlows
+  std::vector<Blow> blows_;                                     // since the last TakeImpacts
   std::set<std::tuple<std::int64_t, PartId, PartId>> counted_;  // tick, struck, by
   EditHook forget_blows_;                                       // their body indices are stale
 };

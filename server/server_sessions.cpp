@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// Most lines of news kept until TakeNews.
+/// Most lines kept until TakeReports.
 constexpr std::size_t kNewsMax = 256;
 
 /// Returns a bit field of the player's buttons that drive a thrust, also from a seat.

@@ -6,7 +6,7 @@ namespace seam {
 namespace {
 
 /// Where a thrown body is after n steps of h: the engine changes the velocity first and moves by
-/// the new one, so y_n = y0 + n v0 h + g h^2 n (n + 1)/2 (symplectic Euler in closed revision).
+/// the new one, so y_n = y0 + n v0 h + g h^2 n (n + 1)/2 (symplectic Euler in closed form).
 Eigen::Vector2d Summed(const Part& thrown, const Scene& scene, double steps, double h) {
   const Eigen::Vector2d speed = thrown.velocity.cast<double>();
   return thrown.position.cast<double>() + steps * h * speed +

@@ -12,14 +12,14 @@ TextTable ReliefConcernBench(bool quick) {
     return PlanMs(256, 1000, width, height, repeats);
   };
   std::vector<BarRow> rows;
-  rows.push_back(AtMost("a body that concerns a client in nothing, a tick",
+  rows.push_back(AtMost("a body without relevance to a client, a tick",
                         FarBodyNs(far, ticks, pairs), 2, "ns",
                         std::to_string(far) + " of them beside few"));
   rows.push_back(AtMost("a plan, 256 players in a row, 1000 bodies that move", plan(7680, 20), 0.5,
                         "ms", "30 m apart"));
   rows.push_back(AtMost("the same seen from above", plan(1500, 1500), 0.5, "ms", "1500 m wide"));
   rows.push_back(Printed("the same, crowded", Digits(plan(100, 20)) + " ms (100 m wide)"));
-  return TableOf("concern", "What concerns nobody, and who has what", rows,
+  return TableOf("concern", "What is relevant to nobody, and who has what", rows,
                  "CPU time, medians. Plans come ten times a second.");
 }
 

@@ -33,7 +33,7 @@ TextTable ClientTickBench(bool quick);
 
 /// CPU time of one plan of a room so wide and high, m, in which all moves, ms: the median of some.
 double PlanMs(int players, int mechanisms, float width, float height, int repeats);
-/// What each of so many bodies that concern a client in nothing costs its tick, ns.
+/// Cost of a client's tick for each of so many bodies without relevance to it, ns.
 double FarBodyNs(int far, int ticks, int pairs);
 
 /// CPU seconds of this process so far.

@@ -1,4 +1,4 @@
-/// What a body that concerns a client in nothing costs its tick.
+/// Cost of a client's tick for a body without relevance to it.
 
 #include <algorithm>
 #include <cstdio>
@@ -70,7 +70,7 @@ TextTable ClientTickBench(bool quick) {
   const int ticks = quick ? 120 : 600, pairs = quick ? 3 : 9;
   TextTable table;
   table.name = "world-client-tick";
-  table.title = "A client's tick beside bodies that concern it in nothing";
+  table.title = "A client's tick beside bodies without relevance to it";
   table.header = {"far bodies", "us a tick", "ns a far body"};
   for (const int far : {1000, 10000, 60000}) {
     if (quick && far > 1000) break;
