@@ -139,6 +139,8 @@ class StateArchive {
   static constexpr std::size_t kListMost = std::size_t{1} << 24;
   /// Larger numbers, in SI units, are no state of a room: whole numbers up to here fit an int.
   static constexpr float kRealMost = 2e9f;
+  /// Largest count that is saved, far below an overflow.
+  static constexpr int kCountMost = 1 << 28;
 
  private:
   void Put(const void* data, std::size_t size);

@@ -79,7 +79,7 @@ void Replica::EachDifference(const States& states,
 void Replica::Persist(StateArchive& a) {
   WorldSnapshot now;
   if (!a.reading()) {
-    SEAM_ASSERT(queue_->empty());
+    SEAM_ASSERT(queue_->size() == 0);
     memory_.UnparkAll();
     if (presence_.NeedAll()) {
       corrector_.FollowRoles();

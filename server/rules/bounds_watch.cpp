@@ -68,7 +68,7 @@ void BoundsWatch::Persist(StateArchive& a) {
   a.Entries(
       &asked_, parts, [&](PartId* part) { PersistPart(a, part, parts); },
       [&](std::int64_t* tick) { a.Tick(tick); });
-  a.Int(&left_, 0, INT64_MAX);
+  a.Int(&left_, 0, StateArchive::kCountMost);
 }
 
 }  // namespace seam

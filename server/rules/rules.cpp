@@ -127,7 +127,8 @@ void Rules::OnCheckpoint(const TriggerEvent& event) {
   if (event.player < 0) return;
   const std::int32_t player = event.player;
   const MetaKey reached{kMetaPlayer, player, kMetaCheckpoint};
-  const auto before = static_cast<int>(table_.Get(reached));
+  const auto last = static_cast<float>(last_checkpoint_);  // a saved value may be any
+  const auto before = static_cast<int>(std::clamp(table_.Get(reached), 0.0f, last));
   // The next existing order: orders may have gaps.
   int next = last_checkpoint_;
   for (const Trigger& other : scene().triggers) {

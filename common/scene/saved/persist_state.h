@@ -6,8 +6,8 @@
 
 namespace seam {
 
-/// Limits of a saved body: m, m/s and rad/s, rad. The engine does not reach them in a room's life.
-constexpr float kSavedPlaceMost = 1e7f, kSavedSpeedMost = 1e5f, kSavedAngleMost = 1e8f;
+/// Limits of a saved body: m, m/s and rad/s, rad. Beyond 2^20 m no message carries a place.
+constexpr float kSavedPlaceMost = 1e6f, kSavedSpeedMost = 1e5f, kSavedAngleMost = 1e8f;
 
 inline void Persist(StateArchive& a, Vec2* v, float most) {
   a.Real(&(*v)[0], most);

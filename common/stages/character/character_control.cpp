@@ -40,7 +40,7 @@ void CharacterMemory::Load(StageMemory* memory) {
   edge.x = memory->Next();
   edge.y = memory->Next();
   speed = memory->Next();
-  phase = memory->NextInt(-kStageNumberMax, kStageNumberMax);
+  phase = memory->NextInt(0, kPhaseMost);
   phase_time = memory->Next();
   for (float& each : hold) each = memory->Next();
   for (float& each : load) each = memory->Next();

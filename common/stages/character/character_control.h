@@ -25,6 +25,8 @@ namespace seam {
 
 enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp, kClimb };
 
+/// Highest phase of any mode: CharacterMode::kRise has the most.
+constexpr int kPhaseMost = 8;
 /// m; x of an absent edge.
 constexpr float kNoEdge = 1e6f;
 /// s; step of numeric derivatives.

@@ -35,6 +35,7 @@ struct RiseFrame {
 constexpr int kFrames = 4;
 /// Phases of CharacterMode::kRise: frames from the back, frames from the front, then up.
 constexpr int kFromFront = kFrames, kUp = 2 * kFrames;
+static_assert(kUp == kPhaseMost);
 
 constexpr RiseFrame kRise[2 * kFrames] = {
     SEAM_FRAME(back1),  SEAM_FRAME(back2),  SEAM_FRAME(back3),  SEAM_FRAME(back4),

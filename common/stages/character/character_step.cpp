@@ -62,7 +62,8 @@ b2Vec2 CharacterControl::EdgeAhead(const CharacterSense& s, float from_x) const 
     return below.found ? below.point.y - ground_y : -shape.hip;
   };
   const float end = s.hip.x + gains_.reach_max * scale + shape.toe;
-  float x = from_x, height = height_at(from_x);
+  // No leg is further from the hip than this; a saved room may say so all the same.
+  float x = std::max(from_x, s.hip.x - 2 * shape.hip), height = height_at(x);
   while (x < end) {
     float next = x + kScan * scale, next_height = height_at(next);
     if (std::abs(next_height - height) < kRiser * scale) {

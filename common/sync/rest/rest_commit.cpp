@@ -212,11 +212,11 @@ void RestCommit::Persist(StateArchive& a) {
   watch_.Persist(a);
   a.Exactly(&disturbed_, [&](Disturbance* d) {
     a.Tick(&d->released_tick);
-    a.Int(&d->pushed_ticks, 0, INT32_MAX);
-    a.Int(&d->times, 0, INT32_MAX);
+    a.Int(&d->pushed_ticks, 0, StateArchive::kCountMost);
+    a.Int(&d->times, 0, StateArchive::kCountMost);
   });
   a.Flag(&edited_);
-  a.Int(&number_, 0, INT64_MAX);
+  a.Int(&number_, 0, StateArchive::kCountMost);
   if (!a.reading()) return;
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) {
