@@ -7,7 +7,7 @@
 namespace seam {
 
 /// Limits of a saved body: m, m/s and rad/s, rad. The engine does not reach them in a room's life.
-constexpr float kSavedPlaceMost = 1e7f, kSavedSpeedMost = 1e5f, kSavedAngleMost = 1e8f;
+constexpr float kSavedPlaceMost = 1e6f, kSavedSpeedMost = 1e5f, kSavedAngleMost = 1e8f;
 
 inline void Persist(StateArchive& a, Vec2* v, float most) {
   a.Real(&(*v)[0], most);
