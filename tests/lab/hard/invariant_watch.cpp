@@ -12,7 +12,7 @@ bool Finite(const BodyState& s) {
          std::isfinite(s.spin);
 }
 
-bool Inside(const Room& room, const Vec2& p) {
+bool Inside(const Enclosure& room, const Vec2& p) {
   const double x = static_cast<double>(p.x()), y = static_cast<double>(p.y());
   return x >= room.min_x && x <= room.max_x && y >= room.min_y && y <= room.max_y;
 }

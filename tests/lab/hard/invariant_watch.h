@@ -13,7 +13,7 @@ namespace seam {
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// A rectangle of the world, m.
-struct Room {
+struct Enclosure {
   double min_x = -kNoLimit, min_y = -kNoLimit, max_x = kNoLimit, max_y = kNoLimit;
 };
 
@@ -21,7 +21,7 @@ struct WatchLimits {
   /// m/s: a faster body counts as an explosion. Well above every speed that the case can reach
   /// honestly, such as that of a fall.
   double speed_mps = kNoLimit;
-  Room room;  ///< a body whose position is outside escaped
+  Enclosure room;  ///< a body whose position is outside escaped
 };
 
 /// Reads every body once a tick, and keeps the first violation.
