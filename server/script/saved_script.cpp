@@ -42,7 +42,8 @@ void PersistValue(StateArchive& a, ScriptValue* value, int depth) {
 void Persist(StateArchive& a, SavedScript* script) {
   a.Flag(&script->stopped);
   a.Text(&script->error, kErrorBytesMax);
-  a.Require(IsPrintable(script->error, kErrorBytesMax), "an error is no plain text");
+  a.Require(!a.reading() || IsPrintable(script->error, kErrorBytesMax),
+            "an error is no plain text");
   PersistValue(a, &script->room, 0);
   a.Require(script->room.kind == ScriptValue::Kind::kTable, "room is no table");
   for (std::uint64_t& word : script->random) a.Word(&word);
