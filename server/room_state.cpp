@@ -30,6 +30,9 @@ struct Header {
   std::uint64_t hash;
 };
 
+/// Most edits of a room; numbers of edits go on from there.
+constexpr int kRevisionMost = 1 << 30;
+
 Status NotReadable(const std::string& why) {
   return Status::Error("this is no saved room: " + why);
 }
@@ -138,6 +141,7 @@ std::unique_ptr<const SavedRoom> SavedRoom::Read(ByteView bytes, Status* status)
     const Status read = ReadEntries(*part, &entries);
     if (!read.ok()) a.Fail(read.why());
   });
+  a.Require(edits.empty() || edits.front().number <= kRevisionMost, "there were too many edits");
   if (!a.ok()) return fail(a.status().why());
   Scene scene;
   try {

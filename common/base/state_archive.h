@@ -133,8 +133,8 @@ class StateArchive {
     }
   }
 
-  /// Ticks are at most this far from 0, as in messages.
-  static constexpr std::int64_t kTickMost = std::int64_t{1} << 40;
+  /// Ticks are at most this far from 0: at 10 Hz, 100 years. Messages hold their times too, us.
+  static constexpr std::int64_t kTickMost = std::int64_t{1} << 35;
   /// Items of a list that has no limit of its own.
   static constexpr std::size_t kListMost = std::size_t{1} << 24;
   /// Larger numbers, in SI units, are no state of a room: whole numbers up to here fit an int.

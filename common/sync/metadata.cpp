@@ -63,9 +63,9 @@ void MetaTable::Persist(StateArchive& a) {
   a.Entries(
       &values_, static_cast<std::size_t>(kIdsMax),
       [&](MetaKey* key) {
-        a.Int(&key->kind, 0, 127);
+        a.Int(&key->kind, kMetaPart, kMetaPlayer);
         a.Int(&key->id, 0, kIdsMax - 1);
-        a.Int(&key->key, 0, 127);
+        a.Int(&key->key, 0, kMetaKeyMax);
       },
       [&](float* value) { a.Real(value, FLT_MAX); });
   if (a.reading()) told_ = values_;

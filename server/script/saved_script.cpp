@@ -1,15 +1,15 @@
 #include "server/script/saved_script.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "common/base/state_archive.h"
+#include "common/codec/validate.h"
 
 namespace seam {
 namespace {
 
-/// Longest error of a script, bytes, with its file.
-constexpr std::size_t kErrorBytesMax = 4096;
+/// Longest error of a script, bytes, with its file: it must fit an Event.
+constexpr std::size_t kErrorBytesMax = 600;
 
 void PersistValue(StateArchive& a, ScriptValue* value, int depth) {
   a.Int(&value->kind, 0, static_cast<std::int64_t>(ScriptValue::Kind::kTable));
@@ -42,10 +42,8 @@ void PersistValue(StateArchive& a, ScriptValue* value, int depth) {
 void Persist(StateArchive& a, SavedScript* script) {
   a.Flag(&script->stopped);
   a.Text(&script->error, kErrorBytesMax);
-  const bool clean = std::none_of(script->error.begin(), script->error.end(), [](char c) {
-    return static_cast<unsigned char>(c) < ' ' || c == 0x7f;  // an operator reads it
-  });
-  a.Require(clean, "an error has a control character");
+  a.Require(!a.reading() || IsPrintable(script->error, kErrorBytesMax),
+            "an error is no plain text");
   PersistValue(a, &script->room, 0);
   a.Require(script->room.kind == ScriptValue::Kind::kTable, "room is no table");
   for (std::uint64_t& word : script->random) a.Word(&word);

@@ -147,7 +147,8 @@ struct Script::Impl {
         saved.room = ReadLuaRoom(state);
         saved.random = LuaRandom(state);
       } catch (const ScriptRefusal& refusal) {
-        Stop(source.line, refusal.what());
+        // It names keys, which may be any bytes.
+        Stop(source.line, Plain(refusal.what(), std::strlen(refusal.what())));
       }
     }
     saved.stopped = state == nullptr;

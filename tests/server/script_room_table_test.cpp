@@ -98,6 +98,7 @@ TEST(ScriptRoomTable, AValueThatCannotBeKeptStopsTheScriptAndIsNamed) {
       {"room[1.5] = 1",
        "room has a key that is a number; room keeps strings and whole numbers as "
        "keys"},
+      {"room['a\\1\\255b'] = print", "room.a??b is a function"},
       {"room = 5", "room is no table any more"},
       {"for i = 1, 8 do room[i] = ('x'):rep(10000) end",
        "room is too large at room[7]: more than 64 kB"},

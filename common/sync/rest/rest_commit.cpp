@@ -216,7 +216,7 @@ void RestCommit::Persist(StateArchive& a) {
     a.Int(&d->times, 0, StateArchive::kCountMost);
   });
   a.Flag(&edited_);
-  a.Int(&number_, 0, StateArchive::kCountMost);
+  a.Int(&number_, 0, StateArchive::kTickMost * kIdsMax / 2);
   if (!a.reading()) return;
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) {
