@@ -25,7 +25,7 @@ WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
 INSTRUMENT_asan := -fsanitize=address,undefined
 INSTRUMENT_tsan := -fsanitize=thread
 INSTRUMENT_coverage := --coverage
-CXXFLAGS_release := -O2 -g1
+CXXFLAGS_release := -O2
 CXXFLAGS_debug := -O0 -g
 CXXFLAGS_asan := -O1 -g1 $(INSTRUMENT_asan) -fno-sanitize-recover=all -fno-omit-frame-pointer
 # The tests themselves without checks that take half of the time to compile them, and not optimised; what they test is.
@@ -171,10 +171,28 @@ $(CODEC): $(GEN)/.stamp
 $(TESTS): private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
 # A class of a unit may have members of an unnamed namespace: the warning is for headers.
 $(OUT)/unity/%.o: $(OUT)/unity/%.cpp $(OUT)/.flags | build/.deps-build
-	$(CXX) $(ALL_CXXFLAGS) -Wno-subobject-linkage $(if $(PRECOMPILED),-include $(PRECOMPILED)) -c $< -o $@
+	$(CXX) $(ALL_CXXFLAGS) -Wno-subobject-linkage -include $(PRECOMPILED) -c $< -o $@
 $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
-	$(CXX) $(ALL_CXXFLAGS) $(if $(PRECOMPILED),-include $(PRECOMPILED)) -c $< -o $@
+	$(CXX) $(ALL_CXXFLAGS) $(if $(filter 0,$(UNITY)),,-include $(PRECOMPILED)) -c $< -o $@
+
+# The libraries' headers that most units include, parsed once; tests have a second one, with GoogleTest and their own
+# options. UNITY=0 goes without, so that each file includes what it needs.
+PRECOMPILED = $(OUT)/precompiled.h
+$(TESTS): private PRECOMPILED = $(OUT)/precompiled-tests.h
+PRECOMPILED_HEADERS := Eigen/Core algorithm array box2d/box2d.h cmath cstdint deque fmt/format.h functional map memory \
+	numeric optional set sstream string unordered_map variant vector
+$(OUT)/precompiled-tests.h: PRECOMPILED_HEADERS += gtest/gtest.h filesystem fstream
+$(OUT)/precompiled.h $(OUT)/precompiled-tests.h: Makefile | build/.deps-build
+	@mkdir -p $(@D)
+	@printf '#include <%s>\n' $(PRECOMPILED_HEADERS) > $@
+$(OUT)/precompiled-tests.h.gch: private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
+$(OUT)/precompiled.h.gch $(OUT)/precompiled-tests.h.gch: %.gch: % $(OUT)/.flags
+	$(CXX) $(ALL_CXXFLAGS) -x c++-header $< -o $@
+ifneq ($(UNITY),0)
+$(OBJECTS): $(OUT)/precompiled.h.gch
+$(TESTS): $(OUT)/precompiled-tests.h.gch
+endif
 
 # What the pages are made of is copied into the programs (render/page/assets.cpp).
 $(OUT)/render/page/assets.o $(OUT)/unity/render/page.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
@@ -234,13 +252,7 @@ docs/review.html: $(PROGRAMS)
 
 docs: $(OUT)/share/.stamp docs/review.html   ## man pages and completion (build/release/share/), an example of a review page
 
-# The test of golden hashes alone, with only what steps a world (tests/hashes.sh). PRECOMPILED: a header that every
-# file is compiled after, with itself compiled first, which halves the work.
-$(OUT)/precompiled.h.gch: $(OUT)/precompiled.h $(OUT)/.flags
-	$(CXX) $(ALL_CXXFLAGS) -x c++-header $< -o $@
-ifneq ($(PRECOMPILED),)
-$(OBJECTS): | $(PRECOMPILED).gch
-endif
+# The test of golden hashes alone, with only what steps a world (tests/hashes.sh).
 WORLD := $(call obj,$(foreach room,base scene topology physics stages,$(filter common/$(room)/%,$(SOURCES))))
 $(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(WORLD)
 	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
@@ -396,4 +408,4 @@ install-built:                       ## the same, of what is built: builds nothi
 clean:                               ## remove build/ and out/
 	rm -rf build out
 
--include $(wildcard $(OBJECTS:.o=.d) $(OUT)/precompiled.h.d)
+-include $(wildcard $(OBJECTS:.o=.d))

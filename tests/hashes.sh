@@ -11,16 +11,11 @@ gcc=${CXX:-g++}
 clang=${CLANG:-clang++}
 mkdir -p "$folder"
 
-# What nearly every file includes: compiled once a variant.
-headers='fmt/format.h box2d/box2d.h Eigen/Core algorithm cmath filesystem map memory string vector'
-
 # NAME COMPILER OPTIONS
 build() {
   mkdir -p "$folder/$1"
-  [ -e "$folder/$1/precompiled.h" ] ||
-    { printf '#include <%s>\n' $headers; echo '#include "common/physics/world.h"'; } >"$folder/$1/precompiled.h"
-  "$make" --no-print-directory OUT="$folder/$1" CXX="$2" WARN=-w CXXFLAGS="-g0 $3" \
-    PRECOMPILED="$folder/$1/precompiled.h" "$folder/$1/seam-hashes" >"$folder/$1.log" 2>&1 ||
+  "$make" --no-print-directory OUT="$folder/$1" CXX="$2" WARN=-w CXXFLAGS="$3" \
+    "$folder/$1/seam-hashes" >"$folder/$1.log" 2>&1 ||
     { echo "$1: does not build, see $folder/$1.log" >&2; exit 1; }
 }
 
