@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/physics/activity.h"
 #include "common/physics/world_build.h"
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
@@ -19,16 +20,14 @@
 
 namespace seam {
 
-enum class Motion;  // world.h
-
 /// The data that a stage works on. The references stay valid for the stage's life, but the objects
 /// change: Barrier, Restore and changes of topology rebuild the bodies.
 struct StageWorld {
   const Scene& scene;
   const Composition& composition;
   const BuiltScene& built;
-  const std::int64_t& tick;            ///< ticks stepped so far
-  const std::vector<Motion>& motions;  ///< by moving body
+  const std::int64_t& tick;                 ///< ticks stepped so far
+  const std::vector<Activity>& activities;  ///< by moving body
   const Topology& topology;
 };
 

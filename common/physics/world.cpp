@@ -84,7 +84,7 @@ void World::Write(int body, const BodyState& state, bool wake) {
 bool World::awake(int body) const { return impl_->moving(body).body->IsAwake(); }
 void World::SetAwake(int body, bool awake) {
   b2Body* b = impl_->moving(body).body;
-  const bool sleeps = impl_->scene.solver.sleep || motion(body) != Motion::kDynamic;
+  const bool sleeps = impl_->scene.solver.sleep || activity(body) != Activity::kSimulated;
   if (!awake && !sleeps) return;
   b->SetAwake(awake);
   if (IsAside(*b)) impl_->MarkAside(body);
@@ -158,8 +158,8 @@ void World::Step() {
     if (w.ordered) OrderNewContacts(&*w.world);
     if (w.prescribed_count > 0) w.EndPrescribedStep(h);
   }
-  if (!w.scene.seats.empty()) w.MarkAllAside();  // a stage may have moved an absent body
-  w.MoveAbsentBodies();
+  if (!w.scene.seats.empty()) w.MarkAllAside();  // a stage may have moved a body there
+  w.MoveAside();
   ++w.tick;
   for (const auto& stage : w.stages) stage->AfterTick();
   w.impacts = w.meter.Impacts(w.built.moving);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/status.h"
+#include "common/physics/activity.h"
 #include "common/physics/paged.h"
 #include "common/physics/pin.h"
 #include "common/scene/assembly.h"
@@ -47,14 +48,6 @@ struct BlockedDirection {
 /// Cosine above which two blocked directions count as one.
 constexpr float kSameDirection = 0.9f;
 
-/// Role of a body in a step.
-enum class Motion {
-  kDynamic,     ///< moved by contacts and joints
-  kKinematic,   ///< acts like infinite mass: moves by its velocity, unaffected by contacts
-  kPrescribed,  ///< on a prescribed path, by its velocity; collides with its real mass
-  kAbsent,  ///< not in the Box2D world: moves by its velocity, touches nothing, skipped by steps
-};
-
 /// The state from which a world continues, except the order of its contacts and its inputs. Only a
 /// world that did a Barrier at that tick continues with the same bits.
 struct WorldSnapshot {
@@ -77,9 +70,9 @@ struct WorldSnapshot {
   std::int64_t tick = 0;
   std::uint64_t composition = 0;   ///< hash of the parts of each body
   std::uint64_t joints_there = 0;  ///< hash of the existing joints
-  Paged<Body> bodies;              ///< pages of unchanged absent bodies are shared
+  Paged<Body> bodies;              ///< pages without present or changed bodies are shared
   std::vector<Point> points;       ///< ascending by pair, feature
-  /// Impulses, N s and N m s, by the scene's joints; empty: broken, or its bodies were absent.
+  /// Impulses, N s and N m s, by the scene's joints; empty: broken, or its bodies not present.
   std::vector<std::vector<float>> joints;
   std::vector<Left> left;     ///< islands with joints not solved as one system, ascending
   std::vector<float> speeds;  ///< of motors, rad/s or m/s, by the scene's joints
@@ -126,7 +119,7 @@ class World {
   /// move; bit-equal values change nothing.
   void Write(int body, const BodyState& state, bool wake = true);
   bool awake(int body) const;
-  /// Returns a stamp of a body that is absent and sleeps, 0 for any other body. The stamp changes
+  /// Returns a stamp of a sleeping body that is not present, 0 for any other body. It changes
   /// whenever the body may have been moved or woken. Does not read the body itself.
   std::uint64_t still(int body) const;
   /// Appends the bodies, possibly repeated, with a still() that may have changed since
@@ -138,20 +131,17 @@ class World {
   /// awake.
   void SetAwake(int body, bool awake);
 
-  /// Changes a body's role. The velocity of a body that is not dynamic is that of its origin, not
-  /// of its centre of mass; a change converts it. A change to or from kKinematic drops the body's
-  /// contacts. A change to or from kAbsent takes effect at the next step, barrier or restore, which
-  /// rebuilds the world. All bodies of a mechanism should be absent together: no joint holds an
-  /// absent body.
-  void SetMotion(int body, Motion motion);
-  Motion motion(int body) const;
-  /// Stores the contact impulses of a sleeping body; call before it becomes absent. They warm-start
-  /// its contacts if it returns in the same pose. Otherwise its contacts start at zero.
-  void RememberContacts(int body);
-  /// Applies a pending change to or from kAbsent now: call before an edit that queries
-  /// surroundings.
+  /// Changes a body's activity, initially kSimulated. The velocity of a body that is not simulated
+  /// is that of its origin, not of its centre of mass; a change converts it. A change to or from
+  /// kKinematic drops the body's contacts. A body comes or goes (IsPresent) at the next step,
+  /// barrier or restore, which rebuilds the world. All bodies of a mechanism should go together: no
+  /// joint holds a body that is not present. A dormant body that comes back sleeps on, and its
+  /// contacts keep their impulses if it is where it was; those of other bodies start at zero.
+  void SetActivity(int body, Activity activity);
+  Activity activity(int body) const;
+  /// Lets bodies come and go now: call before an edit that queries surroundings.
   void Settle();
-  /// Returns the bodies that are not absent, ascending: a tick's work should be proportional to
+  /// Returns the bodies that are present, ascending: a tick's work should be proportional to
   /// them.
   const std::vector<int>& present() const;
   /// Returns the number of accesses to a body by its index, as a measure of the callers' work.
@@ -216,8 +206,8 @@ class World {
   /// the same topology. Sets the tick, too. Returns an error of one line if the snapshot cannot be
   /// one of such a world; the world must then not be used any more.
   Status Load(const WorldSnapshot& snapshot);
-  /// Returns the bodies that may differ from the snapshot, ascending: all present ones, and absent
-  /// ones by whole pages of which any body has changed. Requires as many bodies as it has.
+  /// Returns the bodies that may differ from the snapshot, ascending: all present ones, and
+  /// others by whole pages of which any body has changed. Requires as many bodies as it has.
   std::vector<int> MayDifferFrom(const WorldSnapshot& snapshot) const;
 
   /// Returns FNV-1a over tick, poses, velocities and sleep flags of all bodies, bit for bit.

@@ -142,19 +142,18 @@ class Builder {
     built_.bodies[a] = AddToShared(scene_, of, memory_.shared[a], &shared_, &built_.merged);
   }
 
-  /// Makes the body in the world, at pose `at` if that is not nullptr; or, if absent, in `aside`,
-  /// unless it is there already.
+  /// Makes the body in the world, at pose `at` if that is not nullptr; or, if it goes there, in
+  /// `aside`, unless it is there already.
   void AddMoving(int body, const BodyState* at) {
     const auto i = static_cast<std::size_t>(body);
     const auto a = static_cast<std::size_t>(memory_.assembly_of[i]);
     const Assembly& of = composition_.assemblies[a];
-    const bool absent = memory_.absent[i] != 0;
-    const bool kept = absent && memory_.bodies[i] != nullptr;
-    b2Body* made = absent ? BodyAside(scene_, of, i, &memory_)
-                          : AddBody(scene_, of, at, true, world_, &built_.merged,
-                                    &memory_.ready[i]);
+    const bool aside = memory_.goes_aside[i] != 0;
+    const bool kept = aside && memory_.bodies[i] != nullptr;
+    b2Body* made = aside ? BodyAside(scene_, of, i, &memory_)
+                         : AddBody(scene_, of, at, true, world_, &built_.merged, &memory_.ready[i]);
     built_.bodies[a] = built_.moving[i].body = made;
-    if (!absent) memory_.made.push_back(body);
+    if (!aside) memory_.made.push_back(body);
     if (kept) return;  // keeps its state
     made->GetUserData().pointer = i + 1;
     made->SetMassData(&memory_.mass[i]);
@@ -199,13 +198,13 @@ class Builder {
   AnchoredBodies shared_;
 };
 
-/// Resizes the memory to the number of bodies, and drops bodies of `aside` that are no longer
-/// absent.
+/// Resizes the memory to the number of bodies, and drops bodies of `aside` that do not
+/// belong there any more.
 void Arrange(std::size_t bodies, BuildMemory* memory) {
   memory->bodies.resize(bodies, nullptr);
-  memory->absent.resize(bodies, 0);
+  memory->goes_aside.resize(bodies, 0);
   for (std::size_t i = 0; i < bodies; ++i) {
-    if (memory->bodies[i] == nullptr || memory->absent[i] != 0) continue;
+    if (memory->bodies[i] == nullptr || memory->goes_aside[i] != 0) continue;
     memory->aside.DestroyBody(memory->bodies[i]);
     memory->bodies[i] = nullptr;
   }
@@ -220,7 +219,7 @@ void BuildMemory::Clear(std::uint64_t hash) {
     if (body != nullptr) aside.DestroyBody(body);
   }
   bodies.clear();
-  absent.clear();
+  goes_aside.clear();
   ready.clear();
   anchored.clear();
   assembly_of.clear();
@@ -281,7 +280,7 @@ void BuildPresent(const Scene& scene, const Composition& composition, const Pres
                   b2World* world, BuildMemory* memory, BuiltScene* built) {
   for (const int body : present.crossed) {
     const auto i = static_cast<std::size_t>(body);
-    if (memory->absent[i] != 0 || memory->bodies[i] == nullptr) continue;
+    if (memory->goes_aside[i] != 0 || memory->bodies[i] == nullptr) continue;
     memory->aside.DestroyBody(memory->bodies[i]);
     memory->bodies[i] = nullptr;
   }
@@ -308,7 +307,7 @@ void BuildPresent(const Scene& scene, const Composition& composition, const Pres
   }
   add_anchored_before(static_cast<int>(composition.assemblies.size()));
   for (const int body : present.crossed) {
-    const bool goes = memory->absent[static_cast<std::size_t>(body)] != 0;
+    const bool goes = memory->goes_aside[static_cast<std::size_t>(body)] != 0;
     if (goes) builder.AddMoving(body, nullptr);
   }
   std::sort(joints.begin(), joints.end());

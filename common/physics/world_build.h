@@ -53,7 +53,7 @@ struct BuildMemory {
   /// disabled there; a disabled body in the real world would still cost time in every step.
   b2World aside{b2Vec2(0, 0)};
   std::vector<b2Body*> bodies;  ///< by moving body: in `aside`; nullptr: in the world
-  std::vector<char> absent;     ///< by moving body: must be in `aside`; empty: none
+  std::vector<char> goes_aside;  ///< by moving body: 1 if it must be in `aside`; empty: none
   /// From the last full build, so that only present bodies are built again.
   std::vector<int> anchored;                ///< assemblies
   std::vector<int> assembly_of;             ///< by moving body
@@ -79,7 +79,7 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
 /// The present moving bodies and their states.
 struct Present {
   const std::vector<int>& bodies;   ///< ascending
-  const std::vector<int>& crossed;  ///< have become present or absent since the last build
+  const std::vector<int>& crossed;  ///< have come or gone since the last build
   std::function<BodyState(int body)> at;
 };
 /// Builds the same bodies and joints again, for the same revision of the scene. Only present bodies

@@ -42,7 +42,7 @@ struct World::Impl {
     for (std::size_t i = 0; i < built.moving.size(); ++i) {
       body_of_id[static_cast<std::size_t>(built.moving[i].id)] = static_cast<int>(i);
     }
-    motions.assign(built.moving.size(), Motion::kDynamic);
+    activities.assign(built.moving.size(), Activity::kSimulated);
     prescribed_count = 0;
     lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
@@ -65,7 +65,7 @@ struct World::Impl {
   /// Makes the stages anew if the scene needs more of them than there are.
   void FindStages() {
     std::vector<std::unique_ptr<Stage>> needed =
-        MakeStages({scene, composition, built, tick, motions, topology});
+        MakeStages({scene, composition, built, tick, activities, topology});
     if (needed.size() <= stages.size()) return;
     stages = std::move(needed);
     std::vector<Stage*> listening;
@@ -105,21 +105,21 @@ struct World::Impl {
   /// Returns an error if the snapshot has other bodies or joints than the world.
   Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
   /// Makes everything anew, in the states of the snapshot. Data of joints that are gone is left
-  /// out. The stages' data may be empty: then they begin anew, too. `new_motions`: by body of the
-  /// snapshot; nullptr: motions and bodies stay.
-  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>* new_motions);
+  /// out. The stages' data may be empty: then they begin anew, too. `new_activities`: by body of
+  /// the snapshot; nullptr: activities and bodies stay.
+  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Activity>* new_activities);
   /// True if every body that takes part in steps is at rest and nothing moves on a path.
   bool AllStill() const;
   bool BuiltAlready(const WorldSnapshot& snapshot) const;
-  /// Moves bodies between the engine and `aside` after changes to or from kAbsent.
+  /// Moves bodies between the engine and `aside` after changes of activity.
   void Settle();
   /// Before a rebuild: decides which bodies will be aside.
-  void Arrange(const std::vector<Motion>& wanted);
+  void Arrange(const std::vector<Activity>& wanted);
   void ArrangeCrossed();
-  void SaveAllJoints(bool any_absent);
-  /// Returns a hash of the existing joints, absent bodies' joints included.
+  void SaveAllJoints(bool any_aside);
+  /// Returns a hash of the existing joints, those of bodies that are aside included.
   std::uint64_t JointsHash() const;
-  /// True if the joint exists, or would if its bodies were not absent.
+  /// True if the joint exists, or would if its bodies were present.
   bool Holds(std::size_t joint) const;
   std::vector<Pin> FindPins() const;
 
@@ -127,10 +127,13 @@ struct World::Impl {
   void BeginPrescribedStep();
   void EndPrescribedStep(float h);
   /// Called after a tick.
-  void MoveAbsentBodies();
-  /// Finds the present bodies by their motions. Absent ones are to be moved aside if not `aside`.
+  void MoveAside();
+  /// Finds the present bodies by their activities. The others are to be moved if not `aside`.
   void FindPresent(bool aside);
   void Cross(int body, bool goes);
+  /// Stores the contact impulses of a body that becomes dormant. They warm-start its contacts if it
+  /// returns in the same pose.
+  void RememberContacts(int body);
   /// Marks all pages as changed.
   void InvalidatePages();
   /// Marks the body, and so its page of `kept`, as possibly changed.
@@ -143,7 +146,7 @@ struct World::Impl {
   }
   /// Marks a body that is aside as changed.
   void MarkAside(int body);
-  /// Marks all bodies as possibly changed, if any is absent.
+  /// Marks all bodies as possibly changed, if any is aside.
   void MarkAllAside();
   /// Marks all present bodies as possibly changed.
   void MarkPresent();
@@ -165,15 +168,15 @@ struct World::Impl {
   BuiltScene built;
   std::optional<ExactStep> exact;      // only when there are joints for it
   std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
-  std::vector<Motion> motions;         // by moving body
+  std::vector<Activity> activities;    // by moving body
   mutable std::int64_t looks = 0;      // calls of moving()
   int prescribed_count = 0;            // number of kPrescribed bodies
   std::vector<BodyState>
       prescribed_from;                 // by moving body: state of a kPrescribed one before the step
   bool ordered = false;                // true once contacts are sorted (contact_order.h)
   std::optional<WorldSnapshot> still;  // the state last built from, if nothing moved then
-  bool unsettled = false;              // a change to or from kAbsent is pending
-  std::vector<int> present;            // moving bodies that are not absent, ascending
+  bool unsettled = false;              // a body is to come or go
+  std::vector<int> present;            // moving bodies that are present, ascending
   std::vector<int> crossed;            // moving bodies that have come or gone since the last build
   std::vector<int> awake_aside;        // moving bodies that are aside and may be awake
   std::vector<char> listed_awake;      // by moving body: it is in awake_aside
@@ -193,7 +196,7 @@ struct World::Impl {
   bool has_elastic = false;                          // HasElastic of the scene
   mutable std::optional<std::uint64_t> joints_hash;  // for the revision below
   mutable int joints_hash_revision = -1;
-  /// While bodies are absent: the joints as they were when none was.
+  /// While bodies are aside: the joints as they were when none was.
   struct AllPresent {
     std::vector<Pin> pins;
     std::vector<char> made;  // by the scene's joints

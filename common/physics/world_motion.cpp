@@ -1,9 +1,10 @@
 /// World: motion of bodies that are displayed and not simulated. A kinematic body hits like a wall
 /// of infinite mass, and in a closed room that pumps energy into everything that it touches. A body
-/// on a prescribed path (kPrescribed) is solved like any other, with its own mass, and put back on
-/// its path afterwards.
+/// on a prescribed path is solved like any other, with its own mass, and put back on its path
+/// afterwards.
 
 #include <algorithm>
+#include <utility>
 
 #include "common/physics/flight/solid.h"
 #include "common/physics/world_impl.h"
@@ -52,34 +53,37 @@ class FirstAnchored : public b2RayCastCallback {
 
 }  // namespace
 
-void World::SetMotion(int body, Motion motion) {
-  if (this->motion(body) == motion) return;  // a change would destroy the contacts
-  touches();                                 // as they are after the last tick
-  blocked_directions();
+void World::SetActivity(int body, Activity activity) {
   const MovingBody& m = impl_->moving(body);
-  Motion& now = impl_->motions[static_cast<std::size_t>(body)];
-  b2Vec2 origin_velocity = m.body->GetLinearVelocity();  // as for kinematic and kPrescribed bodies
-  if (now == Motion::kDynamic) {
+  Activity& stored = impl_->activities[static_cast<std::size_t>(body)];
+  const Activity before = std::exchange(stored, activity);
+  const bool was_there = IsPresent(before), is_there = IsPresent(activity);
+  if (before == activity || (!was_there && !is_there)) return;
+  touches();  // as they are after the last tick
+  blocked_directions();
+  if (activity == Activity::kDormant) impl_->RememberContacts(body);
+  const bool sleeps_on = before == Activity::kDormant && !m.body->IsAwake();
+  b2Vec2 origin_velocity = m.body->GetLinearVelocity();  // as for bodies on a path
+  if (before == Activity::kSimulated) {
     origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   }
-  const bool moves_aside = now == Motion::kAbsent || motion == Motion::kAbsent;
-  if (moves_aside) impl_->Cross(body, motion == Motion::kAbsent);
-  if (motion == Motion::kKinematic && !moves_aside) {
+  const bool crosses = was_there != is_there;
+  if (crosses) impl_->Cross(body, !is_there);
+  if (activity == Activity::kKinematic && !crosses) {
     m.body->SetType(b2_kinematicBody);  // forgets the centre of mass
     m.body->SetLinearVelocity(origin_velocity);
   } else {
-    if (now == Motion::kKinematic && !moves_aside) {
+    if (before == Activity::kKinematic && !crosses) {
       m.body->SetType(b2_dynamicBody);
       m.body->SetMassData(&m.mass);
     }
-    const bool dynamic = motion == Motion::kDynamic;
-    const bool lay_on_nothing = now == Motion::kAbsent;
-    if (dynamic && (lay_on_nothing || !impl_->scene.solver.sleep)) m.body->SetAwake(true);
+    const bool dynamic = activity == Activity::kSimulated;
+    if (dynamic && (crosses || !impl_->scene.solver.sleep)) m.body->SetAwake(true);
     m.body->SetLinearVelocity(dynamic ? AtCentre(*m.body, origin_velocity) : origin_velocity);
   }
+  if (sleeps_on) SetAwake(body, false);
   impl_->prescribed_count +=
-      (motion == Motion::kPrescribed ? 1 : 0) - (now == Motion::kPrescribed ? 1 : 0);
-  now = motion;
+      (activity == Activity::kPrescribed ? 1 : 0) - (before == Activity::kPrescribed ? 1 : 0);
 }
 
 const std::vector<int>& World::present() const { return impl_->present; }
@@ -89,15 +93,18 @@ void World::Impl::FindPresent(bool aside) {
   present.clear();
   crossed.clear();
   awake_aside.clear();
-  listed_awake.assign(motions.size(), 0);
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    const bool absent = motions[i] == Motion::kAbsent;
-    if (!absent) present.push_back(static_cast<int>(i));
-    if (absent && !aside) crossed.push_back(static_cast<int>(i));
+  listed_awake.assign(activities.size(), 0);
+  for (std::size_t i = 0; i < activities.size(); ++i) {
+    const auto body = static_cast<int>(i);
+    if (IsPresent(activities[i])) {
+      present.push_back(body);
+    } else if (!aside) {
+      crossed.push_back(body);
+    }
   }
 }
 
-/// Records that a body becomes absent or present, which the next rebuild carries out.
+/// Records that a body comes or goes, which the next rebuild carries out.
 void World::Impl::Cross(int body, bool goes) {
   unsettled = true;
   crossed.push_back(body);
@@ -130,8 +137,8 @@ void World::Impl::MarkAside(int body) {
 }
 
 void World::Impl::MarkAllAside() {
-  if (present.size() == motions.size()) return;
-  for (std::size_t i = 0; i < motions.size(); ++i) MarkAside(static_cast<int>(i));
+  if (present.size() == activities.size()) return;
+  for (std::size_t i = 0; i < activities.size(); ++i) MarkAside(static_cast<int>(i));
 }
 
 void World::Impl::MarkPresent() {
@@ -140,9 +147,9 @@ void World::Impl::MarkPresent() {
 
 std::uint64_t World::still(int body) const {
   const auto i = static_cast<std::size_t>(body);
-  SEAM_ASSERT(body >= 0 && i < impl_->motions.size());
-  const bool aside = impl_->motions[i] == Motion::kAbsent && i < impl_->memory.absent.size() &&
-                     impl_->memory.absent[i] != 0;
+  SEAM_ASSERT(body >= 0 && i < impl_->activities.size());
+  const bool aside = !IsPresent(impl_->activities[i]) && i < impl_->memory.goes_aside.size() &&
+                     impl_->memory.goes_aside[i] != 0;
   return aside && impl_->listed_awake[i] == 0 ? impl_->stamps[i] : 0;
 }
 
@@ -157,16 +164,17 @@ bool World::ChangedSince(std::uint64_t change, std::vector<int>* bodies) const {
   return true;
 }
 
-Motion World::motion(int body) const {
-  impl_->moving(body);  // in range
-  return impl_->motions[static_cast<std::size_t>(body)];
+Activity World::activity(int body) const {
+  const auto i = static_cast<std::size_t>(body);
+  SEAM_ASSERT(body >= 0 && i < impl_->activities.size());
+  return impl_->activities[i];
 }
 
 void World::Impl::BeginPrescribedStep() {
   prescribed_from.resize(built.moving.size());
   for (const int index : present) {
     const auto i = static_cast<std::size_t>(index);
-    if (motions[i] != Motion::kPrescribed) continue;
+    if (activities[i] != Activity::kPrescribed) continue;
     b2Body* body = built.moving[i].body;
     const b2Vec2 velocity = body->GetLinearVelocity();
     prescribed_from[i] = {FromB2(body->GetPosition()), body->GetAngle(), FromB2(velocity),
@@ -178,7 +186,7 @@ void World::Impl::BeginPrescribedStep() {
 void World::Impl::EndPrescribedStep(float h) {
   for (const int index : present) {
     const auto i = static_cast<std::size_t>(index);
-    if (motions[i] != Motion::kPrescribed) continue;
+    if (activities[i] != Activity::kPrescribed) continue;
     b2Body* body = built.moving[i].body;
     if (!body->IsAwake()) continue;
     const BodyState& from = prescribed_from[i];
@@ -188,8 +196,8 @@ void World::Impl::EndPrescribedStep(float h) {
   }
 }
 
-/// Moves the absent bodies that are awake; sleeping ones cost nothing.
-void World::Impl::MoveAbsentBodies() {
+/// Moves the bodies that are aside and awake; sleeping ones cost nothing.
+void World::Impl::MoveAside() {
   const float dt = 1.0f / static_cast<float>(scene.solver.tick_hz);
   std::size_t awake = 0;
   for (const int index : awake_aside) {
@@ -223,9 +231,9 @@ BodyState World::AfterFlight(int body, const BodyState& from, float seconds) con
   return impl_->flight.After(from, seconds);
 }
 
-/// Stores the joints as they are while no body is absent.
-void World::Impl::SaveAllJoints(bool any_absent) {
-  if (!any_absent) return all_present.reset();
+/// Stores the joints as they are while no body is aside.
+void World::Impl::SaveAllJoints(bool any_aside) {
+  if (!any_aside) return all_present.reset();
   if (all_present) return;
   all_present.emplace();
   all_present->pins = FindPins();

@@ -132,8 +132,8 @@ void World::Impl::Settle() {
 
 void World::Settle() { impl_->Settle(); }
 
-void World::RememberContacts(int body) {
-  b2Body* const b = impl_->moving(body).body;
+void World::Impl::RememberContacts(int body) {
+  b2Body* const b = moving(body).body;
   if (IsAside(*b)) return;  // already remembered
   std::vector<WorldSnapshot::Point> points;
   for (b2ContactEdge* edge = b->GetContactList(); edge != nullptr; edge = edge->next) {
@@ -142,7 +142,8 @@ void World::RememberContacts(int body) {
       points.push_back({pair, feature, point->normalImpulse, point->tangentImpulse});
     });
   }
-  impl_->remembered[body] = {Read(body), std::move(points)};
+  const BodyState pose{FromB2(b->GetPosition()), b->GetAngle(), Vec2(0, 0), 0};
+  remembered[body] = {pose, std::move(points)};
 }
 
 std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& snapshot) const {
@@ -162,8 +163,8 @@ std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& s
 
 /// Before a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
 /// none is, and the next rebuild may move them.
-void World::Impl::Arrange(const std::vector<Motion>& wanted) {
-  const bool any = std::find(wanted.begin(), wanted.end(), Motion::kAbsent) != wanted.end();
+void World::Impl::Arrange(const std::vector<Activity>& wanted) {
+  const bool any = std::find(wanted.begin(), wanted.end(), Activity::kDisplayed) != wanted.end();
   const bool others = memory.composition != composition.hash;
   unsettled = others && any;
   if (others) {
@@ -172,27 +173,28 @@ void World::Impl::Arrange(const std::vector<Motion>& wanted) {
     return;
   }
   SaveAllJoints(any);
-  memory.absent.assign(wanted.size(), 0);
+  memory.goes_aside.assign(wanted.size(), 0);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    memory.absent[i] = wanted[i] == Motion::kAbsent ? 1 : 0;
+    memory.goes_aside[i] = IsPresent(wanted[i]) ? 0 : 1;
   }
 }
 
 /// Likewise, before a rebuild of the present bodies.
 void World::Impl::ArrangeCrossed() {
   unsettled = false;
-  SaveAllJoints(present.size() < motions.size());
+  SaveAllJoints(present.size() < activities.size());
   for (const int body : crossed) {
     const auto i = static_cast<std::size_t>(body);
-    memory.absent[i] = motions[i] == Motion::kAbsent ? 1 : 0;
+    memory.goes_aside[i] = IsPresent(activities[i]) ? 0 : 1;
   }
 }
 
-void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>* new_motions) {
-  const bool same = new_motions == nullptr && memory.composition == composition.hash &&
+void World::Impl::Rebuild(const WorldSnapshot& snapshot,
+                          const std::vector<Activity>* new_activities) {
+  const bool same = new_activities == nullptr && memory.composition == composition.hash &&
                     memory.revision == topology.revision();
-  std::vector<Motion> wanted;
-  if (!same) wanted = new_motions != nullptr ? *new_motions : motions;
+  std::vector<Activity> wanted;
+  if (!same) wanted = new_activities != nullptr ? *new_activities : activities;
   same ? ArrangeCrossed() : Arrange(wanted);
   Empty();
   tick = snapshot.tick;  // stages place things by the tick
@@ -207,7 +209,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     Built();
   } else {
     Build();
-    motions = std::move(wanted);
+    activities = std::move(wanted);
     FindPresent(!unsettled);
   }
   MarkPresent();
@@ -234,8 +236,8 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   prescribed_count = 0;
   each([&](std::size_t i, const WorldSnapshot::Body& body) {
     b2Body* b = built.moving[i].body;
-    if (motions[i] == Motion::kKinematic) b->SetType(b2_kinematicBody);
-    if (motions[i] == Motion::kPrescribed) ++prescribed_count;
+    if (activities[i] == Activity::kKinematic) b->SetType(b2_kinematicBody);
+    if (activities[i] == Activity::kPrescribed) ++prescribed_count;
     const BodyState& state = body.state;
     const bool there = b->GetPosition() == ToB2(state.position) && b->GetAngle() == state.angle;
     if (!there) b->SetTransform(ToB2(state.position), state.angle);

@@ -223,7 +223,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   }
   for (int body = 0; body < body_count(); ++body) {
     const auto b = static_cast<std::size_t>(body);
-    if (motion(body) == Motion::kDynamic) continue;
+    if (activity(body) == Activity::kSimulated) continue;
     ShiftVelocity(before.properties[b].centre, 1, &before.states[b]);
   }
   const WorldSnapshot kept = w.Keep();
@@ -242,15 +242,15 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     out.emplace();
     WorldSnapshot snapshot;
     snapshot.tick = w.tick;
-    std::vector<Motion> motions;
+    std::vector<Activity> activities;
     std::vector<WorldSnapshot::Body> bodies;
     for (const Assembly& now : w.composition.assemblies) {
       if (now.anchored) continue;
       const BodyOrigin origin = OriginOf(before, w.scene, now);
       WorldSnapshot::Body body;
       body.state = StateOf(before, w.scene, now, origin);
-      motions.push_back(origin.body >= 0 ? motion(origin.body) : Motion::kDynamic);
-      if (motions.back() != Motion::kDynamic) {
+      activities.push_back(origin.body >= 0 ? activity(origin.body) : Activity::kSimulated);
+      if (activities.back() != Activity::kSimulated) {
         ShiftVelocity(AssemblyProperties(w.scene, now).centre, -1, &body.state);
       }
       if (origin.same) {
@@ -272,7 +272,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     w.FindStages();
     if (w.stages.size() == stages) snapshot.stages = kept.stages;
     w.memory.composition = 0;  // it belongs to other bodies or joints
-    w.Rebuild(snapshot, &motions);
+    w.Rebuild(snapshot, &activities);
     w.impacts.clear();
   }
   for (const Edit& edit : edits) Do(edit);

@@ -134,7 +134,7 @@ class SeatLeaveStage : public Stage {
     const auto each = [&](const auto& visit) {
       for (std::size_t i = 0; i < w_.built.moving.size(); ++i) {
         const MovingBody& moving = w_.built.moving[i];
-        if (moving.mechanism != out || w_.motions[i] != Motion::kDynamic) continue;
+        if (moving.mechanism != out || w_.activities[i] != Activity::kSimulated) continue;
         visit(moving.body, moving.mass.mass);
       }
     };

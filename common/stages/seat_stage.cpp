@@ -309,7 +309,7 @@ class SeatStage : public Stage {
     const auto each = [&](const auto& visit) {
       EachOf(MechanismOf(seat), [&](std::size_t i) {
         const MovingBody& moving = w_.built.moving[i];
-        if (w_.motions[i] == Motion::kDynamic) visit(moving.body, moving.mass.mass);
+        if (w_.activities[i] == Activity::kSimulated) visit(moving.body, moving.mass.mass);
       });
     };
     PullTogether(each, velocity_of, static_cast<float>(moves.angle) / h, h, gravity_);
@@ -323,7 +323,7 @@ class SeatStage : public Stage {
     float mass = 0;
     EachOf(At(whole).mechanism, [&](std::size_t i) { mass += w_.built.moving[i].mass.mass; });
     EachOf(At(whole).mechanism, [&](std::size_t i) {
-      if (w_.motions[i] != Motion::kDynamic) return;
+      if (w_.activities[i] != Activity::kSimulated) return;
       b2Body* body = w_.built.moving[i].body;
       body->SetLinearVelocity(body->GetLinearVelocity() + (1 / mass) * approaches_[seat].owed);
     });

@@ -36,12 +36,12 @@ BodyMemory::BodyMemory(const SyncConfig& config, const World& world, const BodyT
                         std::max(track->last_coupled_tick, before.last_coupled_tick);
                   }),
       noted_(table, BodyRule::kFresh),
-      parked_(table, BodyRule::kFresh),
+      parked_since_(table, BodyRule::kFresh, -1),
       edited_(table, [this](const BodyRemap& change) { Edited(change); }) {
   for (int body = 0; body < world.body_count(); ++body) snapshots_.Add(body, 0, world.Read(body));
   // In an edited initial topology the age of each body is unknown.
   for (BodyTrack& track : bodies_) track.changed_at = world.topology().revision();
-  Tend();
+  Restart();
 }
 
 const BodyState* BodyMemory::ComparablePast(int body, std::int64_t tick) const {
@@ -96,7 +96,7 @@ void BodyMemory::OpenChanged() {
   if (world_.ChangedSince(change_, &changed_)) {
     for (const int body : changed_) Open(body);
   } else {
-    for (const int body : tended_) Open(body);
+    for (const int body : unparked_) Open(body);
   }
   change_ = world_.last_change();
 }
@@ -125,52 +125,48 @@ void BodyMemory::Record() {
   open_.resize(left);
 }
 
-/// Unparks all bodies and records all.
-void BodyMemory::Tend() {
-  parked_.Reset();
+/// Records all bodies from now on.
+void BodyMemory::Restart() {
   noted_.Reset();
   open_.clear();
   for (int body = 0; body < table_.bodies(); ++body) Open(body);
   news_.clear();
-  tended_.resize(static_cast<std::size_t>(table_.bodies()));
-  std::iota(tended_.begin(), tended_.end(), 0);
+  unparked_.resize(static_cast<std::size_t>(table_.bodies()));
+  std::iota(unparked_.begin(), unparked_.end(), 0);
 }
 
 void BodyMemory::Park(int body) {
-  parked_[body] = {world_.tick(), world_.Read(body)};
-  tended_.erase(std::lower_bound(tended_.begin(), tended_.end(), body));
+  parked_since_[body] = world_.tick();
+  unparked_.erase(std::lower_bound(unparked_.begin(), unparked_.end(), body));
 }
 
 void BodyMemory::FillPast(int body) {
-  const Parked& parked = parked_[body];
-  const std::int64_t first = std::max(parked.since + 1, history_.oldest());
+  const BodyState pose = world_.Read(body);
+  const std::int64_t first = std::max(parked_since_[body] + 1, history_.oldest());
   for (std::int64_t tick = first; tick <= history_.newest(); ++tick) {
-    *history_.At(tick, body) = parked.pose;
+    *history_.At(tick, body) = pose;
   }
 }
 
 void BodyMemory::Unpark(int body) {
-  if (!parked(body)) return;
   FillPast(body);
-  parked_[body].since = -1;
   Noted& noted = noted_[body];
   noted.still = 0;
   noted.ticks = 0;
   Open(body);
-  tended_.insert(std::lower_bound(tended_.begin(), tended_.end(), body), body);
+  unparked_.insert(std::lower_bound(unparked_.begin(), unparked_.end(), body), body);
 }
 
 void BodyMemory::UnparkAll() {
-  if (static_cast<int>(tended_.size()) == table_.bodies()) return;
   for (int body = 0; body < table_.bodies(); ++body) {
     if (parked(body)) FillPast(body);
   }
-  Tend();
+  Restart();
 }
 
 void BodyMemory::StartAnew() {
   for (BodyTrack& body : bodies_) body.placed = false;
-  Tend();
+  Restart();
   history_.Clear();
 }
 
@@ -194,7 +190,7 @@ void BodyMemory::Edited(const BodyRemap& change) {
     if (!snapshots_.has(body)) snapshots_.Add(body, world_.tick(), now);
     if (BodyState* past = history_.At(world_.tick(), body)) *past = now;
   }
-  Tend();
+  Restart();
 }
 
 void BodyMemory::Persist(StateArchive& a) {

@@ -41,7 +41,6 @@ struct BodyTrack {
   int changed_at = 0;              ///< number of edits when it last changed
   PullTrack pull;
   bool at_rest = false;  ///< held at the pose that its authority committed (RestCommit)
-  bool idle = false;     ///< own, at rest, and absent because nothing could touch it (Presence)
 };
 
 /// Record of one mechanism.
@@ -84,24 +83,16 @@ class BodyMemory {
   /// Call at the end of a tick. Records all poses as past.
   void Record();
 
-  // A displayed body outside every view is *parked*: absent, asleep, at one fixed pose, which is
-  // also its past. Per-tick loops skip it.
-  /// Bodies that are not parked, ascending.
-  const std::vector<int>& tended() const { return tended_; }
-  bool parked(int body) const { return parked_[body].since >= 0; }
-  /// Parks the body where the world has it, from the next tick on. Requires that it is absent.
+  /// Bodies that are not parked (Activity::kParked), ascending: per-tick loops skip the others.
+  const std::vector<int>& unparked() const { return unparked_; }
+  bool parked(int body) const { return world_.activity(body) == Activity::kParked; }
+  /// Only for Activities, which parks and unparks bodies; requires that it is parked. From the next
+  /// tick until Unpark, which records it, the body's past is the pose that it then has.
   void Park(int body);
-  /// Call before the body is written to or becomes present. Does nothing if it is not parked.
   void Unpark(int body);
-  /// Call before an edit as well.
   void UnparkAll();
-  /// Call after a parked body was written to anyway: it stays parked there, as if it always had
-  /// been. Does nothing if it is not parked.
-  void MoveParked(int body) {
-    if (parked(body)) parked_[body].pose = world_.Read(body);
-  }
-  /// Marks that the body was heard of or moved along its path: only then does an absent body need
-  /// checking.
+  /// Marks that the body was heard of or moved along its path: only then does a body that is not
+  /// present need checking.
   void MarkUpdated(int body) { news_.push_back(body); }
   /// Bodies marked since ClearUpdated, in any order, some twice.
   const std::vector<int>& news() const { return news_; }
@@ -114,10 +105,6 @@ class BodyMemory {
   void Persist(StateArchive& a);
 
  private:
-  struct Parked {
-    std::int64_t since = -1;  // tick up to which its past is recorded; -1: not parked
-    BodyState pose;
-  };
   struct Noted {
     std::uint64_t still = 0;  // World::still at the last recording
     int ticks = 0;            // consecutive recordings with that value
@@ -125,7 +112,7 @@ class BodyMemory {
   };
   BodyTrack AfterEdit(const BodyOrigin& origin, const BodyTrack* before) const;
   void Edited(const BodyRemap& change);
-  void Tend();
+  void Restart();
   void FillPast(int body);
   /// Records the body's pose at every tick from now on, until it has lain still for long.
   void Open(int body) {
@@ -142,12 +129,12 @@ class BodyMemory {
   BodyColumn<BodyTrack> bodies_;
   MechanismColumn<MechanismTrack> mechanisms_;
   BodyColumn<Noted> noted_;
-  std::vector<int> open_;     // bodies that Record checks: all tended ones except those that have
+  std::vector<int> open_;     // bodies that Record checks: all unparked ones but those that have
                               // lain still for the whole recorded past
   std::uint64_t change_ = 0;  // World::last_change at the last OpenChanged
   std::vector<int> changed_;  // for OpenChanged
-  BodyColumn<Parked> parked_;
-  std::vector<int> tended_, news_;
+  BodyColumn<std::int64_t> parked_since_;  // tick up to which the past of a parked one is recorded
+  std::vector<int> unparked_, news_;
   EditHook edited_;
 };
 

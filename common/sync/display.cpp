@@ -37,36 +37,35 @@ bool Overlap(const MovingBox& a, const MovingBox& b) {
 }
 
 /// Fills `driven` (ascending) with the bodies to move to the tick `next`: present bodies that are
-/// not simulated, absent bodies at their turn, and the bodies in `back`.
+/// not simulated, others at their turn, and the bodies in `back`.
 void FindDriven(const World& world, const BodyMemory& memory, const JointCloser& joints,
                 const std::vector<int>& back, std::int64_t next, std::vector<int>* driven) {
   driven->clear();
-  const auto idle = [&](int body) { return memory.track(body).idle; };
   for (const int body : world.present()) {
-    if (world.motion(body) != Motion::kDynamic && !idle(body)) driven->push_back(body);
+    if (world.activity(body) != Activity::kSimulated) driven->push_back(body);
   }
-  const auto absent = [&](int b) { return world.motion(b) == Motion::kAbsent && !idle(b); };
+  const auto only_shown = [&](int b) { return world.activity(b) == Activity::kDisplayed; };
   const auto mechanisms = static_cast<int>(world.composition().mechanisms.size());
-  const auto turn = static_cast<int>(next % kAbsentEvery);
-  // If many bodies are parked, iterates over the tended ones; else over the mechanisms.
-  const std::vector<int>& tended = memory.tended();
-  if (static_cast<int>(tended.size()) < world.body_count()) {
-    std::copy_if(tended.begin(), tended.end(), std::back_inserter(*driven), [&](int body) {
-      return absent(body) && (turn + world.mechanism(body)) % kAbsentEvery == 0;
+  const auto turn = static_cast<int>(next % kShownEvery);
+  // If any body is parked, iterates over the others; else over the mechanisms.
+  const std::vector<int>& unparked = memory.unparked();
+  if (static_cast<int>(unparked.size()) < world.body_count()) {
+    std::copy_if(unparked.begin(), unparked.end(), std::back_inserter(*driven), [&](int body) {
+      return only_shown(body) && (turn + world.mechanism(body)) % kShownEvery == 0;
     });
   } else {
-    for (int m = (kAbsentEvery - turn) % kAbsentEvery; m < mechanisms; m += kAbsentEvery) {
+    for (int m = (kShownEvery - turn) % kShownEvery; m < mechanisms; m += kShownEvery) {
       const std::vector<int>& bodies = joints.bodies(m);
-      std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(*driven), absent);
+      std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(*driven), only_shown);
     }
   }
-  std::copy_if(back.begin(), back.end(), std::back_inserter(*driven), absent);
+  std::copy_if(back.begin(), back.end(), std::back_inserter(*driven), only_shown);
   std::sort(driven->begin(), driven->end());
   driven->erase(std::unique(driven->begin(), driven->end()), driven->end());
 }
 
-/// True if an absent body sleeps at its last committed pose: RestCommit would put it back there
-/// before the step, whatever its path.
+/// True if a body that is not present sleeps at its last committed pose: RestCommit would put it
+/// back there before the step, whatever its path.
 bool Lies(const World& world, const BodyMemory& memory, int body) {
   const Snapshots& heard = memory.snapshots();
   if (!memory.track(body).at_rest || world.awake(body) || !heard.has(body)) return false;
@@ -78,10 +77,11 @@ bool Lies(const World& world, const BodyMemory& memory, int body) {
 
 }  // namespace
 
-Display::Display(const SyncConfig& config, World& world, BodyMemory& memory)
+Display::Display(const SyncConfig& config, World& world, BodyMemory& memory, Activities& activities)
     : config_(config),
       world_(world),
       memory_(memory),
+      activities_(activities),
       snapshots_(memory.snapshots()),
       smoother_(memory.table(), config.smooth_rate),
       delay_(config.send_every()),
@@ -123,7 +123,7 @@ void Display::Glide(const Roles& roles) {
   ++glides_;
   if (config_.smooth_rate <= 0) return;
   seats_.Look(world_);
-  for (const int first : memory_.tended()) {
+  for (const int first : memory_.unparked()) {
     const int m = world_.mechanism(first);
     const std::vector<int>& bodies = joints_.bodies(m);
     if (bodies.front() != first) continue;
@@ -181,8 +181,7 @@ void Display::CheckParkedMechanism(int mechanism, const MovingBox& seen) {
   if (!Overlap(far, seen)) return;
   far = Nowhere();
   for (const int body : joints_.bodies(mechanism)) {
-    if (!memory_.parked(body)) continue;
-    memory_.Unpark(body);
+    if (!activities_.Unpark(body)) continue;
     smoother_.Reset(body);
     back_.push_back(body);
   }
@@ -211,7 +210,7 @@ void Display::Leave(int body) {
   still.velocity.setZero();
   still.spin = 0;
   world_.Write(body, still, false);
-  memory_.Park(body);
+  activities_.Park(body);
   far_[m] = FarBox(m);
 }
 
@@ -222,12 +221,12 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   leaving_.clear();
   FindDriven(world_, memory_, joints_, back_, next, &driven_);
   for (const int body : driven_) {
-    const bool absent = world_.motion(body) == Motion::kAbsent;
-    if (absent && !config_.shows_far && !Overlap(FarBox(world_.mechanism(body)), seen)) {
+    const bool only_shown = world_.activity(body) == Activity::kDisplayed;
+    if (only_shown && !config_.shows_far && !Overlap(FarBox(world_.mechanism(body)), seen)) {
       leaving_.push_back(body);
       continue;
     }
-    if (absent && Lies(world_, memory_, body)) continue;
+    if (only_shown && Lies(world_, memory_, body)) continue;
     BodyState state = world_.Read(body);
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
@@ -240,7 +239,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     }
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);
-    if (absent) memory_.MarkUpdated(body);
+    if (only_shown) memory_.MarkUpdated(body);
   }
   for (const int body : leaving_) Leave(body);
 }

@@ -10,6 +10,7 @@
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/activities.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
 #include "common/sync/show/joint_closer.h"
@@ -24,12 +25,12 @@ namespace seam {
 
 class Display {
  public:
-  /// Config, world and memory must outlive this.
-  Display(const SyncConfig& config, World& world, BodyMemory& memory);
+  /// All must outlive this.
+  Display(const SyncConfig& config, World& world, BodyMemory& memory, Activities& activities);
 
   /// Call before the step to `next`. Gives each displayed body the pose and velocity that take it
   /// to its displayed place at `next`. Unless the config shows distant bodies (shows_far), bodies
-  /// outside `seen` stay where they are, parked (BodyMemory).
+  /// outside `seen` stay where they are, parked.
   void Drive(std::int64_t next, const MovingBox& seen);
   /// Call after a step. Lets the visual offsets return by one tick.
   void Glide(const Roles& roles);
@@ -72,6 +73,7 @@ class Display {
   const SyncConfig& config_;
   World& world_;
   BodyMemory& memory_;
+  Activities& activities_;
   const Snapshots& snapshots_;
   Smoother smoother_;
   DisplayDelay delay_;

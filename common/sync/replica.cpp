@@ -21,12 +21,12 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       roles_(config_, self, own_player, world_, table_),
       drivers_(world_, roles_),
       memory_(config_, world_, table_),
-      presence_(config_, world_, roles_, memory_),
+      activities_(config_, world_, roles_, memory_),
       inputs_(topology.scene().players.size()),
-      display_(config_, world_, memory_),
+      display_(config_, world_, memory_, activities_),
       strands_(world_),
       replay_(config_, world_, roles_, drivers_, memory_, display_, inputs_),
-      corrector_(config_, world_, roles_, presence_, memory_, display_, replay_),
+      corrector_(config_, world_, roles_, activities_, memory_, display_, replay_),
       reach_(config_, world_, roles_, drivers_, inputs_),
       rest_(MakeRestCommit(config_, world_, roles_, drivers_, memory_, display_, inputs_, reach_)),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
@@ -47,6 +47,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
 void Replica::StartAt(std::int64_t tick) {
   if (tick == world_.tick()) return;
   world_.SetTick(tick);
+  activities_.UnparkAll();
   memory_.StartAnew();
   rest_->StartAnew();
   replay_.Forget();
@@ -63,8 +64,8 @@ void Replica::Step() {
   const std::int64_t next = tick() + 1;
   replay_.Run();
   ApplyInputs(next);
-  if (presence_.CheckIfRequested()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
-  display_.Drive(next, presence_.around());
+  if (activities_.CheckIfRequested()) corrector_.FollowRoles(BodiesOf(activities_.changed()));
+  display_.Drive(next, activities_.around());
   corrector_.PullCopies();
   rest_->BeforeStep();
   memory_.ClearUpdated();
@@ -78,7 +79,7 @@ void Replica::Step() {
   queue_->AfterStep(tick());
   scheduler_.Collect();
   memory_.Record();
-  if (presence_.CheckIfDue()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
+  if (activities_.CheckIfDue()) corrector_.FollowRoles(BodiesOf(activities_.changed()));
   replay_.TakeBarrier();
   display_.Glide(roles_);
   corrector_.ReceiveWaiting();
@@ -86,7 +87,7 @@ void Replica::Step() {
 
 void Replica::FollowRoles() {
   drivers_.Look();
-  if (corrector_.FollowRoles()) presence_.Ask();
+  if (corrector_.FollowRoles()) activities_.Ask();
 }
 
 void Replica::RecordInput(int player, std::int64_t tick, const Input& input) {
@@ -142,7 +143,7 @@ void Replica::ApplyInputs(std::int64_t next) {
 void Replica::NeedDriven(int player) {
   std::vector<int> mechanisms;
   for (const int m : drivers_.MechanismsOf(player)) {
-    if (presence_.Need(m)) mechanisms.push_back(m);
+    if (activities_.Need(m)) mechanisms.push_back(m);
   }
   if (!mechanisms.empty()) corrector_.FollowRoles(BodiesOf(mechanisms));
 }
@@ -168,12 +169,12 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   queue_->Hurry(tick());
   ApplyEdits();  // the grants refer to the topology after the edits
   GrantsApplied applied = roles_.Apply(grants);
-  // Before motion follows the roles: the holder's last simulated states.
+  // Before activities follow the roles: the holder's last simulated states.
   for (ExactStates& exact : MakeExact(applied.let_go, 0)) released_.push_back(std::move(exact));
   // In a large room most grants that a client receives are between other peers.
   if (!applied.roles.empty()) {
     drivers_.Look();
-    if (corrector_.FollowRoles(BodiesOf(applied.roles))) presence_.Ask();
+    if (corrector_.FollowRoles(BodiesOf(applied.roles))) activities_.Ask();
     rest_->PutBack();
   }
   return std::move(applied.let_go);

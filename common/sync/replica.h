@@ -8,10 +8,10 @@
 ///         proposals, own States collected -> history -> States that waited
 ///   TakeStates, TakeProposals, MakeView, MakeImpacts      after it
 ///
-/// Its parts: Roles (its role for each mechanism), Presence (bodies that must be in the Box2D
-/// world), BodyMemory (records per body), Display, Corrector and Replay (which move bodies), Reach
-/// (effects of inputs still unknown), SendScheduler and ProposalQueue (messages to send). This
-/// class calls them in order and has no rule of its own.
+/// Its parts: Roles (its role for each mechanism), Activities (the
+/// activity of each body), BodyMemory (records per body), Display, Corrector and Replay (which move
+/// bodies), Reach (effects of inputs still unknown), SendScheduler and ProposalQueue (messages to
+/// send). This class calls them in order and has no rule of its own.
 
 #include <cstdint>
 #include <functional>
@@ -29,8 +29,8 @@
 #include "common/sync/inputs/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
+#include "common/sync/reach/activities.h"
 #include "common/sync/reach/driven.h"
-#include "common/sync/reach/presence.h"
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
@@ -73,14 +73,14 @@ class Replica {
   const AuthorityTable& authority() const { return roles_.table(); }
   /// The server plans here; clients only apply grants.
   AuthorityTable& authority() { return roles_.table(); }
-  /// Call after Set on authority(). Updates motion types to the roles.
+  /// Call after Set on authority(). Updates activities to the roles.
   void RolesChanged() {
     FollowRoles();
     rest_->PutBack();
   }
-  /// See Presence::LeaveUnwatched.
-  void LeaveUnwatched(std::vector<char> unwatched, const PeerSet& doubtful) {
-    presence_.LeaveUnwatched(std::move(unwatched), doubtful);
+  /// See Activities::AllowDormant.
+  void AllowDormant(std::vector<char> allowed, const PeerSet& uncertain) {
+    activities_.AllowDormant(std::move(allowed), uncertain);
   }
   const Drivers& drivers() const { return drivers_; }
   /// Applies the server's grants. Returns the mechanisms over which this peer lost authority.
@@ -215,7 +215,7 @@ class Replica {
   Roles roles_;
   Drivers drivers_;
   BodyMemory memory_;
-  Presence presence_;
+  Activities activities_;
   std::vector<InputTrack> inputs_;  // by player
   Display display_;
   StrandView strands_;

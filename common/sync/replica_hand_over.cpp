@@ -69,7 +69,7 @@ void Replica::EachDifference(const States& states,
                              const std::function<void(int, const BodyState&)>& call) const {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
-    if (body < 0 || world_.motion(body) != Motion::kDynamic) continue;
+    if (body < 0 || world_.activity(body) != Activity::kSimulated) continue;
     if (states.revision != revision()) continue;
     const BodyState* then = memory_.ComparablePast(body, states.tick);
     if (then != nullptr) call(body, Minus(Unpack(states, i, then->angle), *then));
@@ -80,8 +80,7 @@ void Replica::Persist(StateArchive& a) {
   WorldSnapshot now;
   if (!a.reading()) {
     SEAM_ASSERT(queue_->size() == 0);
-    memory_.UnparkAll();
-    if (presence_.NeedAll()) {
+    if (activities_.NeedAll()) {
       corrector_.FollowRoles();
       world_.Settle();
     }
@@ -93,7 +92,7 @@ void Replica::Persist(StateArchive& a) {
   if (a.reading() && !LoadWorld(now, a)) return;
   memory_.Persist(a);
   roles_.table().Persist(a);
-  presence_.Persist(a);
+  activities_.Persist(a);
   rest_->Persist(a);
   replay_.Persist(a, now);
   PersistEdits(a);

@@ -37,8 +37,7 @@ void Replica::ApplyEdits() {
 
 void Replica::ApplyNextEdit() {
   const QueuedEdit next = queue_->Pop();
-  memory_.UnparkAll();  // the edit may reach any of them
-  if (presence_.NeedAll()) {
+  if (activities_.NeedAll()) {  // the edit may reach any of them
     corrector_.FollowRoles();
     world_.Settle();
   }

@@ -100,7 +100,7 @@ bool SendScheduler::SendsStateOf(int body) const {
 /// Returns body indices, ascending.
 std::vector<int> SendScheduler::ChooseBodies() {
   std::vector<int> due;
-  for (const int body : world_.present()) {  // no peer sends states of absent bodies
+  for (const int body : world_.present()) {  // no peer sends states of others
     BodyTrack& track = memory_.track(body);
     if (!SendsStateOf(body) || !track.placed || !Due(body)) continue;
     const bool hit = world_.awake(body) && memory_.Struck(body);

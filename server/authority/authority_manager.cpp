@@ -114,7 +114,7 @@ void AuthorityManager::Plan(std::int64_t now_us, const PlannerInputs& situation)
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     plan_[static_cast<std::size_t>(seen_[i])] = plan[i];
   }
-  replica_.LeaveUnwatched(Unwatched(view_), UncertainPeers(view_));
+  replica_.AllowDormant(MayBeDormant(view_), UncertainPeers(view_));
   for (const int m : seen_) {
     const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
     const AuthorityRecord& record = table().at(m);

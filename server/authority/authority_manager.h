@@ -165,7 +165,7 @@ class AuthorityManager {
   /// Returns by mechanism: 1 if it sleeps at the server and a plan will give it to a player before
   /// anything touches it. Other peers' bodies near it then need not be in the Box2D world on its
   /// account.
-  std::vector<char> Unwatched(const AuthorityView& view) const;
+  std::vector<char> MayBeDormant(const AuthorityView& view) const;
   /// Returns peers that may lack authority over bodies they are about to touch.
   PeerSet UncertainPeers(const AuthorityView& view) const;
   std::vector<Grants> TakeBack(std::int64_t now_us, const std::vector<int>& mechanisms);

@@ -148,31 +148,31 @@ void AuthorityManager::LookAtMechanism(int m, const PlannerInputs& situation, Au
   view->mechanisms.push_back(seen);
 }
 
-std::vector<char> AuthorityManager::Unwatched(const AuthorityView& view) const {
-  std::vector<char> unwatched(memory_.values().size(), 0);
-  if (!view.islands) return unwatched;
+std::vector<char> AuthorityManager::MayBeDormant(const AuthorityView& view) const {
+  std::vector<char> allowed(memory_.values().size(), 0);
+  if (!view.islands) return allowed;
   if (view.left_out > 0) {
-    std::fill(unwatched.begin(), unwatched.end(), char{1});  // all left-out mechanisms sleep
+    std::fill(allowed.begin(), allowed.end(), char{1});  // all left-out mechanisms sleep
     for (const int id : restricted_) {
       const int m = MechanismOf(replica_.world(), static_cast<PartId>(id));
-      if (m >= 0) unwatched[static_cast<std::size_t>(m)] = 0;
+      if (m >= 0) allowed[static_cast<std::size_t>(m)] = 0;
     }
   }
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const auto m = static_cast<std::size_t>(seen_[i]);
     const MechanismView& seen = view.mechanisms[i];
     const bool free = seen.asleep && seen.may_have.everyone();
-    unwatched[m] = free && plan_[m].authority == 0 && seen.now.authority == 0 ? 1 : 0;
+    allowed[m] = free && plan_[m].authority == 0 && seen.now.authority == 0 ? 1 : 0;
   }
-  return unwatched;
+  return allowed;
 }
 
 PeerSet AuthorityManager::UncertainPeers(const AuthorityView& view) const {
-  PeerSet doubtful;
+  PeerSet uncertain;
   for (const PlayerView& p : view.players) {
-    if (p.limited() || (p.silent && p.peer > 0)) doubtful.Add(p.peer);
+    if (p.limited() || (p.silent && p.peer > 0)) uncertain.Add(p.peer);
   }
-  return doubtful;
+  return uncertain;
 }
 
 }  // namespace seam

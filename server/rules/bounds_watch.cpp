@@ -38,7 +38,7 @@ std::vector<Edit> BoundsWatch::Next(const std::vector<int>& told) {
   const int count = world.body_count(), each = count <= kAtOnce ? count : 1 + count / kTurnTicks;
   const int first = each == count ? 0 : static_cast<int>(world.tick() % kTurnTicks) * each;
   for (int b = first; b < std::min(count, first + each); ++b) {
-    if (world.motion(b) == Motion::kAbsent) look(b);
+    if (!IsPresent(world.activity(b))) look(b);
   }
   std::vector<Edit> edits;
   if (leaving.empty()) return edits;

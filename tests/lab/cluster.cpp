@@ -127,7 +127,7 @@ void Cluster::TickClient(std::size_t i) {
 int SteppedBodies(const World& world) {
   int stepped = 0;
   for (int body = 0; body < world.body_count(); ++body) {
-    stepped += world.motion(body) == Motion::kAbsent ? 0 : 1;
+    stepped += IsPresent(world.activity(body)) ? 1 : 0;
   }
   return stepped;
 }

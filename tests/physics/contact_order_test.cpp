@@ -50,7 +50,7 @@ constexpr int kBall = 98;
 void SendAway(World* world) {
   for (int body = 0; body < world->body_count(); ++body) {
     const bool far = std::fabs(world->Read(body).position.x()) > 100;
-    if (far) world->SetMotion(body, Motion::kAbsent);
+    if (far) world->SetActivity(body, Activity::kDisplayed);
   }
 }
 

@@ -31,12 +31,12 @@ frequency = 0.5
 )",
                                  "spring.toml");
   World world(scene);
-  world.SetMotion(0, Motion::kKinematic);
+  world.SetActivity(0, Activity::kKinematic);
   for (int i = 0; i < 30; ++i) world.Step();
   EXPECT_EQ(world.Read(0).position, Vec2(0, 2));
   EXPECT_EQ(world.Read(0).velocity, Vec2(0, 0));
   // Simulated again it falls, and the spring carries it.
-  world.SetMotion(0, Motion::kDynamic);
+  world.SetActivity(0, Activity::kSimulated);
   for (int i = 0; i < 600; ++i) world.Step();
   EXPECT_LT(world.Read(0).position.y(), 1.99f);
   EXPECT_GT(world.Read(0).position.y(), 0.1f);
@@ -46,7 +46,7 @@ TEST(DisplayedJoint, WhollyDisplayedScenesStayFinite) {
   for (const char* name : {"seesaw", "harbour", "crane", "obstacle", "train", "titanic"}) {
     World world(LoadScene("scenes/" + std::string(name) + ".toml"));
     for (int body = 0; body < world.body_count(); ++body) {
-      world.SetMotion(body, Motion::kKinematic);
+      world.SetActivity(body, Activity::kKinematic);
     }
     for (int i = 0; i < 10; ++i) world.Step();
     for (int body = 0; body < world.body_count(); ++body) {

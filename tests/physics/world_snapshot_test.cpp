@@ -155,11 +155,11 @@ TEST(Snapshot, KinematicBodiesAndMotorsStayAsTheyAre) {
   const Scene scene = LoadScene("scenes/crossing.toml");
   World world(scene);
   world.SetInput(0, Input{127, 0, 0});
-  world.SetMotion(2, Motion::kKinematic);
+  world.SetActivity(2, Activity::kKinematic);
   Steps(&world, 30);
   world.Barrier();
-  EXPECT_EQ(world.motion(2), Motion::kKinematic);
-  EXPECT_EQ(world.motion(0), Motion::kDynamic);
+  EXPECT_EQ(world.activity(2), Activity::kKinematic);
+  EXPECT_EQ(world.activity(0), Activity::kSimulated);
   const float before = world.Read(0).position.x();
   Steps(&world, 60);
   EXPECT_GT(std::fabs(world.Read(0).position.x() - before), 1) << "it goes on driving";

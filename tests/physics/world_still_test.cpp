@@ -34,8 +34,8 @@ std::vector<std::uint64_t> StillOf(const World& world) {
 void DoSomething(World* world, Random* random) {
   const int body = static_cast<int>(random->Next() % 24);
   switch (random->Next() % 8) {
-    case 0: world->SetMotion(body, Motion::kAbsent); break;
-    case 1: world->SetMotion(body, Motion::kDynamic); break;
+    case 0: world->SetActivity(body, Activity::kDisplayed); break;
+    case 1: world->SetActivity(body, Activity::kSimulated); break;
     case 2: world->SetAwake(body, random->Chance(0.5)); break;
     case 3: {
       BodyState state = world->Read(body);
@@ -96,7 +96,7 @@ TEST(WorldStill, ReportsEveryChangeOfAStillBody) {
 
 TEST(WorldStill, ForgetsChangesTooLongAgo) {
   World world(ParseScene(kBoxes, "boxes.toml"));
-  world.SetMotion(3, Motion::kAbsent);
+  world.SetActivity(3, Activity::kDisplayed);
   world.Step();
   const std::uint64_t change = world.last_change();
   std::vector<int> changed;

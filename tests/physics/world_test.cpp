@@ -37,8 +37,8 @@ density = 20
 position = [0.5, 2.5]
 )");
   const int box = run.Body("box"), ball = run.Body("ball");
-  run.world.SetMotion(box, Motion::kKinematic);
-  EXPECT_EQ(run.world.motion(box), Motion::kKinematic);
+  run.world.SetActivity(box, Activity::kKinematic);
+  EXPECT_EQ(run.world.activity(box), Activity::kKinematic);
   run.world.Write(box, BodyState{{0, 3}, 0, {2, 0.5f}, 1});
   run.world.Write(ball, BodyState{{0.2f, 4.5f}, 0, {2, -3}, 0});
   run.StepTo(60);
@@ -95,12 +95,12 @@ TEST(World, WeldedPartsAreOneBodyThatTurnsAboutTheirCentreOfMass) {
 TEST(World, AChangeOfMotionCarriesTheVelocityOver) {
   ScriptedWorld run = Simulate(kDumbbell);
   run.world.Write(0, BodyState{{10, 5}, 0, {1, 0}, 2});
-  run.world.SetMotion(0, Motion::kKinematic);
+  run.world.SetActivity(0, Activity::kKinematic);
   // The root lies 0.5 m left of the centre and turns about it with 2 rad/s.
   EXPECT_NEAR(run.world.Read(0).velocity.x(), 1, 1e-6);
   EXPECT_NEAR(run.world.Read(0).velocity.y(), -1, 1e-6);
-  run.world.SetMotion(0, Motion::kDynamic);
-  EXPECT_EQ(run.world.motion(0), Motion::kDynamic);
+  run.world.SetActivity(0, Activity::kSimulated);
+  EXPECT_EQ(run.world.activity(0), Activity::kSimulated);
   EXPECT_NEAR(run.world.Read(0).velocity.x(), 1, 1e-6);
   EXPECT_NEAR(run.world.Read(0).velocity.y(), 0, 1e-6);
   EXPECT_EQ(run.world.Read(0).spin, 2);

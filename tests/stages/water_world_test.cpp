@@ -72,9 +72,9 @@ TEST(WaterWorld, ABodyThatBecomesDynamicFloatsAtOnce) {
   Steps(&world, 60 * 20);
   const float rest = world.Read(0).position.y();
   for (int round = 0; round < 3; ++round) {
-    world.SetMotion(0, Motion::kKinematic);
+    world.SetActivity(0, Activity::kKinematic);
     Steps(&world, 10);
-    world.SetMotion(0, Motion::kDynamic);
+    world.SetActivity(0, Activity::kSimulated);
     world.Step();
     EXPECT_NEAR(world.Read(0).velocity.y(), 0, 1e-3) << "a step without lift is 0.17 m/s";
     Steps(&world, 5);

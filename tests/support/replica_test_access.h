@@ -15,7 +15,7 @@ struct ReplicaTestAccess {
   /// True if the body is parked (Display::Leave) and `at` is outside the displayed area: its pose
   /// here is old, and nobody sees it.
   static bool OutOfSight(const Replica& replica, int body, const Vec2& at) {
-    const MovingBox& seen = replica.presence_.around();
+    const MovingBox& seen = replica.activities_.around();
     const bool within =
         (at.array() >= seen.min.array()).all() && (at.array() <= seen.max.array()).all();
     return replica.memory_.parked(body) && !within;

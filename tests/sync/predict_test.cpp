@@ -59,9 +59,10 @@ TEST(Predict, OwnPredictsTheDrivenBodiesAndAllPredictsEverything) {
   WiredReplicas own = Central("own", 0), all = Central("all", 0);
   for (const char* part : {"hers", "his", "crate"}) {
     const bool is_own = std::string(part) == "hers";
-    EXPECT_EQ(own.at(1).world().motion(own.Body(1, part)) == Motion::kDynamic, is_own) << part;
-    EXPECT_EQ(all.at(1).world().motion(all.Body(1, part)), Motion::kDynamic) << part;
-    EXPECT_EQ(own.at(0).world().motion(own.Body(0, part)), Motion::kDynamic) << part;
+    EXPECT_EQ(own.at(1).world().activity(own.Body(1, part)) == Activity::kSimulated, is_own)
+        << part;
+    EXPECT_EQ(all.at(1).world().activity(all.Body(1, part)), Activity::kSimulated) << part;
+    EXPECT_EQ(own.at(0).world().activity(own.Body(0, part)), Activity::kSimulated) << part;
   }
 }
 

@@ -303,17 +303,17 @@ TEST(Reckoner, AFreelyFallingBodyBouncesOffAnchoredOnes) {
 TEST(Reckoner, AnAbsentBodyMovesStraightToItsFallByTheNextUpdate) {
   World world(ParseScene(kThrown, "test.toml"));
   World truth(ParseScene(kThrown, "test.toml"));
-  world.SetMotion(0, Motion::kAbsent);
+  world.SetActivity(0, Activity::kDisplayed);
   const JointCloser joints(world);
   OwnTable<Snapshots> snapshots(2);
   snapshots.Add(0, 0, world.Read(0), true);
   Reckoner reckoner(world, snapshots, joints);
-  for (int tick = 0; tick <= 24; tick += kAbsentEvery) {
+  for (int tick = 0; tick <= 24; tick += kShownEvery) {
     reckoner.Begin(tick + 1);
     EXPECT_LT((reckoner.Here(0).position - truth.Read(0).position).norm(), 0.02f) << tick;
     const Vec2 next =
-        reckoner.Here(0).position + kAbsentEvery * world.dt() * reckoner.Speed(0).velocity;
-    for (int more = 0; more < kAbsentEvery; ++more) truth.Step();
+        reckoner.Here(0).position + kShownEvery * world.dt() * reckoner.Speed(0).velocity;
+    for (int more = 0; more < kShownEvery; ++more) truth.Step();
     EXPECT_LT((next - truth.Read(0).position).norm(), 0.02f) << tick;
   }
 }

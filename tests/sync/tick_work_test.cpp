@@ -39,7 +39,7 @@ std::unique_ptr<Replica> RoomOf(int far, const std::string& more = "") {
 std::int64_t Looks(int far) {
   const std::unique_ptr<Replica> replica = RoomOf(far);
   for (int tick = 0; tick < 60; ++tick) replica->Step();
-  EXPECT_EQ(replica->world().present().size(), 2u) << "the box beside is led";
+  EXPECT_EQ(replica->world().present().size(), 2u) << "the box beside is prescribed";
   const std::int64_t before = replica->world().looks();
   for (int tick = 0; tick < 120; ++tick) replica->Step();
   return replica->world().looks() - before;
@@ -76,7 +76,7 @@ TEST(TickWork, ADistantBodyBecomesPresentIfItsAuthorityPlacesItNear) {
   const std::unique_ptr<Replica> replica = RoomOf(500);
   for (int tick = 0; tick < 60; ++tick) replica->Step();
   constexpr int kFirst = 2;  // of the far ones
-  ASSERT_EQ(replica->world().motion(kFirst), Motion::kAbsent);
+  ASSERT_EQ(replica->world().activity(kFirst), Activity::kParked);
   WireBody body = Quantise({{0, 1.6f}, 0, {0, -2}, 0});
   body.id = replica->world().id(kFirst);
   States header;
@@ -84,7 +84,7 @@ TEST(TickWork, ADistantBodyBecomesPresentIfItsAuthorityPlacesItNear) {
   header.composition = static_cast<std::int64_t>(replica->world().composition().hash);
   for (const States& packed : Pack(header, {body})) replica->Receive(packed);
   for (int tick = 0; tick < 12; ++tick) replica->Step();
-  EXPECT_EQ(replica->world().motion(kFirst), Motion::kPrescribed) << "it may touch the own box";
+  EXPECT_EQ(replica->world().activity(kFirst), Activity::kPrescribed) << "it may touch the own box";
   EXPECT_NEAR(replica->world().Read(kFirst).position.y(), 1.6 - 2 * 12.0 / 60, 0.1);
 }
 

@@ -31,7 +31,7 @@ b2Vec2 PointOf(b2Contact* contact) {
 b2Vec2 VelocityAt(const StageWorld& world, b2Body* body, const b2Vec2& point) {
   const int index = IndexOf(body);
   const bool led =
-      index >= 0 && world.motions[static_cast<std::size_t>(index)] == Motion::kPrescribed;
+      index >= 0 && world.activities[static_cast<std::size_t>(index)] == Activity::kPrescribed;
   if (!led) return body->GetLinearVelocityFromWorldPoint(point);
   const b2Vec2 arm = point - body->GetPosition();
   return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);

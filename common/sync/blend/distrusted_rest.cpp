@@ -77,7 +77,7 @@ void DistrustedRest::HoldIsland(const std::vector<int>& island) {
   for (const int body : island) {
     if (!Holds(body) || !world().awake(body)) continue;
     const bool by_own = Own(body) && (own_awake || (only_own && !others_awake));
-    const bool moves = world().motion(body) == Motion::kDynamic;
+    const bool moves = world().activity(body) == Activity::kSimulated;
     if (moves && (by_own || driven || ExceedsWakeLimit(body))) {
       LetGo(body);
     } else {

@@ -18,7 +18,7 @@
 #include "common/sync/body_memory.h"
 #include "common/sync/display.h"
 #include "common/sync/mode.h"
-#include "common/sync/reach/presence.h"
+#include "common/sync/reach/activities.h"
 #include "common/sync/roles.h"
 #include "common/sync/rollback/replay.h"
 
@@ -34,7 +34,7 @@ struct Received {
 class Corrector {
  public:
   /// All must outlive this.
-  Corrector(const SyncConfig& config, World& world, const Roles& roles, const Presence& presence,
+  Corrector(const SyncConfig& config, World& world, const Roles& roles, Activities& activities,
             BodyMemory& memory, Display& display, Replay& replay);
 
   /// Takes states of another peer's bodies. States of future ticks or edits are kept until then.
@@ -52,11 +52,10 @@ class Corrector {
   BodyState TakeOver(const ExactStates& exact);
   /// Call before a step; see Blender::Pull.
   void PullCopies() { blender_.Pull(); }
-  /// Call after a change of roles. Sets bodies dynamic, prescribed (kPrescribed), absent or
-  /// kinematic. Returns true if an awake body became dynamic.
+  /// Call after a change of roles. Updates all activities. Returns true if an awake body became
+  /// simulated.
   bool FollowRoles();
-  /// Like the above for these bodies only, ascending. Call after a change of Presence, with bodies
-  /// that are not parked.
+  /// Like the above for these bodies only, ascending. Call after a check of Activities.
   bool FollowRoles(const std::vector<int>& bodies);
   /// Number of messages kept for a future tick or edit.
   std::size_t waiting() const { return waiting_.size(); }
@@ -76,7 +75,6 @@ class Corrector {
   void BringBack(int body, const BodyState& told, std::int64_t tick);
   void PlaceNow(int body, std::int64_t tick, const BodyState& remote, bool asleep);
   void PlaceBody(int body, const BodyState& state, bool asleep);
-  Motion WantedMotion(int body) const;
   bool BeginToSimulate(int body);
   bool HadUnreportedImpact(int body) const;
   void CloseBegun(int mechanism);
@@ -86,7 +84,7 @@ class Corrector {
   const SyncConfig& config_;
   World& world_;
   const Roles& roles_;
-  const Presence& presence_;
+  Activities& activities_;
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;

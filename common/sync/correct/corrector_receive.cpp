@@ -18,11 +18,11 @@ constexpr std::int64_t kWaitingTicksMax = 120;
 }  // namespace
 
 Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles,
-                     const Presence& presence, BodyMemory& memory, Display& display, Replay& replay)
+                     Activities& activities, BodyMemory& memory, Display& display, Replay& replay)
     : config_(config),
       world_(world),
       roles_(roles),
-      presence_(presence),
+      activities_(activities),
       memory_(memory),
       display_(display),
       replay_(replay),
@@ -158,7 +158,7 @@ void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, b
 }
 
 void Corrector::PlaceBody(int body, const BodyState& state, bool asleep) {
-  memory_.Unpark(body);
+  activities_.Unpark(body);
   memory_.track(body).placed = true;
   replay_.Forget();  // the barriers lack this body
   world_.Write(body, WithinLimits(state, world_.scene().speed_limit));

@@ -19,19 +19,6 @@ constexpr int kHeardLatelyPart = 5;
 
 }  // namespace
 
-/// Returns how a body takes part in the world. A displayed body keeps its real mass, so that it is
-/// neither a wall to simulated bodies nor feeds energy into them; far from all of these it is
-/// absent. Mode strict shows the effect of infinite mass, and nothing should lean on interpolated
-/// paths of the past. A simulated body is absent if it rests where nothing can touch it.
-Motion Corrector::WantedMotion(int body) const {
-  const int m = world_.mechanism(body);
-  if (roles_.RoleOf(m) != kRoleRemote) {
-    return presence_.Idle(m) ? Motion::kAbsent : Motion::kDynamic;
-  }
-  if (!config_.policy->Reckons()) return Motion::kKinematic;
-  return presence_.Near(m) ? Motion::kPrescribed : Motion::kAbsent;
-}
-
 bool Corrector::FollowRoles() {
   std::vector<int> all(static_cast<std::size_t>(world_.body_count()));
   std::iota(all.begin(), all.end(), 0);
@@ -43,30 +30,23 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
   bool moves = false;
   std::vector<int> begun;  // mechanisms that begin to be simulated from where they are by now
   for (const int body : bodies) {
-    const Motion wanted = WantedMotion(body);
-    const bool idle = wanted == Motion::kAbsent && presence_.Idle(world_.mechanism(body));
-    const bool was_idle = std::exchange(memory_.track(body).idle, idle);
-    if (world_.motion(body) == wanted) continue;
-    const bool parked = memory_.parked(body);
-    memory_.Unpark(body);
+    const Activity was = world_.activity(body), wanted = activities_.Wanted(body);
+    if (was == wanted) continue;
     // A body simulated until now is extrapolated from its current state. The last state heard may
     // be from before this peer had the authority.
-    const bool ends = world_.motion(body) == Motion::kDynamic;
-    if (ends && !HadUnreportedImpact(body)) {
+    if (was == Activity::kSimulated && !HadUnreportedImpact(body)) {
       const BodyState state = world_.Read(body);
       memory_.snapshots().Add(body, now, state, memory_.FallsFreely(body, now, state));
     }
     const bool asleep = !world_.awake(body);
-    if (idle) world_.RememberContacts(body);
-    world_.SetMotion(body, wanted);
-    if (was_idle) {  // it has been simulated all along
-      if (asleep) world_.SetAwake(body, false);
-      continue;
+    activities_.Update(body);
+    if (was == Activity::kDormant) continue;  // it has been this peer's own all along
+    if (wanted == Activity::kSimulated) {
+      moves = moves || !asleep;
+      const bool begins = memory_.snapshots().has(body) && !BeginToSimulate(body);
+      if (begins) begun.push_back(world_.mechanism(body));
     }
-    const bool begins = wanted == Motion::kDynamic && memory_.snapshots().has(body);
-    moves = moves || (wanted == Motion::kDynamic && !asleep);
-    if (begins && !BeginToSimulate(body)) begun.push_back(world_.mechanism(body));
-    if (parked) display_.Reset(body);  // it was out of sight while parked
+    if (was == Activity::kParked) display_.Reset(body);  // it was out of sight
   }
   std::sort(begun.begin(), begun.end());
   begun.erase(std::unique(begun.begin(), begun.end()), begun.end());
@@ -90,7 +70,7 @@ bool Corrector::HadUnreportedImpact(int body) const {
 /// would close them violently.
 void Corrector::CloseBegun(int mechanism) {
   Close(mechanism, false, [&](int body, const BodyState& closed) {
-    if (world_.motion(body) != Motion::kDynamic) return;
+    if (world_.activity(body) != Activity::kSimulated) return;
     display_.Moved(body, Minus(closed, world_.Read(body)));
     world_.Write(body, closed);
   });

@@ -52,7 +52,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
       PlaceNow(body, exact.tick, there, false);
       continue;
     }
-    if (world_.motion(body) != Motion::kDynamic) continue;
+    if (world_.activity(body) != Activity::kSimulated) continue;
     const std::int64_t from = std::min(exact.tick, now);
     const BodyState* then = memory_.ComparablePast(body, from);
     const float late = static_cast<float>(now - exact.tick) * world_.dt();

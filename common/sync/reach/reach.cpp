@@ -40,8 +40,8 @@ std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers,
   return boxes;
 }
 
-std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too) {
-  if (!absent_too) return BoxesOf(world, drivers, world.present());
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool all_bodies) {
+  if (!all_bodies) return BoxesOf(world, drivers, world.present());
   std::vector<int> all(static_cast<std::size_t>(world.body_count()));
   std::iota(all.begin(), all.end(), 0);
   return BoxesOf(world, drivers, all);
@@ -71,7 +71,7 @@ void Reach::Look() {
   }
   if (missing.empty()) return;
   const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
-  // Mechanisms are indexed by their place among those present; absent ones meet nothing.
+  // Mechanisms are indexed by their place among those present; others meet nothing.
   std::vector<MovingBox> boxes = BoxesOf(world_, drivers_, false);
   std::vector<int> groups;
   for (const MovingBox& box : boxes) groups.push_back(box.group);

@@ -47,9 +47,9 @@ class Reach {
 /// Returns the box of a body, without acceleration.
 MovingBox BoxOf(const World& world, int body);
 
-/// Returns the boxes of the world's bodies, grouped by mechanism. Absent bodies only if
-/// `absent_too`. A mechanism that any player drives can accelerate.
-std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too);
+/// Returns the boxes of the world's bodies, grouped by mechanism. Only of present bodies,
+/// unless `all_bodies`. A mechanism that any player drives can accelerate.
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool all_bodies);
 /// Returns the boxes of these bodies, in their order.
 std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers,
                                const std::vector<int>& bodies);

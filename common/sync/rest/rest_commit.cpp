@@ -68,12 +68,11 @@ void RestCommit::Put(int body) {
   if (!Negligible(moved)) display_.Moved(body, moved);
   world_.Write(body, pose, false);
   if (world_.awake(body)) world_.SetAwake(body, false);
-  memory_.MoveParked(body);
 }
 
 void RestCommit::PutBack() {
   if (Off() || edited_) return;              // an edit's push must not be lost
-  for (const int body : memory_.tended()) {  // a parked body is at rest already
+  for (const int body : memory_.unparked()) {  // a parked body is at rest already
     if (Holds(body)) Put(body);
   }
 }
@@ -89,18 +88,18 @@ void RestCommit::LetGo(int body) {
   }
 }
 
-/// Chooses the bodies to check. Absent bodies count only if they were heard of, moved, or released,
+/// Chooses the bodies to check. Bodies that are not present count only if heard of, moved or freed,
 /// which may now be long enough ago.
 void RestCommit::FindDue() {
   due_.clear();
-  const auto add_absent = [this](const std::vector<int>& bodies) {
+  const auto add_others = [this](const std::vector<int>& bodies) {
     for (const int body : bodies) {
-      if (world_.motion(body) == Motion::kAbsent) due_.push_back(body);
+      if (!IsPresent(world_.activity(body))) due_.push_back(body);
     }
   };
-  add_absent(memory_.news());
-  add_absent(freed_);
-  if (edited_) add_absent(memory_.tended());
+  add_others(memory_.news());
+  add_others(freed_);
+  if (edited_) add_others(memory_.unparked());
   freed_.erase(std::remove_if(freed_.begin(), freed_.end(),
                               [this](int body) { return disturbed(body).released_tick < 0; }),
                freed_.end());
@@ -135,7 +134,7 @@ void RestCommit::Hold(int body) {
     LetGo(body);  // a replay found an impact
   }
   if (!Holds(body)) return;
-  const bool simulated = world_.motion(body) == Motion::kDynamic && world_.awake(body);
+  const bool simulated = world_.activity(body) == Activity::kSimulated && world_.awake(body);
   if (simulated && (edited_ || IsDisturbed(body))) {
     LetGo(body);
   } else {
@@ -148,14 +147,14 @@ double RestCommit::BackAfter() const { return kBackAfter; }
 void RestCommit::HoldIsland(const std::vector<int>& island) {
   for (const int body : island) {
     if (!Holds(body) || !world_.awake(body)) continue;
-    world_.motion(body) == Motion::kDynamic ? LetGo(body) : Put(body);
+    world_.activity(body) == Activity::kSimulated ? LetGo(body) : Put(body);
   }
 }
 
 void RestCommit::AfterStep() {
   if (Off()) return;
   bool woken = false, open = false;
-  for (const int body : world_.present()) {  // an absent body is another peer's, or idle
+  for (const int body : world_.present()) {  // another is displayed or dormant
     woken = woken || (Holds(body) && world_.awake(body));
     open = open || (!Holds(body) && Own(body));
     const bool anew = Own(body) && Holds(body) &&
@@ -167,7 +166,7 @@ void RestCommit::AfterStep() {
   }
   watch_.Look();
   if (open && world_.tick() % config_.send_every() == 0) {
-    // A body that this peer may still commit is never absent.
+    // A body that this peer may still commit is always present.
     for (const std::vector<int>& island : FindPresentIslands(world_)) CommitIsland(island);
   }
   std::vector<Rest> waiting;

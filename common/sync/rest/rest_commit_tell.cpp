@@ -39,7 +39,7 @@ void RestCommit::CommitIsland(const std::vector<int>& island) {
   std::vector<int> own;
   for (const int body : island) {
     if (!Own(body) || Holds(body)) continue;
-    if (!memory_.track(body).placed || world_.motion(body) != Motion::kDynamic) return;
+    if (!memory_.track(body).placed || world_.activity(body) != Activity::kSimulated) return;
     own.push_back(body);
   }
   if (own.empty() || !MayCommit(island, own)) return;
@@ -196,7 +196,7 @@ void RestCommit::WakeNeighbours(int body) {
   for (const Touch& touch : world_.touches()) {
     if (touch.body_a != body && touch.body_b != body) continue;
     const int other = touch.body_a == body ? touch.body_b : touch.body_a;
-    if (!Own(other) || world_.motion(other) != Motion::kDynamic) continue;
+    if (!Own(other) || world_.activity(other) != Activity::kSimulated) continue;
     if (Holds(other)) {
       if (++disturbed(other).times > kMovedTimes) continue;
       LetGo(other);

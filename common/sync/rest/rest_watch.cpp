@@ -41,7 +41,7 @@ void RestWatch::Follow(const BodyState& now, float distance, Near* near) const {
 void RestWatch::Look() {
   for (const int body : world_.present()) {
     Track& track = tracks_[body];
-    if (track.looked != world_.tick() - 1) track.asleep_since = -1;  // it was absent
+    if (track.looked != world_.tick() - 1) track.asleep_since = -1;  // it was not present
     track.looked = world_.tick();
     if (world_.awake(body)) {
       track.asleep_since = -1;

@@ -14,7 +14,7 @@ class RestWatch {
   /// Both must outlive this.
   RestWatch(const World& world, const BodyTable& table);
 
-  /// Call after a step. Absent bodies are skipped; their times must not be asked for.
+  /// Call after a step. Bodies that are not present are skipped; their times must not be asked for.
   void Look();
   /// Ticks for which the body has been asleep; 0: awake.
   std::int64_t asleep(int body) const { return Since(of(body).asleep_since); }

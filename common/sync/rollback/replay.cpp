@@ -39,7 +39,7 @@ void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyTrack& track = memory.track(body);
     if (!track.at_rest || roles.RoleOfBody(body) != kRoleSecondary) continue;
-    if (world.motion(body) == Motion::kAbsent || world.tick() < track.heard_tick) continue;
+    if (!IsPresent(world.activity(body)) || world.tick() < track.heard_tick) continue;
     const BodyState* const lay = memory.history().At(world.tick(), body);
     if (lay == nullptr || Negligible(Apart(world.Read(body), *lay))) continue;
     world.Write(body, *lay, false);
@@ -158,7 +158,7 @@ bool Replay::KeepsRest(int body, const BodyState& pose) {
 
 /// Call after the step to the world's tick. Writes the states known of that tick.
 void Replay::WriteKnownStates() {
-  for (const int body : world_.present()) WriteKnownStates(body);  // absent bodies wait for Arrive
+  for (const int body : world_.present()) WriteKnownStates(body);  // others wait for Arrive
 }
 
 void Replay::WriteKnownStates(int body) {
@@ -200,7 +200,7 @@ void Replay::ReplayTick() {
     world_.SetInput(player, inputs_[static_cast<std::size_t>(player)].At(next));
   }
   for (const int body : world_.present()) {
-    if (world_.motion(body) == Motion::kDynamic) continue;
+    if (world_.activity(body) == Activity::kSimulated) continue;
     // Displayed paths jump from message to message. Others must be hit at the velocity displayed,
     // not at that of a jump.
     const BodyState& after = *memory_.history().At(next, body);
@@ -230,7 +230,7 @@ void Replay::Run() {
 }
 
 /// Goes back to the newest barrier that is not after `from`. `all`: edits may recreate bodies on
-/// the way, so every body is remembered; else absent bodies that have not changed stay as they are.
+/// the way, so every body is remembered; else those that are not present and have not changed stay.
 bool Replay::Depart(std::int64_t from, bool all) {
   while (!barriers_.empty() && barriers_.back().world.tick > from) barriers_.pop_back();
   if (barriers_.empty()) return false;
@@ -251,18 +251,18 @@ bool Replay::Depart(std::int64_t from, bool all) {
   }
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
-  RestoreIdle();
+  RestoreDormant();
   PutToRest(world_, roles_, memory_);
   WriteKnownStates();
   RepeatEdits();
   return true;
 }
 
-/// Puts idle bodies where they are now: nothing could touch them. Without their surroundings,
+/// Puts dormant bodies where they are now: nothing could touch them. Without their surroundings,
 /// bodies not yet at rest at that tick would drift away.
-void Replay::RestoreIdle() {
+void Replay::RestoreDormant() {
   for (const Shown& shown : journey_->shown) {
-    if (!memory_.track(shown.body).idle) continue;
+    if (world_.activity(shown.body) != Activity::kDormant) continue;
     world_.Write(shown.body, shown.state, false);
     world_.SetAwake(shown.body, false);
   }

@@ -114,7 +114,7 @@ class Replay {
   /// edit, the state says nothing about now, and newer ones are on their way.
   bool IsBeforeEdit(std::int64_t tick) const;
   bool Depart(std::int64_t from, bool all);
-  void RestoreIdle();
+  void RestoreDormant();
   void StepTo(std::int64_t tick);
   void Arrive();
   void BarrierAfterEdits();

@@ -130,7 +130,7 @@ void Reckoner::Reckon(int mechanism) {
 void Reckoner::Fly(int body) {
   const auto i = static_cast<std::size_t>(body);
   paths_.here[i] = FlownTo(body, next_ - 1);
-  const int ahead = world_.motion(body) == Motion::kAbsent ? kAbsentEvery : 1;
+  const int ahead = IsPresent(world_.activity(body)) ? 1 : kShownEvery;
   const BodyState& then = FlownTo(body, next_ - 1 + ahead);
   const float seconds = static_cast<float>(ahead) * world_.dt();
   BodyState &here = paths_.here[i], &there = paths_.there[i];

@@ -14,8 +14,9 @@ namespace seam {
 /// and a body that stopped would jump afterwards.
 constexpr float kReckonShownMax = 2.0f;
 
-/// Ticks between two updates of an absent body's path; it goes straight on in between.
-constexpr int kAbsentEvery = 6;
+/// Ticks between two updates of the path of a body that is not present; it goes straight on in
+/// between.
+constexpr int kShownEvery = 6;
 
 /// Motion of a body along its path: velocity of its origin, m/s, and spin, rad/s.
 struct PathSpeed {
@@ -42,9 +43,10 @@ class Reckoner {
   /// without one stay where the world has them.
   const BodyState& Here(int body) { return Reckoned(body).here[static_cast<std::size_t>(body)]; }
   const BodyState& There(int body) { return Reckoned(body).there[static_cast<std::size_t>(body)]; }
-  /// Returns the velocity from Here to There; for an absent falling body, the velocity to its place
-  /// in kAbsentEvery ticks. Torn joints can often be closed in two ways. If Here and There are
-  /// closed differently, the difference is no motion, and the speeds are those before closing.
+  /// Returns the velocity from Here to There; for a falling body that is not present, the velocity
+  /// to its place in kShownEvery ticks. Torn joints can often be closed in two ways. If Here and
+  /// There are closed differently, the difference is no motion, and the speeds are those before
+  /// closing.
   const PathSpeed& Speed(int body) { return Reckoned(body).speed[static_cast<std::size_t>(body)]; }
 
  private:

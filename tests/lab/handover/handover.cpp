@@ -123,7 +123,7 @@ class Watch {
       if (has) holder = peer;
       if (!ticked) continue;
       const int body = replica->world().BodyOfId(id);
-      simulated = simulated || replica->world().motion(body) == Motion::kDynamic;
+      simulated = simulated || replica->world().activity(body) == Activity::kSimulated;
     }
     several_ += believers > 1 ? 1 : 0;
     if (ticked) {
@@ -177,7 +177,9 @@ class Watch {
       const PartId id = made.assemblies[static_cast<std::size_t>(a)].id;
       const int one = before.BodyOfId(id), other = now.BodyOfId(id);
       // What either has not, or only shows, says nothing.
-      if (before.motion(one) != Motion::kDynamic || now.motion(other) != Motion::kDynamic) continue;
+      if (before.activity(one) != Activity::kSimulated ||
+          now.activity(other) != Activity::kSimulated)
+        continue;
       const BodyState then = before.Read(one), here = now.Read(other);
       gaps_m_.push_back(static_cast<double>((here.position - then.position).norm()));
       gaps_mps_.push_back(static_cast<double>((here.velocity - then.velocity).norm()));

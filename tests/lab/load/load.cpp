@@ -17,7 +17,7 @@ struct Held {
     FindHolders(cluster);
     const World& world = server.world();
     for (int body = 0; body < world.body_count(); ++body) {
-      stepped += world.motion(body) == Motion::kAbsent ? 0 : 1;
+      stepped += IsPresent(world.activity(body)) ? 1 : 0;
       const int holder = server.authority().at(world.mechanism(body)).authority;
       // The server's copy of what a client has may be absent: the client knows.
       const auto found = holders.find(holder);

@@ -47,7 +47,7 @@ std::vector<int> FollowsAndHas(Publish publish, bool keep) {
     const AuthorityRecord& record = server.authority().at(server.world().mechanism(body));
     EXPECT_GT(record.authority, 0) << "a client has it";
     counts[0] += record.secondaries.Has(0) ? 1 : 0;
-    counts[1] += server.world().motion(body) == Motion::kAbsent ? 0 : 1;
+    counts[1] += IsPresent(server.world().activity(body)) ? 1 : 0;
   }
   return counts;
 }

@@ -75,7 +75,7 @@ TEST(ExactEdits, AnInsertedJointIsSolvedToo) {
 
 TEST(ExactEdits, AKinematicLinkFollowsItsPathAndTheOthersFollowIt) {
   const auto world = ExactWorld(ChainText(5, 0, 0));
-  world->SetMotion(2, Motion::kKinematic);
+  world->SetActivity(2, Activity::kKinematic);
   const BodyState start{{2.5f, 0}, 0, {1, 0.5f}, 0};
   world->Write(2, start);
   for (int t = 1; t <= 300; ++t) {
@@ -85,7 +85,7 @@ TEST(ExactEdits, AKinematicLinkFollowsItsPathAndTheOthersFollowIt) {
     ASSERT_NEAR((now.position - start.position - s * start.velocity).norm(), 0, 1e-4) << t;
     ASSERT_LT(Drift(*world), 1e-4) << t;
   }
-  world->SetMotion(2, Motion::kDynamic);
+  world->SetActivity(2, Activity::kSimulated);
   Steps(world.get(), 60);
   EXPECT_LT(world->Read(2).velocity.y(), -3) << "it falls like any other";
   EXPECT_LT(Drift(*world), 1e-5);
@@ -94,7 +94,7 @@ TEST(ExactEdits, AKinematicLinkFollowsItsPathAndTheOthersFollowIt) {
 /// Largest opening of a chain's joints while its first link is prescribed.
 double DriftOfLed(const char* joints) {
   const auto world = SmallWorld(ChainText(5, 0, 0), joints, "gravity = [0, 0]\n");
-  world->SetMotion(0, Motion::kPrescribed);
+  world->SetActivity(0, Activity::kPrescribed);
   const BodyState start{{0.5f, 0}, 0, {-1, 0.5f}, 0};
   world->Write(0, start);
   double worst = 0;

@@ -58,19 +58,19 @@ TEST(ExactSnapshot, ReplayIsBitExactIfCostChoosesTheSolver) {
 }
 
 TEST(ExactSnapshot, ReplayIsBitExactWithPrescribedAndKinematicBodies) {
-  for (const Motion motion : {Motion::kPrescribed, Motion::kKinematic}) {
+  for (const Activity activity : {Activity::kPrescribed, Activity::kKinematic}) {
     for (const char* name : {"bridge", "crane-grip", "car-terrain"}) {
       Scene scene = LoadScene(std::string("scenes/hard/") + name + ".toml");
       scene.solver.joints = JointSolving::kExact;
-      const auto lead = [motion](World* world) {
+      const auto lead = [activity](World* world) {
         const int body = world->body_count() / 2;
-        world->SetMotion(body, motion);
+        world->SetActivity(body, activity);
         BodyState state = world->Read(body);
         state.velocity = {0.25f, 0.125f};
         world->Write(body, state);
       };
       EXPECT_EQ(DifferentTicks(scene, 180, 4, lead), 0)
-          << name << (motion == Motion::kPrescribed ? ", led" : ", kinematic");
+          << name << (activity == Activity::kPrescribed ? ", led" : ", kinematic");
     }
   }
 }

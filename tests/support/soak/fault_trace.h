@@ -65,7 +65,7 @@ class FaultTrace {
                 double{state.position.y()}, double{state.angle}, double{state.velocity.x()},
                 double{state.velocity.y()}, double{state.spin});
     std::printf(" rad/s; of peer %d in epoch %d, motion %d\n", table.at(mechanism).authority,
-                table.at(mechanism).epoch, static_cast<int>(world.motion(body)));
+                table.at(mechanism).epoch, static_cast<int>(world.activity(body)));
   }
 
   int body_ = -1;

@@ -1,6 +1,6 @@
-/// Which bodies a peer's world must hold, and which players' inputs it needs.
+/// Decision of each body's activity, and the players whose inputs a peer needs.
 
-#include "common/sync/reach/presence.h"
+#include "common/sync/reach/activities.h"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,13 @@
 
 #include "common/base/random.h"
 #include "common/physics/part_places.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/inputs/input_track.h"
 #include "common/sync/replica.h"
 #include "tests/support/replica_test_access.h"
 
 namespace seam {
-namespace presence_test {
+namespace activities_test {
 
 /// The own box at 0, others along a line; no gravity.
 const char* const kLine = R"(
@@ -42,7 +43,9 @@ constexpr int kOwn = 0, kBeside = 1, kFar = 2;
 class Line {
  public:
   explicit Line(const char* text = kLine, const char* reconcile = "rollback")
-      : replica(ParseScene(text, "line.toml"), MakeSyncConfig("buffer", reconcile), 1, 0) {
+      : Line(text, MakeSyncConfig("buffer", reconcile)) {}
+  Line(const char* text, const SyncConfig& config)
+      : replica(ParseScene(text, "line.toml"), config, 1, 0) {
     for (int m = 0; m < replica.authority().count(); ++m) {
       AuthorityRecord record;
       record.authority = m == kOwn ? 1 : 2;
@@ -62,7 +65,7 @@ class Line {
   void Steps(int ticks) {
     for (int i = 0; i < ticks; ++i) replica.Step();
   }
-  Motion MotionOf(int body) const { return replica.world().motion(body); }
+  Activity Of(int body) const { return replica.world().activity(body); }
   /// Its authority says where it is and how fast.
   void Hear(int body, const Vec2& position, const Vec2& velocity) {
     HearOf(replica.tick(), body, position, velocity);
@@ -84,25 +87,106 @@ class Line {
   Replica replica;
 };
 
-TEST(Presence, ANeighbourIsPresentAndADistantBodyIsNot) {
+TEST(Activities, ANeighbourIsPresentAndADistantBodyIsNot) {
   Line line;
   line.Steps(10);
-  EXPECT_EQ(line.MotionOf(kOwn), Motion::kDynamic);
-  EXPECT_EQ(line.MotionOf(kBeside), Motion::kPrescribed);
-  EXPECT_EQ(line.MotionOf(kFar), Motion::kAbsent);
+  EXPECT_EQ(line.Of(kOwn), Activity::kSimulated);
+  EXPECT_EQ(line.Of(kBeside), Activity::kPrescribed);
+  EXPECT_EQ(line.Of(kFar), Activity::kDisplayed);
 }
 
-TEST(Presence, AnUnwatchedSleeperNeedsNoNeighbours) {
+/// A client that publishes no view of distant bodies.
+SyncConfig ShowsNear() {
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.shows_far = false;
+  return config;
+}
+
+constexpr char kDistant[] = R"(
+gravity = [0, 0]
+bounds = [[-1000, -1000], [1000, 1000]]
+[[player]]
+name = "ann"
+vehicle = "own"
+[[part]]
+name = "own"
+box = [1, 1]
+[[part]]
+name = "beside"
+box = [1, 1]
+position = [1.1, 0]
+[[part]]
+name = "far"
+box = [1, 1]
+position = [300, 0]
+)";
+
+TEST(Activities, ADistantBodyIsParkedOnlyOutOfView) {
+  Line all(kDistant), near(kDistant, ShowsNear());
+  all.Steps(30);
+  near.Steps(30);
+  EXPECT_EQ(all.Of(kFar), Activity::kDisplayed);
+  EXPECT_EQ(near.Of(kFar), Activity::kParked);
+  EXPECT_EQ(near.Of(kBeside), Activity::kPrescribed);
+  near.Hear(kFar, {40, 0}, {0, 0});
+  near.Steps(1);
+  EXPECT_EQ(near.Of(kFar), Activity::kDisplayed) << "it has come into view";
+}
+
+TEST(Activities, AParkedBodyIsSimulatedAtOnceIfItIsTaken) {
+  Line line(kDistant, ShowsNear());
+  line.Steps(30);
+  ASSERT_EQ(line.Of(kFar), Activity::kParked);
+  line.Take(kFar);
+  EXPECT_EQ(line.Of(kFar), Activity::kSimulated);
+}
+
+TEST(Activities, NoBodyIsParkedWhenAnEditActs) {
+  Line line(kDistant, ShowsNear());
+  line.Steps(30);
+  ASSERT_EQ(line.Of(kFar), Activity::kParked);
+  BlastEdit blast;
+  blast.centre = {300, 2};
+  blast.radius = 4;
+  blast.impulse = 3;
+  EditOrder order = ToOrder(Edit(blast));
+  order.tick = line.replica.tick();
+  order.number = line.replica.revision();
+  ASSERT_TRUE(line.replica.Queue(order));
+  line.replica.ApplyEdits();
+  EXPECT_EQ(line.Of(kFar), Activity::kDisplayed);
+  line.Steps(30);
+  EXPECT_EQ(line.Of(kFar), Activity::kParked);
+}
+
+TEST(Activities, NoBodyIsParkedInAReplicaThatStartsAgain) {
+  Line line(kDistant, ShowsNear());
+  line.Steps(30);
+  ASSERT_EQ(line.Of(kFar), Activity::kParked);
+  line.replica.StartAt(1000);
+  EXPECT_EQ(line.Of(kFar), Activity::kDisplayed);
+}
+
+TEST(Activities, ABodyOfARuleThatDoesNotReckonIsKinematic) {
+  Line line(kLine, MakeSyncConfig("strict", ""));
+  line.Steps(10);
+  EXPECT_EQ(line.Of(kOwn), Activity::kSimulated);
+  EXPECT_EQ(line.Of(kBeside), Activity::kKinematic);
+  EXPECT_EQ(line.Of(kFar), Activity::kKinematic);
+}
+
+TEST(Activities, ASleeperThatMayBeDormantNeedsNoNeighbours) {
   Line line;
-  line.replica.LeaveUnwatched({1, 0, 0}, {});
-  line.Steps(60);
-  EXPECT_EQ(line.MotionOf(kBeside), Motion::kAbsent) << "the own box sleeps";
-  line.replica.LeaveUnwatched({0, 0, 0}, {});
+  line.replica.AllowDormant({1, 0, 0}, {});
+  line.Steps(90);
+  EXPECT_EQ(line.Of(kOwn), Activity::kDormant) << "it sleeps";
+  EXPECT_EQ(line.Of(kBeside), Activity::kDisplayed);
+  line.replica.AllowDormant({0, 0, 0}, {});
   line.Steps(12);
-  EXPECT_EQ(line.MotionOf(kBeside), Motion::kPrescribed);
+  EXPECT_EQ(line.Of(kBeside), Activity::kPrescribed);
 }
 
-TEST(Presence, AnApproachingBodyIsPresentBeforeItArrives) {
+TEST(Activities, AnApproachingBodyIsPresentBeforeItArrives) {
   Line line;
   line.Steps(10);
   const float speed = 100;
@@ -110,7 +194,7 @@ TEST(Presence, AnApproachingBodyIsPresentBeforeItArrives) {
   for (int tick = 0; tick < 60 && there < 0; ++tick) {
     line.Hear(kFar, {60 - speed * static_cast<float>(tick) / 60, 0}, {-speed, 0});
     line.Steps(1);
-    if (line.MotionOf(kFar) == Motion::kPrescribed) there = tick;
+    if (line.Of(kFar) == Activity::kPrescribed) there = tick;
   }
   ASSERT_GE(there, 0);
   const float gap = line.replica.world().Read(kFar).position.x() - 1;
@@ -120,43 +204,43 @@ TEST(Presence, AnApproachingBodyIsPresentBeforeItArrives) {
 
 /// Its reckoned pose on arrival counted as received, and a state of an earlier tick was ignored as
 /// old.
-TEST(Presence, AnArrivingBodyFollowsAStateFromBeforeItsArrival) {
+TEST(Activities, AnArrivingBodyFollowsAStateFromBeforeItsArrival) {
   Line line;
   line.Steps(10);
   line.Hear(kFar, {20, 0}, {-20, 0});
   const std::int64_t heard = line.replica.tick();
-  for (int tick = 0; tick < 60 && line.MotionOf(kFar) != Motion::kPrescribed; ++tick) line.Steps(1);
-  ASSERT_EQ(line.MotionOf(kFar), Motion::kPrescribed);
+  for (int tick = 0; tick < 60 && line.Of(kFar) != Activity::kPrescribed; ++tick) line.Steps(1);
+  ASSERT_EQ(line.Of(kFar), Activity::kPrescribed);
   ASSERT_GT(line.replica.tick(), heard + 1);
   line.HearOf(heard + 1, kFar, {19.7f, 0}, {0, 0});
   line.Steps(1);
   EXPECT_NEAR(line.replica.world().Read(kFar).position.x(), 19.7, 0.01) << "it has stopped";
 }
 
-TEST(Presence, AnAbsentBodyIsShownOnItsPath) {
+TEST(Activities, ABodyThatIsNotPresentIsShownOnItsPath) {
   Line line;
   line.Steps(10);
   line.Hear(kFar, {60, 0}, {0, 3});
   line.Steps(40);
-  ASSERT_EQ(line.MotionOf(kFar), Motion::kAbsent);
+  ASSERT_EQ(line.Of(kFar), Activity::kDisplayed);
   const View view = line.replica.MakeView();
   EXPECT_NEAR(view.x[kFar], 60, 1e-3);
   EXPECT_NEAR(view.y[kFar], 3 * 40 / 60.0, 0.06) << "less what still glides";
 }
 
-TEST(Presence, ATakenBodyIsPresentAtOnce) {
+TEST(Activities, ATakenBodyIsPresentAtOnce) {
   Line line;
   line.Steps(10);
-  ASSERT_EQ(line.MotionOf(kFar), Motion::kAbsent);
+  ASSERT_EQ(line.Of(kFar), Activity::kDisplayed);
   line.Take(kFar);
-  EXPECT_EQ(line.MotionOf(kFar), Motion::kDynamic);
+  EXPECT_EQ(line.Of(kFar), Activity::kSimulated);
   line.Steps(1);
-  EXPECT_EQ(line.MotionOf(kFar), Motion::kDynamic);
+  EXPECT_EQ(line.Of(kFar), Activity::kSimulated);
 }
 
 /// A wheel that was told of in a crash had travelled 15 m along its spring meanwhile, and the
 /// engine pulled it back with a crash.
-TEST(Presence, ASimulatedWheelHasNotTravelledAlongItsSpring) {
+TEST(Activities, ASimulatedWheelHasNotTravelledAlongItsSpring) {
   Line line(R"(
 gravity = [0, 0]
 [[player]]
@@ -186,9 +270,9 @@ frequency = 5
   line.Hear(kCar, {60, 0}, {0, 0});
   line.Hear(kWheel, {60, -0.6f}, {0, -15});
   line.Steps(60);
-  ASSERT_EQ(line.MotionOf(kWheel), Motion::kAbsent);
+  ASSERT_EQ(line.Of(kWheel), Activity::kDisplayed);
   line.Take(1);
-  ASSERT_EQ(line.MotionOf(kWheel), Motion::kDynamic);
+  ASSERT_EQ(line.Of(kWheel), Activity::kSimulated);
   const World& world = line.replica.world();
   // 0.6 m, and a swing of 15 m/s at 5 Hz: 0.48 m.
   EXPECT_LT((world.Read(kCar).position - world.Read(kWheel).position).norm(), 1.1f);
@@ -259,5 +343,5 @@ TEST(InputTrack, KeepsNewInputsAndForgetsOldOnes) {
   }
 }
 
-}  // namespace presence_test
+}  // namespace activities_test
 }  // namespace seam

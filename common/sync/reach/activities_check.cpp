@@ -1,4 +1,4 @@
-#include "common/sync/reach/presence.h"
+/// Activities: the check of the bodies that have to be present.
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "common/physics/stage.h"
 #include "common/scene/forces.h"
 #include "common/scene/mechanism_ids.h"
-#include "common/scene/saved/persist_state.h"
+#include "common/sync/reach/activities.h"
 #include "common/sync/reach/reach.h"
 
 namespace seam {
@@ -42,9 +42,9 @@ bool OnlyBodiesWake(const World& world) {
          std::none_of(scene.parts.begin(), scene.parts.end(), belt);
 }
 
-/// By mechanism: true if it may idle. Jointed mechanisms may not: they would return without their
-/// joint impulses.
-std::vector<char> MayIdle(const World& world) {
+/// By mechanism: true if it may be dormant. Jointed mechanisms may not: they would return without
+/// their joint impulses.
+std::vector<char> MayBeDormant(const World& world) {
   std::vector<char> may(world.composition().mechanisms.size(), OnlyBodiesWake(world) ? 1 : 0);
   for (const Joint& joint : world.scene().joints) {
     for (const PartId part : {joint.a, joint.b}) {
@@ -58,7 +58,7 @@ std::vector<char> MayIdle(const World& world) {
 }  // namespace
 
 /// Boxes sorted by their left sides, for queries that add the distance each can travel.
-class Presence::Sorted {
+class Activities::Sorted {
  public:
   /// Sorts the boxes, which must outlive this.
   Sorted(std::vector<MovingBox>* boxes, float seconds) : boxes_(*boxes) {
@@ -92,28 +92,9 @@ class Presence::Sorted {
   float low_ = 1e30f, high_ = -1e30f;  // m
 };
 
-Presence::Presence(const SyncConfig& config, const World& world, const Roles& roles,
-                   const BodyMemory& memory)
-    : config_(config),
-      world_(world),
-      roles_(roles),
-      memory_(memory),
-      near_(memory.table(), MechanismRule::kFresh, 1),
-      may_idle_(memory.table(), MechanismRule::kScratch),
-      idle_(memory.table(), MechanismRule::kFresh, kNotIdle),
-      needed_until_(memory.table(), MechanismRule::kFresh, -1),
-      rested_(memory.table(), BodyRule::kFresh),
-      lies_(memory.table(), MechanismRule::kScratch),
-      needed_in_(memory.table(), MechanismRule::kFresh, -1),
-      near_before_(memory.table(), MechanismRule::kScratch),
-      idle_before_(memory.table(), MechanismRule::kScratch),
-      edited_(memory.table(), [this](const BodyRemap&) { Start(); }) {
-  Start();
-}
-
-void Presence::Start() {
-  unwatched_.clear();
-  may_idle_.values() = MayIdle(world_);
+void Activities::Start() {
+  allowed_.clear();
+  may_rest_.values() = MayBeDormant(world_);
   resting_.Clear(rested_.values().size());
   rests_.clear();
   fastest_ = 0;
@@ -121,7 +102,7 @@ void Presence::Start() {
   around_.max.setConstant(1e9f);
 }
 
-bool Presence::CheckIfDue() {
+bool Activities::CheckIfDue() {
   if (!config_.policy->Reckons()) return false;
   // Peers check in different ticks, so that a machine with many peers has even load.
   const int every = std::max(1, config_.tick_hz / kLooksPerSecond);
@@ -130,26 +111,14 @@ bool Presence::CheckIfDue() {
   return true;
 }
 
-bool Presence::CheckIfRequested() {
+bool Activities::CheckIfRequested() {
   if (!config_.policy->Reckons() || !std::exchange(asked_, false)) return false;
   Look();
   return true;
 }
 
-bool Presence::Need(int mechanism) {
-  needed_until_[mechanism] = world_.tick() + config_.tick_hz;
-  return std::exchange(idle_[mechanism], kNotIdle) != kNotIdle;
-}
-
-bool Presence::NeedAll() {
-  const auto idle = [](std::int32_t epoch) { return epoch != kNotIdle; };
-  if (std::none_of(idle_.begin(), idle_.end(), idle)) return false;
-  idle_.Reset();
-  return true;
-}
-
 /// Finds bodies that may have changed since the last check; other resting bodies lie as before.
-void Presence::FindChanged() {
+void Activities::FindStirred() {
   stirred_.clear();
   const bool known = world_.ChangedSince(change_, &stirred_);
   change_ = world_.last_change();
@@ -158,7 +127,7 @@ void Presence::FindChanged() {
   for (Rested& rested : rested_) rested.changed_in = looks_;
 }
 
-void Presence::Rest(int body, std::uint64_t still) {
+void Activities::Rest(int body, std::uint64_t still) {
   Rested& rested = rested_[body];
   rested.seen_in = looks_;
   const bool kept = resting_.Has(body);
@@ -171,7 +140,7 @@ void Presence::Rest(int body, std::uint64_t still) {
   fastest_ = std::max(fastest_, box.velocity.norm());
 }
 
-void Presence::ForgetOthers() {
+void Activities::ForgetOthers() {
   const auto rests = [&](int body) {
     if (rested_[body].seen_in == looks_) return true;
     resting_.Take(body);
@@ -182,7 +151,7 @@ void Presence::ForgetOthers() {
 }
 
 /// Marks all resting bodies of a mechanism as needed.
-void Presence::Reach(int mechanism) {
+void Activities::Reach(int mechanism) {
   needed_in_[mechanism] = looks_;
   EachIdOf(world_.composition(), mechanism, [&](PartId id) {
     const int body = world_.BodyOfId(id);
@@ -191,7 +160,7 @@ void Presence::Reach(int mechanism) {
 }
 
 /// Finds resting bodies that a mover may reach, directly or through other resting bodies.
-void Presence::FindNeeded() {
+void Activities::FindNeeded() {
   needed_.clear();
   const auto each = [&](const MovingBox& box, float most, const auto& seconds_of) {
     const float way = WayOf(box, most) + fastest_ * most + kZoneSlack;
@@ -203,7 +172,7 @@ void Presence::FindNeeded() {
   };
   for (const MovingBox& box : movers_) {
     each(box, kRestSeconds + kRestKeep,
-         [&](int m) { return kRestSeconds + (idle_[m] == kNotIdle ? kRestKeep : 0); });
+         [&](int m) { return kRestSeconds + (dormant_[m] == kNotDormant ? kRestKeep : 0); });
   }
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     MovingBox box = resting_.at(needed_[i]);
@@ -212,25 +181,26 @@ void Presence::FindNeeded() {
   }
 }
 
-void Presence::FindIdle() {
-  if (unwatched_.empty()) return idle_.Reset();
-  for (int m = 0; m < idle_.size(); ++m) {
-    const bool own = roles_.RoleOf(m) == kRoleAuthority;
-    const bool idle = own && lies_[m] != 0 && !Needed(m) && needed_until_[m] < world_.tick();
-    idle_[m] = idle ? roles_.table().at(m).epoch : kNotIdle;
+/// Finds mechanisms of this peer that lie at rest where no mover may reach them.
+void Activities::FindDormant() {
+  for (int m = 0; m < dormant_.size(); ++m) {
+    const bool dormant = Allowed(m) && lies_[m] != 0 && roles_.RoleOf(m) == kRoleAuthority &&
+                         !Needed(m) && needed_until_[m] < world_.tick();
+    const std::int32_t epoch = dormant ? roles_.table().at(m).epoch : kNotDormant;
+    if (std::exchange(dormant_[m], epoch) != epoch) changed_.push_back(m);
   }
 }
 
-void Presence::SortOut() {
+void Activities::SortOut() {
   simulated_.clear();
   movers_.clear();
   displayed_.clear();
-  lies_.values() = may_idle_.values();
-  for (const int body : memory_.tended()) {
+  lies_.values() = may_rest_.values();
+  for (const int body : memory_.unparked()) {
     const int m = world_.mechanism(body);
     if (roles_.RoleOf(m) == kRoleRemote) {
       displayed_.push_back(body);
-      if (doubtful_.Has(roles_.table().at(m).authority)) {
+      if (uncertain_.Has(roles_.table().at(m).authority)) {
         movers_.push_back(FreeBoxOf(world_, body));
       }
       continue;
@@ -238,9 +208,9 @@ void Presence::SortOut() {
     const Rested& rested = rested_[body];
     const bool as_before =
         rested.still != 0 && rested.seen_in == looks_ - 1 && rested.changed_in != looks_;
-    const bool unwatched = Unwatched(m);
-    const std::uint64_t still = as_before ? rested.still : unwatched ? world_.still(body) : 0;
-    const bool rests = unwatched && (still != 0 || !world_.awake(body));
+    const bool allowed = Allowed(m);
+    const std::uint64_t still = as_before ? rested.still : allowed ? world_.still(body) : 0;
+    const bool rests = allowed && (still != 0 || !world_.awake(body));
     if (rests) {
       Rest(body, still);
     } else {
@@ -248,32 +218,33 @@ void Presence::SortOut() {
     }
     // A body at rest under its present epoch was present for at least one step
     // (RestCommit::AfterStep).
-    const BodyTrack& track = memory_.track(body);
-    if (!rests || !track.at_rest || !(track.idle || world_.motion(body) == Motion::kDynamic)) {
-      lies_[m] = 0;
-    }
+    if (!rests || !memory_.track(body).at_rest) lies_[m] = 0;
   }
   movers_.insert(movers_.end(), simulated_.begin(), simulated_.end());
 }
 
 /// Finds displayed mechanisms that may meet a simulated one.
-void Presence::FindNear() {
-  near_.values().swap(near_before_.values());
+void Activities::FindNear() {
   std::fill(near_.begin(), near_.end(), char{0});
   const Sorted there(&simulated_, kNearSeconds + kNearKeep);
-  if (there.empty()) displayed_.clear();  // no simulated body could touch them
   for (const int body : displayed_) {
-    const int m = world_.mechanism(body);
-    if (near_[m] != 0) continue;
-    const float seconds = kNearSeconds + (near_before_[m] != 0 ? kNearKeep : 0);
-    if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near_[m] = 1;
+    if (there.empty()) break;  // no simulated body could touch them
+    char& near = near_[world_.mechanism(body)];
+    if (near != 0) continue;
+    const bool was_near = world_.activity(body) == Activity::kPrescribed;
+    const float seconds = kNearSeconds + (was_near ? kNearKeep : 0);
+    if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near = 1;
+  }
+  for (const int body : displayed_) {
+    if (Wanted(body) != world_.activity(body)) changed_.push_back(world_.mechanism(body));
   }
 }
 
-void Presence::Look() {
+void Activities::Look() {
   asked_ = false;
   ++looks_;
-  FindChanged();
+  changed_.clear();
+  FindStirred();
   SortOut();
   ForgetOthers();
   FindNeeded();
@@ -291,29 +262,13 @@ void Presence::Look() {
     around_.max.array() += kAround;
   }
   FindNear();
-  idle_before_.values() = idle_.values();
-  FindIdle();
+  FindDormant();
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   // A simulated mechanism would be near if it became displayed.
   for (const int body : world_.present()) {
     if (roles_.Simulates(body)) near_[world_.mechanism(body)] = 1;
   }
-  changed_.clear();
-  for (int m = 0; m < near_.size(); ++m) {
-    if (near_[m] != near_before_[m] || idle_[m] != idle_before_[m]) changed_.push_back(m);
-  }
-}
-
-void Presence::Persist(StateArchive& a) {
-  a.Section("presence");
-  const auto flag = [&](char* is) { a.Int(is, 0, 1); };
-  a.Exactly(&near_, flag);
-  a.List(&unwatched_, near_.size(), flag);
-  doubtful_.Persist(a);
-  a.Exactly(&needed_until_, [&](std::int64_t* tick) { a.Tick(tick); });
-  a.Flag(&asked_);
-  a.Real(&fastest_);
-  seam::Persist(a, &around_.min, StateArchive::kRealMost);
-  seam::Persist(a, &around_.max, StateArchive::kRealMost);
 }
 
 }  // namespace seam

@@ -1,5 +1,4 @@
-/// Bodies at rest out of reach are absent from the world, and present as soon as something may
-/// reach them.
+/// Bodies at rest out of reach are dormant, and simulated as soon as something may reach them.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +10,7 @@
 #include "common/sync/replica.h"
 
 namespace seam {
-namespace idle_test {
+namespace dormant_test {
 
 /// Three crates in a row that nearly touch; a disc that comes by. No gravity.
 std::string Row(const std::string& disc) {
@@ -41,7 +40,7 @@ class Room {
       : replica(ParseScene(Row(disc), "row.toml"), MakeSyncConfig("buffer", "rollback"), 0, -1) {
     for (int m = 0; m < replica.authority().count(); ++m) Give(m, 0);
     replica.RolesChanged();
-    LeaveUnwatched({});
+    AllowDormant({});
   }
   void Give(int mechanism, int peer) {
     AuthorityRecord record = replica.authority().at(mechanism);
@@ -49,14 +48,15 @@ class Room {
     ++record.epoch;
     replica.authority().Set(mechanism, record);
   }
-  void LeaveUnwatched(const PeerSet& doubtful) {
-    replica.LeaveUnwatched(std::vector<char>(4, 1), doubtful);
+  void AllowDormant(const PeerSet& uncertain) {
+    replica.AllowDormant(std::vector<char>(4, 1), uncertain);
   }
   void Steps(int ticks) {
     for (int i = 0; i < ticks; ++i) replica.Step();
   }
   const World& world() const { return replica.world(); }
-  bool There(int body) const { return world().motion(body) != Motion::kAbsent; }
+  Activity Of(int body) const { return world().activity(body); }
+  bool There(int body) const { return IsPresent(Of(body)); }
   float x(int body) const { return world().Read(body).position.x(); }
   float speed(int body) const { return world().Read(body).velocity.norm(); }
 
@@ -65,23 +65,23 @@ class Room {
 
 constexpr int kToRest = 90;  // ticks
 
-TEST(AbsentAtRest, ARestingCrateIsAbsentWhileADiscPassesAtFiveMetres) {
+TEST(Dormant, ARestingCrateIsDormantWhileADiscPassesAtFiveMetres) {
   Room room("position = [-5, -4]\nvelocity = [0, 2]\n");
   room.Steps(kToRest);
-  for (const int crate : {kFirst, 1, kLast}) EXPECT_FALSE(room.There(crate)) << crate;
-  EXPECT_TRUE(room.There(kDisc)) << "it moves";
+  for (const int crate : {kFirst, 1, kLast}) EXPECT_EQ(room.Of(crate), Activity::kDormant) << crate;
+  EXPECT_EQ(room.Of(kDisc), Activity::kSimulated) << "it moves";
   EXPECT_EQ(room.world().present().size(), 1u);
   EXPECT_FALSE(room.world().awake(kFirst));
 }
 
 /// It does as it does where all are there all the time, to the bit.
-TEST(AbsentAtRest, AFastDiscFindsItPresent) {
+TEST(Dormant, AFastDiscFindsItPresent) {
   for (const float speed : {1.0f, 3.0f, 10.0f, 40.0f, 80.0f}) {
     const float away = std::max(8.0f, 2.5f * speed);
     const std::string disc = "position = [" + std::to_string(-away) + ", 0]\nvelocity = [" +
                              std::to_string(speed) + ", 0]\n";
     Room room(disc), all(disc);
-    all.replica.LeaveUnwatched({}, {});
+    all.replica.AllowDormant({}, {});
     bool idle = false, struck = false;
     for (int tick = 0; tick < 600; ++tick) {
       room.Steps(1);
@@ -96,27 +96,27 @@ TEST(AbsentAtRest, AFastDiscFindsItPresent) {
   }
 }
 
-TEST(AbsentAtRest, AnUnreliablePeersDiscFindsItPresent) {
+TEST(Dormant, AnUnreliablePeersDiscFindsItPresent) {
   Room room("position = [-1.2, 0]\n");
   room.Give(kDisc, 1);
   room.replica.RolesChanged();
   room.Steps(kToRest);
   EXPECT_FALSE(room.There(kFirst));
-  PeerSet doubtful;
-  doubtful.Add(1);
-  room.LeaveUnwatched(doubtful);
+  PeerSet uncertain;
+  uncertain.Add(1);
+  room.AllowDormant(uncertain);
   room.Steps(12);
   EXPECT_TRUE(room.There(kFirst));
   EXPECT_TRUE(room.There(kLast)) << "what it touches is, too";
   EXPECT_TRUE(room.There(kDisc));
 }
 
-TEST(AbsentAtRest, StaysAtRestWhenItReturns) {
+TEST(Dormant, StaysAtRestWhenItReturns) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
   const BodyState lay = room.world().Read(kFirst);
-  room.replica.LeaveUnwatched({0, 0, 0, 0}, {});
+  room.replica.AllowDormant({0, 0, 0, 0}, {});
   room.Steps(60);
   ASSERT_TRUE(room.There(kFirst));
   EXPECT_FALSE(room.world().awake(kFirst));
@@ -124,7 +124,7 @@ TEST(AbsentAtRest, StaysAtRestWhenItReturns) {
   for (int body = 0; body <= kDisc; ++body) EXPECT_TRUE(room.replica.rest().Holds(body)) << body;
 }
 
-TEST(AbsentAtRest, IsPresentWhenAnEditActs) {
+TEST(Dormant, IsPresentWhenAnEditActs) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
@@ -156,7 +156,7 @@ repeat = {count = 10, step = [0, 0.71]}
 
 /// Pushed by an edit, it moves to the bit as a tower that was present all the time: its contacts
 /// begin with their old impulses.
-TEST(AbsentAtRest, ATowerThatReturnsStandsAsBefore) {
+TEST(Dormant, ATowerThatReturnsStandsAsBefore) {
   const auto push = [](Replica* replica) {
     PushEdit edit;
     edit.part = replica->world().id(9);
@@ -176,7 +176,7 @@ TEST(AbsentAtRest, ATowerThatReturnsStandsAsBefore) {
     for (int m = 0; m < replica->authority().count(); ++m) replica->authority().Set(m, followed);
     replica->RolesChanged();
   }
-  idle.LeaveUnwatched(std::vector<char>(10, 1), {});
+  idle.AllowDormant(std::vector<char>(10, 1), {});
   for (int tick = 0; tick < 600; ++tick) {
     idle.Step();
     there.Step();
@@ -195,14 +195,14 @@ TEST(AbsentAtRest, ATowerThatReturnsStandsAsBefore) {
   EXPECT_TRUE(woken);
 }
 
-TEST(AbsentAtRest, IsHandedToAClientAndBack) {
+TEST(Dormant, IsHandedToAClientAndBack) {
   Room room("position = [60, 0]\n");
   room.Steps(kToRest);
   ASSERT_FALSE(room.There(kFirst));
   room.Give(kFirst, 1);
   room.replica.RolesChanged();
   room.Steps(30);
-  EXPECT_FALSE(room.There(kFirst)) << "displayed, and far from all";
+  EXPECT_EQ(room.Of(kFirst), Activity::kDisplayed) << "far from all";
   EXPECT_NEAR(room.x(kFirst), 0, 1e-6);
   room.Give(kFirst, 0);
   room.replica.RolesChanged();
@@ -213,5 +213,5 @@ TEST(AbsentAtRest, IsHandedToAClientAndBack) {
   EXPECT_NEAR(room.x(kFirst), 0, 1e-6);
 }
 
-}  // namespace idle_test
+}  // namespace dormant_test
 }  // namespace seam

@@ -1,4 +1,5 @@
-/// Absent bodies follow their path, touch nothing, and return unchanged with their joints.
+/// Bodies that are displayed only follow their path, touch nothing, and return unchanged with their
+/// joints.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace absent_motion_test {
+namespace displayed_body_test {
 
 const char* const kNoGravity = "gravity = [0, 0]\n";
 constexpr int kBall = 0, kShown = 1;
@@ -23,9 +24,9 @@ std::unique_ptr<World> TwoDiscs() {
       "", kNoGravity);
 }
 
-TEST(AbsentBody, OthersPassThroughItAndItFollowsItsPath) {
+TEST(DisplayedBody, OthersPassThroughItAndItFollowsItsPath) {
   const std::unique_ptr<World> world = TwoDiscs();
-  world->SetMotion(kShown, Motion::kAbsent);
+  world->SetActivity(kShown, Activity::kDisplayed);
   const BodyState start{{3, 0}, 0.25f, {-1, 0.125f}, 2};
   world->Write(kShown, start);
   BodyState ball = world->Read(kBall);
@@ -43,11 +44,11 @@ TEST(AbsentBody, OthersPassThroughItAndItFollowsItsPath) {
   EXPECT_NEAR(world->Read(kBall).position.x(), 6, 1e-4);
 }
 
-TEST(AbsentBody, CollidesAgainAfterItsReturn) {
+TEST(DisplayedBody, CollidesAgainAfterItsReturn) {
   const std::unique_ptr<World> world = TwoDiscs();
-  world->SetMotion(kShown, Motion::kAbsent);
+  world->SetActivity(kShown, Activity::kDisplayed);
   Steps(world.get(), 5);
-  world->SetMotion(kShown, Motion::kDynamic);
+  world->SetActivity(kShown, Activity::kSimulated);
   BodyState ball = world->Read(kBall);
   ball.velocity = {6, 0};
   world->Write(kBall, ball);
@@ -56,9 +57,9 @@ TEST(AbsentBody, CollidesAgainAfterItsReturn) {
   EXPECT_LT(world->Read(kBall).velocity.x(), 4);
 }
 
-TEST(AbsentBody, SleepsWhenItsPathStandsStill) {
+TEST(DisplayedBody, SleepsWhenItsPathStandsStill) {
   const std::unique_ptr<World> world = TwoDiscs();
-  world->SetMotion(kShown, Motion::kAbsent);
+  world->SetActivity(kShown, Activity::kDisplayed);
   world->Step();
   EXPECT_FALSE(world->awake(kShown));
   BodyState shown = world->Read(kShown);
@@ -67,7 +68,33 @@ TEST(AbsentBody, SleepsWhenItsPathStandsStill) {
   EXPECT_TRUE(world->awake(kShown));
 }
 
-TEST(AbsentBody, KeepsTheMotionOfItsOriginIfItsMassLiesElsewhere) {
+/// Of the bodies that are not present only a dormant one was asleep for its own reasons.
+TEST(DisplayedBody, IsAwakeWhenItIsSimulatedUnlessItWasDormant) {
+  for (const Activity before : {Activity::kDisplayed, Activity::kParked, Activity::kDormant}) {
+    const std::unique_ptr<World> world = TwoDiscs();
+    world->SetAwake(kShown, false);
+    world->SetActivity(kShown, before);
+    Steps(world.get(), 5);
+    EXPECT_EQ(world->present().size(), 1u);
+    EXPECT_FALSE(world->awake(kShown));
+    world->SetActivity(kShown, Activity::kSimulated);
+    EXPECT_EQ(world->present().size(), 2u);
+    EXPECT_EQ(world->awake(kShown), before != Activity::kDormant) << static_cast<int>(before);
+  }
+}
+
+TEST(DisplayedBody, ThatIsParkedIsNotBuiltAnew) {
+  const std::unique_ptr<World> world = TwoDiscs();
+  world->SetActivity(kShown, Activity::kDisplayed);
+  Steps(world.get(), 2);
+  const std::uint64_t still = world->still(kShown);
+  ASSERT_NE(still, 0u);
+  world->SetActivity(kShown, Activity::kParked);
+  EXPECT_EQ(world->activity(kShown), Activity::kParked);
+  EXPECT_EQ(world->still(kShown), still) << "the same for Box2D";
+}
+
+TEST(DisplayedBody, KeepsTheMotionOfItsOriginIfItsMassLiesElsewhere) {
   // Three quarters of the mass left of the root's middle: it turns about the common centre.
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"heavy\"\nbox = [1, 1]\ndensity = 3\nposition = [10, 5]\n"
@@ -78,14 +105,14 @@ TEST(AbsentBody, KeepsTheMotionOfItsOriginIfItsMassLiesElsewhere) {
   state.velocity = {1, 0};
   state.spin = 2;
   world->Write(0, state);
-  world->SetMotion(0, Motion::kAbsent);
-  world->SetMotion(0, Motion::kDynamic);
+  world->SetActivity(0, Activity::kDisplayed);
+  world->SetActivity(0, Activity::kSimulated);
   const BodyState back = world->Read(0);
   EXPECT_NEAR((back.velocity - state.velocity).norm(), 0, 1e-5);
   EXPECT_EQ(back.spin, state.spin);
 }
 
-TEST(AbsentBody, KeepsItsPoseAmongManyAbsentBodies) {
+TEST(DisplayedBody, KeepsItsPoseAmongManyAbsentBodies) {
   constexpr int kMany = 100;  // several of a snapshot's pages
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\n"
@@ -97,7 +124,7 @@ TEST(AbsentBody, KeepsItsPoseAmongManyAbsentBodies) {
     placed.push_back({{3 * at, 7 + at}, 0.01f * at, {0, 0}, 0});
     world->Write(body, placed.back());
   }
-  for (int body = 1; body < kMany; ++body) world->SetMotion(body, Motion::kAbsent);
+  for (int body = 1; body < kMany; ++body) world->SetActivity(body, Activity::kDisplayed);
   world->Step();
   const WorldSnapshot then = world->Barrier();
   for (int body = 1; body < kMany; ++body) {
@@ -113,7 +140,7 @@ TEST(AbsentBody, KeepsItsPoseAmongManyAbsentBodies) {
   EXPECT_EQ(world->Read(70).position, placed[70].position) << "it goes back as well";
 }
 
-TEST(AbsentBody, EachBarrierHoldsEveryBodyThroughAbsenceAndWrites) {
+TEST(DisplayedBody, EachBarrierHoldsEveryBodyThroughAbsenceAndWrites) {
   constexpr int kMany = 100;
   const std::unique_ptr<World> world = SmallWorld(
       "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\nvelocity = [0.5, 0]\n"
@@ -124,7 +151,8 @@ TEST(AbsentBody, EachBarrierHoldsEveryBodyThroughAbsenceAndWrites) {
   std::vector<WorldSnapshot> barriers;
   for (int tick = 0; tick < 300; ++tick) {
     for (int i = 0; i < 3; ++i) {
-      world->SetMotion(any(), random.Next() % 4 == 0 ? Motion::kDynamic : Motion::kAbsent);
+      world->SetActivity(any(),
+                         random.Next() % 4 == 0 ? Activity::kSimulated : Activity::kDisplayed);
     }
     const int moved = any();
     BodyState state = world->Read(moved);
@@ -180,8 +208,8 @@ repeat = {count = 3, step = [1, 0]}
 
 constexpr int kLinks = 4;
 
-void SetRope(World* world, Motion motion) {
-  for (int body = 0; body < kLinks; ++body) world->SetMotion(body, motion);
+void SetRope(World* world, Activity activity) {
+  for (int body = 0; body < kLinks; ++body) world->SetActivity(body, activity);
 }
 
 /// Largest distance between the two points of a pin, m.
@@ -197,18 +225,18 @@ double Open(const World& world) {
   return worst;
 }
 
-TEST(AbsentBody, ItsJointsAreKnownWhileAbsentAndHoldAfterItsReturn) {
+TEST(DisplayedBody, ItsJointsAreKnownWhileAbsentAndHoldAfterItsReturn) {
   for (const char* joints : {"joints = \"exact\"\n", "joints = \"iterative\"\n"}) {
     const std::unique_ptr<World> world = SmallWorld(kRope, joints);
     Steps(world.get(), 30);
     const std::size_t pins = world->Pins().size();
     ASSERT_EQ(pins, 4u);
-    SetRope(world.get(), Motion::kAbsent);
+    SetRope(world.get(), Activity::kDisplayed);
     Steps(world.get(), 1);
     EXPECT_EQ(world->Pins().size(), pins) << joints;
     world->Barrier();
     EXPECT_EQ(world->Pins().size(), pins) << joints;
-    SetRope(world.get(), Motion::kDynamic);
+    SetRope(world.get(), Activity::kSimulated);
     Steps(world.get(), 120);
     EXPECT_EQ(world->Pins().size(), pins);
     EXPECT_LT(Open(*world), 0.03) << joints;
@@ -216,33 +244,33 @@ TEST(AbsentBody, ItsJointsAreKnownWhileAbsentAndHoldAfterItsReturn) {
   }
 }
 
-TEST(AbsentBody, AWorldGoesBackToATickWithOtherPresentBodies) {
+TEST(DisplayedBody, AWorldGoesBackToATickWithOtherPresentBodies) {
   const std::unique_ptr<World> world = SmallWorld(kRope);
   Steps(world.get(), 30);
   const WorldSnapshot then = world->Barrier();
   Steps(world.get(), 20);
   const std::uint64_t hash = world->Hash();
-  SetRope(world.get(), Motion::kAbsent);
+  SetRope(world.get(), Activity::kDisplayed);
   Steps(world.get(), 10);
-  ASSERT_TRUE(world->Restore(then).ok()) << "absent now";
+  ASSERT_TRUE(world->Restore(then).ok()) << "not present now";
   EXPECT_EQ(world->Read(2).position, then.bodies[2].state.position);
-  SetRope(world.get(), Motion::kDynamic);
+  SetRope(world.get(), Activity::kSimulated);
   ASSERT_TRUE(world->Restore(then).ok());
   Steps(world.get(), 20);
   EXPECT_EQ(world->Hash(), hash) << "bit for bit as without the absence";
 }
 
-TEST(AbsentBody, AnEditReachesAnAbsentBody) {
+TEST(DisplayedBody, AnEditReachesAnAbsentBody) {
   const std::unique_ptr<World> world = SmallWorld(kRope);
-  SetRope(world.get(), Motion::kAbsent);
+  SetRope(world.get(), Activity::kDisplayed);
   Steps(world.get(), 2);
   constexpr int kSecondPin = 2;
   EXPECT_TRUE(world->Apply({Edit(BreakEdit{kSecondPin})}).has_value()) << "joints are others now";
   EXPECT_EQ(world->Pins().size(), 3u);
   Steps(world.get(), 2);
-  EXPECT_EQ(world->motion(0), Motion::kAbsent) << "still";
+  EXPECT_EQ(world->activity(0), Activity::kDisplayed) << "still";
   EXPECT_EQ(world->Pins().size(), 3u);
-  SetRope(world.get(), Motion::kDynamic);
+  SetRope(world.get(), Activity::kSimulated);
   Steps(world.get(), 120);
   EXPECT_GT(world->Read(1).position.y(), -3) << "it hangs";
   EXPECT_LT(world->Read(2).position.y(), -10) << "it has come off";
@@ -254,16 +282,16 @@ TEST_P(AbsentInScene, RemovingAndReturningEverySecondMechanismKeepsTheRest) {
   ScriptedWorld run(GetParam());
   World& world = run.world;
   run.StepTo(30);
-  const auto let = [&](Motion motion) {
+  const auto let = [&](Activity activity) {
     for (int body = 0; body < world.body_count(); ++body) {
-      if (world.mechanism(body) % 2 == 0) world.SetMotion(body, motion);
+      if (world.mechanism(body) % 2 == 0) world.SetActivity(body, activity);
     }
   };
-  let(Motion::kAbsent);
+  let(Activity::kDisplayed);
   run.StepTo(50);
   const WorldSnapshot then = world.Barrier();
   run.StepTo(60);
-  let(Motion::kDynamic);
+  let(Activity::kSimulated);
   run.StepTo(120);
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyState s = world.Read(body);
@@ -278,5 +306,5 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AbsentInScene,
                                          "battlefield", "harbour", "titanic", "crane", "dockside"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-}  // namespace absent_motion_test
+}  // namespace displayed_body_test
 }  // namespace seam
