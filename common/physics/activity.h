@@ -3,8 +3,8 @@
 
 namespace seam {
 
-/// Decided by the replica's `Activities` alone. `World` translates it for Box2D and keeps it through
-/// rebuilds, restores and edits, so it is no column of a table; everything else reads it
+/// Decided by the replica's `Activities` alone. `World` translates it for Box2D and keeps it
+/// through rebuilds, restores and edits, so it is no column of a table; everything else reads it
 /// (World::activity).
 enum class Activity {
   kSimulated,   ///< in the Box2D world; moved by contacts and joints

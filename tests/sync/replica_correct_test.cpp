@@ -91,7 +91,8 @@ Shown CorrectPaddle(float before, float after) {
   const BodyTable bodies(world);
   const Roles roles(config, 1, -1, world, bodies);
   BodyMemory memory(config, world, bodies);
-  Display display(config, world, memory);
+  Activities activities(config, world, roles, memory);
+  Display display(config, world, memory, activities);
   const Vec2 centre = world.mass_point(0).centre;
   EXPECT_GT(centre.norm(), 1);
   const BodyState was = world.Read(0);

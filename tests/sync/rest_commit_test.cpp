@@ -76,7 +76,8 @@ repeat = {count = 2, step = [5, 0]}
   BodyTable bodies{*world};
   Roles roles{config, 0, -1, *world, bodies};
   BodyMemory memory{config, *world, bodies};
-  Display display{config, *world, memory};
+  Activities activities{config, *world, roles, memory};
+  Display display{config, *world, memory, activities};
   std::vector<InputTrack> inputs;
   Drivers drivers{*world, roles};
   Reach reach{config, *world, roles, drivers, inputs};

@@ -46,7 +46,8 @@ class Row {
   Roles roles{config, kSelf, -1, *world, bodies};
   BodyMemory memory{config, *world, bodies};
   std::vector<InputTrack> inputs;
-  Display display{config, *world, memory};
+  Activities activities{config, *world, roles, memory};
+  Display display{config, *world, memory, activities};
   Drivers drivers{*world, roles};
   Replay replay{config, *world, roles, drivers, memory, display, inputs};
   Reach reach{config, *world, roles, drivers, inputs};
