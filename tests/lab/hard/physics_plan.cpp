@@ -7,6 +7,7 @@
 
 #include "common/scene/assembly.h"
 #include "common/scene/joint_kinds.h"
+#include "common/scene/scene_limits.h"
 #include "tests/lab/hard/script_player.h"
 
 namespace seam {
@@ -38,6 +39,7 @@ void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan)
   for (const int times : {2, 3}) {
     if (scene.solver.tick_hz == stock.tick_hz / times) continue;
     solver.tick_hz = stock.tick_hz / times;
+    solver.substeps = SubstepsMin(solver.tick_hz);
     for (const int substeps : {1, 2}) {
       solver.joint_substeps = substeps;
       plan->points.push_back({hard, "grid", WithSolver(scene, solver)});
