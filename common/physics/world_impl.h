@@ -12,6 +12,7 @@
 
 #include "common/base/check.h"
 #include "common/physics/contact_hub.h"
+#include "common/physics/contact_order.h"
 #include "common/physics/exact/exact_step.h"
 #include "common/physics/flight/flight.h"
 #include "common/physics/stage.h"
@@ -32,6 +33,15 @@ struct World::Impl {
     FindStages();
     Listen();
     for (const auto& stage : stages) stage->Rebuilt(&*world);
+    BeginContacts();
+  }
+
+  /// Finds the contacts of bodies that have just been made and placed.
+  void BeginContacts() {
+    for (const auto& stage : stages) stage->Placed();
+    FindContactsInOrder(&*world);
+    // No time passes, but contacts begin to touch, which wakes their bodies.
+    world->Step(0, 1, 1);
   }
 
   /// Builds all bodies and joints.
@@ -170,7 +180,6 @@ struct World::Impl {
   int prescribed_count = 0;            // number of kPrescribed bodies
   std::vector<BodyState>
       prescribed_from;                 // by moving body: state of a kPrescribed one before the step
-  bool ordered = false;                // true once contacts are sorted (contact_order.h)
   std::optional<WorldSnapshot> still;  // the state last built from, if nothing moved then
   bool unsettled = false;              // a change to or from kAbsent is pending
   std::vector<int> present;            // moving bodies that are not absent, ascending
