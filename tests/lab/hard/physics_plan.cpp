@@ -18,7 +18,7 @@ double RowCost(double own, double stock) {
   return own + std::max(own + stock, std::min(0.15, 15 * (own + stock)));
 }
 
-/// One engine step a tick: what exact joints need of substeps they have of their own.
+/// As few engine steps as a scene may have: exact joints have substeps of their own.
 void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan) {
   if (!HasJoints(scene)) return;
   Solver solver = scene.solver;
@@ -28,7 +28,7 @@ void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan)
   }
   const Solver stock = StockSolver();
   solver.joints = JointSolving::kExact;
-  solver.substeps = stock.substeps;
+  solver.substeps = SubstepsMin(solver.tick_hz);
   solver.velocity_iterations = stock.velocity_iterations;
   solver.position_iterations = stock.position_iterations;
   for (const int substeps : hard->exact_substeps) {
