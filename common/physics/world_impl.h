@@ -15,6 +15,7 @@
 #include "common/physics/contact_order.h"
 #include "common/physics/exact/exact_step.h"
 #include "common/physics/flight/flight.h"
+#include "common/physics/outline/outline_contacts.h"
 #include "common/physics/stage.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
@@ -48,6 +49,8 @@ struct World::Impl {
   void Build() {
     memory.revision = topology.revision();
     built = BuildScene(scene, composition, &*world, &memory);
+    outlines.Find(scene, composition, built);
+    meter.SetOutlines(outlines.any() ? &outlines : nullptr);
     body_of_id.assign(scene.parts.size(), -1);
     for (std::size_t i = 0; i < built.moving.size(); ++i) {
       body_of_id[static_cast<std::size_t>(built.moving[i].id)] = static_cast<int>(i);
@@ -173,6 +176,7 @@ struct World::Impl {
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuildMemory memory;
   BuiltScene built;
+  OutlineContacts outlines;            // of the bodies in `built`
   std::optional<ExactStep> exact;      // only when there are joints for it
   std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
   std::vector<Motion> motions;         // by moving body
