@@ -1,6 +1,7 @@
 #include "server/room_clock.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace seam {
 namespace {
@@ -9,8 +10,12 @@ namespace {
 constexpr std::int64_t kCatchesUpPercent = 105;
 /// New speed after a slowdown, in percent of the achieved one: the rest is a margin for other work.
 constexpr std::int64_t kKeepPercent = 95;
-/// Next speed to try when the server is in time, in percent of the current one.
-constexpr std::int64_t kFasterPercent = 110;
+/// Least speed after a slowdown, in percent of the one before: a burst of work shorter than two
+/// slowdowns does not stop the room.
+constexpr std::int64_t kSlowerPercent = 50;
+/// First gain of speed when the server is in time, percent. It doubles with each attempt that does
+/// not fail: a room that was slowed by a burst is back in two seconds.
+constexpr std::int64_t kGainPercent = 10;
 /// Further loss of speed that is reported, ppm.
 constexpr std::int32_t kSayPpm = 100000;
 
@@ -52,32 +57,51 @@ void RoomClock::SetSpeed(std::int64_t now_us, std::int64_t room_us, std::int64_t
       static_cast<std::int32_t>(std::clamp<std::int64_t>(speed_ppm, kLeastSpeedPpm, kFullSpeedPpm));
 }
 
+/// Gives up the backlog: the next tick is due now.
+void RoomClock::SlowDown(std::int64_t now_us, std::int64_t tick, std::int64_t achieved_ppm) {
+  bad_windows_ = 0;
+  const bool failed = std::exchange(gain_percent_, 0) > 0;
+  if (failed) needs_good_ = std::min(2 * needs_good_, kGoodWindowsMax);
+  const std::int64_t speed_ppm = speed_ppm_;
+  SetSpeed(now_us, PeriodUs(tick + 1),
+           std::max(std::min(achieved_ppm, speed_ppm) * kKeepPercent / 100,
+                    speed_ppm * kSlowerPercent / 100));
+}
+
+void RoomClock::SpeedUp(std::int64_t now_us) {
+  good_windows_ = 0;
+  if (gain_percent_ > 0) needs_good_ = std::max(needs_good_ / 2, kGoodWindows);
+  gain_percent_ = gain_percent_ > 0 ? 2 * gain_percent_ : kGainPercent;
+  SetSpeed(now_us, RoomUs(now_us), speed_ppm_ * (100 + gain_percent_) / 100);
+}
+
 bool RoomClock::Note(std::int64_t now_us, std::int64_t tick) {
   if (!started_ || now_us - window_us_ < kWindowUs) return false;
   const std::int64_t late_us = now_us - DueUs(tick + 1);
-  // Time of the ticks done in this window, ppm of real time.
-  const std::int64_t achieved_ppm = PeriodUs(tick - window_tick_) * 1000000 / (now_us - window_us_);
+  // Time of the ticks done since a moment, ppm of real time.
+  const auto achieved_ppm = [&](std::int64_t since_us, std::int64_t since_tick) {
+    return PeriodUs(tick - since_tick) * 1000000 / (now_us - since_us);
+  };
+  const bool catches_up =
+      achieved_ppm(window_us_, window_tick_) * 100 >= kCatchesUpPercent * speed_ppm_;
+  const bool bad = late_us > kLateUs && !catches_up;
+  if (bad && bad_windows_ == 0) {
+    bad_us_ = window_us_;
+    bad_tick_ = window_tick_;
+  }
   window_us_ = now_us;
   window_tick_ = tick;
-  const bool catches_up = achieved_ppm * 100 >= kCatchesUpPercent * speed_ppm_;
-  bad_windows_ = late_us > kLateUs && !catches_up ? bad_windows_ + 1 : 0;
+  bad_windows_ = bad ? bad_windows_ + 1 : 0;
   good_windows_ = late_us < PeriodUs(1) ? good_windows_ + 1 : 0;
   if (bad_windows_ >= kBadWindows) {
-    // Gives up the backlog: the next tick is due now.
-    bad_windows_ = 0;
-    SetSpeed(now_us, PeriodUs(tick + 1),
-             std::min<std::int64_t>(achieved_ppm, speed_ppm_) * kKeepPercent / 100);
-  } else if (speed_ppm_ < kFullSpeedPpm && good_windows_ >= kGoodWindows) {
-    good_windows_ = 0;
-    SetSpeed(now_us, RoomUs(now_us), speed_ppm_ * kFasterPercent / 100);
+    SlowDown(now_us, tick, achieved_ppm(bad_us_, bad_tick_));
+  } else if (speed_ppm_ < kFullSpeedPpm && good_windows_ >= needs_good_) {
+    SpeedUp(now_us);
   }
-  return ShouldReport();
-}
-
-bool RoomClock::ShouldReport() {
-  if (speed_ppm_ > said_ppm_) {  // speeding up: only full speed is reported
-    said_ppm_ = speed_ppm_;
-    return speed_ppm_ == kFullSpeedPpm;
+  if (speed_ppm_ == kFullSpeedPpm && good_windows_ >= kGoodWindowsMax) {
+    gain_percent_ = 0;
+    needs_good_ = kGoodWindows;
+    return std::exchange(said_ppm_, kFullSpeedPpm) < kFullSpeedPpm;
   }
   const bool first = said_ppm_ == kFullSpeedPpm && speed_ppm_ < kFullSpeedPpm;
   if (!first && said_ppm_ - speed_ppm_ < kSayPpm) return false;

@@ -29,7 +29,7 @@ class RoomClock {
 
   /// To be called after the ticks that were due; `tick`: the last one. Measures in each window
   /// whether the server keeps up, and slows the clock down or speeds it up again. Returns true if
-  /// the speed should be reported: much lower than in the last report, or full again.
+  /// the speed should be reported: much lower than in the last report, or full again for 2 s.
   bool Note(std::int64_t now_us, std::int64_t tick);
 
   /// Length of a measuring window, us.
@@ -39,14 +39,17 @@ class RoomClock {
   /// The clock slows down after this many windows in a row without catching up. After a single long
   /// stall the server catches up instead.
   static constexpr int kBadWindows = 2;
-  /// The clock speeds up after this many windows in a row in time.
-  static constexpr int kGoodWindows = 8;
+  /// The clock speeds up after this many windows in a row in time. Each attempt that fails doubles
+  /// the number, up to the second one, and each that holds halves it: under a lasting load attempts
+  /// are rare.
+  static constexpr int kGoodWindows = 2, kGoodWindowsMax = 16;
 
  private:
   std::int64_t RoomUs(std::int64_t now_us) const;
   std::int64_t PeriodUs(std::int64_t ticks) const { return ticks * 1000000 / tick_hz_; }
   void SetSpeed(std::int64_t now_us, std::int64_t room_us, std::int64_t speed_ppm);
-  bool ShouldReport();
+  void SlowDown(std::int64_t now_us, std::int64_t tick, std::int64_t achieved_ppm);
+  void SpeedUp(std::int64_t now_us);
 
   int tick_hz_;
   bool started_ = false;
@@ -56,6 +59,10 @@ class RoomClock {
   std::int64_t window_us_ = 0;       // begin of the window
   std::int64_t window_tick_ = 0;     // last tick before it
   int bad_windows_ = 0, good_windows_ = 0;
+  std::int64_t bad_us_ = 0;        // begin of the first bad window in a row
+  std::int64_t bad_tick_ = 0;      // last tick before it
+  int needs_good_ = kGoodWindows;  // windows in time before the next attempt
+  std::int64_t gain_percent_ = 0;  // of the last attempt; 0: it has failed, or held for long
   std::int32_t said_ppm_ = kFullSpeedPpm;
 };
 

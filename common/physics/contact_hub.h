@@ -19,7 +19,8 @@ class ContactHub : public b2ContactListener {
   void EndContact(b2Contact* contact) override {
     for (Stage* stage : stages_) stage->EndContact(contact);
   }
-  void PreSolve(b2Contact* contact, const b2Manifold* /*old*/) override {
+  void PreSolve(b2Contact* contact, const b2Manifold* old) override {
+    meter_.PreSolve(contact, old);
     for (Stage* stage : stages_) stage->PreSolve(contact);
   }
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {

@@ -176,4 +176,9 @@ void OrderNewContacts(b2World* world) {
   for (const auto& [key, c] : order) LinkFirst(c, &manager);
 }
 
+void FindNewContactsInOrder(b2World* world) {
+  ManagerOf(world).FindNewContacts();
+  OrderNewContacts(world);
+}
+
 }  // namespace seam

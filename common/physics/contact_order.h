@@ -14,8 +14,12 @@ namespace seam {
 /// in that order.
 void FindContactsInOrder(b2World* world);
 
-/// Sorts into that order the contacts that the engine has found since the last call of either
-/// function. Costs nothing if none is new.
+/// Sorts into that order the contacts that the engine has found since the last call of one of these
+/// functions. Costs nothing if none is new.
 void OrderNewContacts(b2World* world);
+
+/// Finds the contacts of shapes that were added or placed since the last step, as the engine's next
+/// step would, and sorts them before it solves them. Costs nothing if there are none.
+void FindNewContactsInOrder(b2World* world);
 
 }  // namespace seam

@@ -84,8 +84,9 @@ class Stage {
   /// them up again. May add fixtures, and bodies whose user data pointer is 0 (anchored); no
   /// joints.
   virtual void Rebuilt(b2World* world) = 0;
-  /// Called after Rebuilt when the world goes back to a snapshot: the bodies are placed, velocities
-  /// and memory follow. Contacts are found next: fixtures that bodies may touch must exist by then.
+  /// Called after Rebuilt: the bodies are placed. When the world goes back to a snapshot,
+  /// velocities and memory follow. Contacts are found next: fixtures that bodies may touch must
+  /// exist by then.
   virtual void Placed() {}
   /// Called before the world is emptied: drop all pointers into it.
   virtual void Emptied() {}

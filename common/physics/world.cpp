@@ -10,7 +10,6 @@
 #include "common/base/check.h"
 #include "common/base/geometry.h"
 #include "common/physics/anchored_bodies.h"
-#include "common/physics/contact_order.h"
 #include "common/physics/world_impl.h"
 
 // Replaces the engine's timer. The engine reads the clock six times for each island, for a profile
@@ -150,12 +149,13 @@ void World::Step() {
   for (int i = 0; i < solver.substeps; ++i) {
     for (const auto& stage : w.stages) stage->BeforeStep(h);
     if (w.prescribed_count > 0) w.BeginPrescribedStep();
+    FindNewContactsInOrder(&*w.world);
     if (w.exact) {
       w.exact->Step(h, solver.velocity_iterations, solver.position_iterations);
     } else {
       w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
     }
-    if (w.ordered) OrderNewContacts(&*w.world);
+    OrderNewContacts(&*w.world);
     if (w.prescribed_count > 0) w.EndPrescribedStep(h);
   }
   if (!w.scene.seats.empty()) w.MarkAllAside();  // a stage may have moved a body there

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/physics/outline/outline_contacts.h"
 #include "common/physics/stage.h"
 #include "common/physics/world_shapes.h"
 
@@ -43,6 +44,10 @@ std::vector<BlockedDirection> Distinct(std::vector<BlockedDirection> all) {
 }
 
 }  // namespace
+
+void ImpulseMeter::PreSolve(b2Contact* contact, const b2Manifold* old) {
+  if (outlines_ != nullptr) outlines_->Correct(contact, *old);
+}
 
 void ImpulseMeter::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   Felt felt;

@@ -8,7 +8,10 @@
 
 namespace seam {
 
-/// Contact listener that sums the normal impulses of a tick's substeps by pair of bodies.
+class OutlineContacts;
+
+/// Contact listener that corrects contacts by their outlines, and sums the normal impulses of a
+/// tick's substeps by pair of bodies.
 class ImpulseMeter : public b2ContactListener {
  public:
   /// `substeps`: per tick, the number of parts into which an impact may be divided. `lightest`:
@@ -17,10 +20,13 @@ class ImpulseMeter : public b2ContactListener {
     counts_from_ = kImpactRecordMin / (kShares * static_cast<float>(substeps));
     least_ = counts_from_ * lightest;
   }
+  /// `outlines` must outlive this.
+  void SetOutlines(const OutlineContacts* outlines) { outlines_ = outlines; }
   void Clear() { felt_.clear(); }
   /// Returns the impacts above kImpactRecordMin, ascending by pair.
   std::vector<Impact> Impacts(const std::vector<MovingBody>& moving);
 
+  void PreSolve(b2Contact* contact, const b2Manifold* old) override;
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
  private:
@@ -36,6 +42,7 @@ class ImpulseMeter : public b2ContactListener {
   std::vector<Felt> felt_;  // in the order of solving
   float counts_from_ = 0;   // m/s: impulse over the lighter body's mass
   float least_ = 0;         // N s: counts_from_ for the lightest body of all
+  const OutlineContacts* outlines_ = nullptr;
 };
 
 /// Returns the touching pairs of moving bodies, ascending, each once.

@@ -12,8 +12,10 @@
 
 #include "common/base/check.h"
 #include "common/physics/contact_hub.h"
+#include "common/physics/contact_order.h"
 #include "common/physics/exact/exact_step.h"
 #include "common/physics/flight/flight.h"
+#include "common/physics/outline/outline_contacts.h"
 #include "common/physics/stage.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
@@ -32,12 +34,23 @@ struct World::Impl {
     FindStages();
     Listen();
     for (const auto& stage : stages) stage->Rebuilt(&*world);
+    BeginContacts();
+  }
+
+  /// Finds the contacts of bodies that have just been made and placed.
+  void BeginContacts() {
+    for (const auto& stage : stages) stage->Placed();
+    FindContactsInOrder(&*world);
+    // No time passes, but contacts begin to touch, which wakes their bodies.
+    world->Step(0, 1, 1);
   }
 
   /// Builds all bodies and joints.
   void Build() {
     memory.revision = topology.revision();
     built = BuildScene(scene, composition, &*world, &memory);
+    outlines.Find(scene, composition, built);
+    meter.SetOutlines(outlines.any() ? &outlines : nullptr);
     body_of_id.assign(scene.parts.size(), -1);
     for (std::size_t i = 0; i < built.moving.size(); ++i) {
       body_of_id[static_cast<std::size_t>(built.moving[i].id)] = static_cast<int>(i);
@@ -166,6 +179,7 @@ struct World::Impl {
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuildMemory memory;
   BuiltScene built;
+  OutlineContacts outlines;            // of the bodies in `built`
   std::optional<ExactStep> exact;      // only when there are joints for it
   std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
   std::vector<Activity> activities;    // by moving body
@@ -173,7 +187,6 @@ struct World::Impl {
   int prescribed_count = 0;            // number of kPrescribed bodies
   std::vector<BodyState>
       prescribed_from;                 // by moving body: state of a kPrescribed one before the step
-  bool ordered = false;                // true once contacts are sorted (contact_order.h)
   std::optional<WorldSnapshot> still;  // the state last built from, if nothing moved then
   bool unsettled = false;              // a body is to come or go
   std::vector<int> present;            // moving bodies that are present, ascending

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "common/base/bytes.h"
-#include "common/physics/contact_order.h"
 #include "common/physics/joint_impulses.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_impl.h"
@@ -242,11 +241,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot,
     const bool there = b->GetPosition() == ToB2(state.position) && b->GetAngle() == state.angle;
     if (!there) b->SetTransform(ToB2(state.position), state.angle);
   });
-  for (const auto& stage : stages) stage->Placed();
-  FindContactsInOrder(&*world);
-  ordered = true;
-  // No time passes, but contacts begin to touch, which wakes their bodies.
-  world->Step(0, 1, 1);
+  BeginContacts();
   const std::vector<WorldSnapshot::Point> before = Remembered(snapshot);
   EachPoint(&*world, [&](const PointKey& key, b2ManifoldPoint* point) {
     const WorldSnapshot::Point* found = Find(snapshot.points, key);

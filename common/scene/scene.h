@@ -173,7 +173,7 @@ enum class JointSolving {
 
 struct Solver {
   int tick_hz = 60;             ///< 10..960
-  int substeps = 1;             ///< 1..32 Box2D steps per tick
+  int substeps = 1;             ///< 1..32 Box2D steps per tick, at least SubstepsMin(tick_hz)
   int velocity_iterations = 8;  ///< 1..64
   int position_iterations = 3;  ///< 1..64
   bool sleep = true;

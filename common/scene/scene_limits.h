@@ -27,10 +27,18 @@ constexpr std::size_t kPolygonPointsMax = 64, kChainPointsMax = 2000;
 constexpr std::size_t kPathPointsMax = 200;
 /// kg/m^2; the engine's solver needs moderate mass ratios.
 constexpr Range kDensity{0.01, 100};
-/// rad/s: a quarter turn a step at 60 Hz, the engine's own clamp.
+/// Least number of the engine's steps a second, normally one a tick. The engine moves a body by at
+/// most 2 m and turns it by at most a quarter turn in a step. With fewer steps it would slow bodies
+/// that are within the two limits below.
+constexpr int kStepHzMin = 60;
+/// rad/s
 constexpr float kSpinMax = 94;
-/// m/s: 2 m a step at 60 Hz, the engine's own clamp.
+static_assert(kSpinMax < kStepHzMin * 1.5707f);
+/// m/s
 constexpr float kSpeedMax = 120;
+static_assert(kSpeedMax <= kStepHzMin * 2);
+/// Returns the least number of substeps at this tick rate.
+constexpr int SubstepsMin(int tick_hz) { return (kStepHzMin + tick_hz - 1) / tick_hz; }
 /// m. Least: half of the engine's slop, so that resting shapes just touch; with less they overlap.
 /// With an anchored rim of 1 cm the sum is the 1.25 cm that continuous collision needs.
 constexpr Range kSkinRange{0.0025, 0.01};

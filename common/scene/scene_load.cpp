@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -30,7 +31,8 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
       {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep", "continuous",
        "warm_starting", "skin", "welds", "faces", "joints", "joint_substeps"});
   solver->tick_hz = r.Integer("tick_hz", kTickHz, solver->tick_hz);
-  solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
+  solver->substeps =
+      std::max(SubstepsMin(solver->tick_hz), r.Integer("substeps", {1, 32}, solver->substeps));
   solver->velocity_iterations =
       r.Integer("velocity_iterations", {1, 64}, solver->velocity_iterations);
   solver->position_iterations =

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "common/scene/scene_limits.h"
 #include "tests/lab/hard/overhead.h"
 #include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/raw_box2d.h"
@@ -82,7 +83,7 @@ TEST(Tune, FindsTheCheapestOfAMadeUpProblem) {
         std::vector<int> rates = {20, 30, 60, 120, 240};
         if (keep_hz) rates = {60};
         for (const int hz : rates) {
-          const int substeps = (rate + hz - 1) / hz;
+          const int substeps = std::max(SubstepsMin(hz), (rate + hz - 1) / hz);
           if (substeps <= 8) least = std::min(least, hz * substeps * (8.0 + needed));
         }
         const Trial& best = result.trials[*result.best];

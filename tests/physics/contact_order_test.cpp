@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <string>
 
+#include "common/base/bytes.h"
 #include "common/physics/world.h"
 #include "tests/support/small_world.h"
 
@@ -85,6 +88,95 @@ TEST(ContactOrder, ReplaysTheSameFromABarrierAmongAbsentBodies) {
   EXPECT_EQ(whole->Read(kBall).position, part->Read(kBall).position);
   for (int body = kFirst; body < kPast; ++body) {
     EXPECT_EQ(whole->Read(body).position, part->Read(body).position) << body;
+  }
+}
+
+/// 48 boxes fall into a heap, and a heavy disc is shot into it; `before` and `after` are other
+/// parts of the scene, before and after these.
+std::string Pile(const std::string& before, const std::string& after) {
+  return before + R"(
+[[part]]
+name = "g"
+chain = [[-90, 0], [90, 0]]
+[[part]]
+name = "p"
+box = [0.5, 0.5]
+position = [-2, 2]
+angle = 0.1
+repeat = {count = [6, 8], step = [0.6, 0.6]}
+[[part]]
+name = "shot"
+circle = 0.4
+position = [-30, 1]
+velocity = [25, 3]
+density = 5
+)" + after;
+}
+
+/// Links of a chain and discs fall onto a row of anchored boxes.
+std::string Yard(const std::string& before, const std::string& after) {
+  return before + R"(
+[[part]]
+name = "g"
+box = [2, 1]
+position = [-20, -0.5]
+anchored = true
+repeat = {count = 20, step = [2, 0]}
+[[part]]
+name = "link"
+box = [1, 0.2]
+position = [-3, 5]
+angle = 0.2
+group = -1
+repeat = {count = 5, step = [1, 0]}
+[[part]]
+name = "disc"
+circle = 0.3
+position = [-3, 1]
+repeat = {count = [8, 4], step = [0.7, 0.65]}
+[[joint]]
+name = "j"
+kind = "revolute"
+a = "link.0"
+b = "link.1"
+anchor = [-2.5, 5.1]
+repeat = {count = 4, step = [1, 0]}
+)" + after;
+}
+
+std::string Far(const std::string& name, const std::string& shape) {
+  return "[[part]]\nname = \"" + name + "\"\n" + shape + "\n";
+}
+
+/// Returns a hash of the poses of the moving parts whose names do not begin with "far".
+std::uint64_t HashOfTheNear(const std::string& text) {
+  const Scene scene = ParseScene(text, "test.toml");
+  World world(scene);
+  std::uint64_t hash = Fnv1a("", 0);
+  for (int tick = 0; tick < 600; ++tick) {
+    world.Step();
+    for (int body = 0; body < world.body_count(); ++body) {
+      if (scene.parts[static_cast<std::size_t>(world.id(body))].name.rfind("far", 0) == 0) continue;
+      const BodyState s = world.Read(body);
+      const float numbers[] = {s.position.x(), s.position.y(), s.angle};
+      hash = Fnv1a(numbers, sizeof numbers, hash);
+    }
+  }
+  return hash;
+}
+
+TEST(ContactOrder, AWorldWithoutBarriersDoesNotDependOnOtherBodies) {
+  const std::string box = Far("far", "box = [1, 1]\nposition = [70, 20]\nangle = 0.3");
+  const std::string wall = Far("far_wall", "box = [1, 9]\nposition = [80, 4]\nanchored = true");
+  const std::string row =
+      Far("far_row", "circle = 0.4\nposition = [40, 3]\nrepeat = {count = [9, 3], step = [1, 1]}");
+  for (const auto& scene : {Pile, Yard}) {
+    const std::uint64_t alone = HashOfTheNear(scene("", ""));
+    for (const std::string& far : {box, wall, row, box + wall + row}) {
+      EXPECT_EQ(HashOfTheNear(scene(far, "")), alone) << far;
+      EXPECT_EQ(HashOfTheNear(scene("", far)), alone) << far;
+    }
+    EXPECT_EQ(HashOfTheNear(scene(box, row)), alone);
   }
 }
 

@@ -43,6 +43,35 @@ TEST(SolverSettings, SubstepsRaiseTheEnginesSpeedLimitOfTwoMetresAStep) {
   }
 }
 
+TEST(SolverSettings, FreeBodiesKeepTheirSpeedAndSpinAtAnyTickRate) {
+  for (const int tick_hz : {10, 15, 20, 30, 50, 59, 60, 120}) {
+    const auto world = Levers("tick_hz = " + std::to_string(tick_hz),
+                              "[[part]]\nname = \"flies\"\ncircle = 0.5\nposition = [0, 500]\n"
+                              "velocity = [15, 0]\nspin = 60\n"
+                              "[[part]]\nname = \"turns\"\nbox = [1, 2]\nposition = [9, 500]\n"
+                              "velocity = [100, 60]\nspin = -93\n");
+    for (int i = 0; i < 5 * tick_hz; ++i) world->Step();
+    EXPECT_NEAR(world->Read(0).velocity.x(), 15, 1e-3) << tick_hz;
+    EXPECT_NEAR(world->Read(0).velocity.y(), -50, 1e-3) << tick_hz;
+    EXPECT_NEAR(world->Read(0).spin, 60, 1e-3) << tick_hz;
+    EXPECT_NEAR(world->Read(1).velocity.x(), 100, 1e-2) << tick_hz;
+    EXPECT_NEAR(world->Read(1).velocity.y(), 10, 1e-2) << tick_hz;
+    EXPECT_NEAR(world->Read(1).spin, -93, 1e-2) << tick_hz;
+  }
+}
+
+TEST(SolverSettings, TheLoaderRaisesSubstepsToSixtyStepsASecond) {
+  const auto substeps = [](const std::string& solver) {
+    return ParseScene(kShot + ("[solver]\n" + solver), "s.toml").solver.substeps;
+  };
+  EXPECT_EQ(substeps("tick_hz = 10"), 6);
+  EXPECT_EQ(substeps("tick_hz = 20\nsubsteps = 2"), 3);
+  EXPECT_EQ(substeps("tick_hz = 20\nsubsteps = 4"), 4);
+  EXPECT_EQ(substeps("tick_hz = 59"), 2);
+  EXPECT_EQ(substeps("tick_hz = 60"), 1);
+  EXPECT_EQ(substeps("tick_hz = 240"), 1);
+}
+
 TEST(SolverSettings, WeldsAsIterativeJointsBendWhereOneBodyDoesNot) {
   const std::string beam =
       "[[part]]\nname = \"wall\"\nbox = [1, 1]\nposition = [-0.5, 0]\nanchored = true\n"

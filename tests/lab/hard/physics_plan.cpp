@@ -7,6 +7,7 @@
 
 #include "common/scene/assembly.h"
 #include "common/scene/joint_kinds.h"
+#include "common/scene/scene_limits.h"
 #include "tests/lab/hard/script_player.h"
 
 namespace seam {
@@ -17,7 +18,7 @@ double RowCost(double own, double stock) {
   return own + std::max(own + stock, std::min(0.15, 15 * (own + stock)));
 }
 
-/// One engine step a tick: what exact joints need of substeps they have of their own.
+/// As few engine steps as a scene may have: exact joints have substeps of their own.
 void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan) {
   if (!HasJoints(scene)) return;
   Solver solver = scene.solver;
@@ -27,7 +28,7 @@ void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan)
   }
   const Solver stock = StockSolver();
   solver.joints = JointSolving::kExact;
-  solver.substeps = stock.substeps;
+  solver.substeps = SubstepsMin(solver.tick_hz);
   solver.velocity_iterations = stock.velocity_iterations;
   solver.position_iterations = stock.position_iterations;
   for (const int substeps : hard->exact_substeps) {
@@ -38,6 +39,7 @@ void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan)
   for (const int times : {2, 3}) {
     if (scene.solver.tick_hz == stock.tick_hz / times) continue;
     solver.tick_hz = stock.tick_hz / times;
+    solver.substeps = SubstepsMin(solver.tick_hz);
     for (const int substeps : {1, 2}) {
       solver.joint_substeps = substeps;
       plan->points.push_back({hard, "grid", WithSolver(scene, solver)});

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/scene/scene_limits.h"
+
 namespace seam {
 namespace {
 
@@ -26,26 +28,25 @@ const std::vector<Levers> kReportLevers = {
     {60, 1, 16, 3, 0, true},          {60, 1, 32, 3, 0, true},
     {60, 1, 8, 1, 0, true},           {60, 1, 8, 8, 0, true},
     {60, 2, 8, 3, 0, true},           {60, 4, 8, 3, 0, true},
-    {30, 1, 8, 3, 0, true},           {30, 1, 4, 1, 0, true},
-    {30, 1, 2, 1, 0, true},           {30, 1, 1, 1, 0, true},
-    {30, 1, 8, 3, kSmallSkin, true},  {30, 1, 4, 1, kSmallSkin, true},
-    {30, 1, 1, 1, kSmallSkin, true},  {20, 1, 8, 3, 0, true},
-    {20, 1, 4, 1, 0, true},           {20, 1, 8, 3, kSmallSkin, true},
-    {20, 1, 1, 1, kSmallSkin, true},  {120, 1, 8, 3, 0, true},
+    {30, 2, 8, 3, 0, true},           {30, 2, 4, 1, 0, true},
+    {30, 2, 2, 1, 0, true},           {30, 2, 1, 1, 0, true},
+    {30, 2, 8, 3, kSmallSkin, true},  {30, 2, 4, 1, kSmallSkin, true},
+    {30, 2, 1, 1, kSmallSkin, true},  {20, 3, 8, 3, 0, true},
+    {20, 3, 4, 1, 0, true},           {20, 3, 8, 3, kSmallSkin, true},
+    {20, 3, 1, 1, kSmallSkin, true},  {120, 1, 8, 3, 0, true},
     {240, 1, 8, 3, 0, true},          {60, 2, 4, 1, 0, true},
     {60, 4, 2, 1, 0, true},           {60, 1, 4, 1, kSmallSkin, true},
     {60, 1, 2, 1, kSmallSkin, true},  {60, 4, 4, 1, kSmallSkin, true},
     {60, 4, 8, 3, kSmallSkin, true},  {60, 1, 8, 3, kSmallSkin, false},
     {60, 8, 2, 1, kSmallSkin, true},  {60, 8, 4, 1, kSmallSkin, true},
     {60, 1, 16, 3, kSmallSkin, true}, {60, 1, 32, 8, kSmallSkin, true},
-    {30, 2, 4, 1, kSmallSkin, true},  {30, 4, 4, 1, kSmallSkin, true},
-    {120, 1, 4, 1, kSmallSkin, true}, {120, 2, 4, 1, kSmallSkin, true},
-    {240, 1, 4, 1, kSmallSkin, true}, {60, 1, 1, 1, 0, false},
-    {60, 1, 32, 8, 0, true},          {60, 3, 2, 1, kSmallSkin, true},
-    {60, 2, 2, 1, kSmallSkin, true},  {60, 2, 16, 4, kSmallSkin, true},
-    {60, 8, 8, 3, kSmallSkin, true},  {60, 8, 1, 1, kSmallSkin, true},
-    {240, 4, 8, 3, kSmallSkin, true}, {240, 8, 8, 3, kSmallSkin, true},
-};
+    {30, 4, 4, 1, kSmallSkin, true},  {120, 1, 4, 1, kSmallSkin, true},
+    {120, 2, 4, 1, kSmallSkin, true}, {240, 1, 4, 1, kSmallSkin, true},
+    {60, 1, 1, 1, 0, false},          {60, 1, 32, 8, 0, true},
+    {60, 3, 2, 1, kSmallSkin, true},  {60, 2, 2, 1, kSmallSkin, true},
+    {60, 2, 16, 4, kSmallSkin, true}, {60, 8, 8, 3, kSmallSkin, true},
+    {60, 8, 1, 1, kSmallSkin, true},  {240, 4, 8, 3, kSmallSkin, true},
+    {240, 8, 8, 3, kSmallSkin, true}};
 constexpr std::size_t kQuickLevers = 4;
 
 std::vector<Levers> AllLevers() {
@@ -54,6 +55,7 @@ std::vector<Levers> AllLevers() {
     for (const bool warm : {true, false}) {
       for (const int hz : {20, 30, 60, 120, 240}) {
         for (const int substeps : {1, 2, 3, 4, 6, 8}) {
+          if (substeps < SubstepsMin(hz)) continue;
           for (const int velocity : {1, 2, 4, 8, 16, 32}) {
             for (const int position : {1, 2, 3, 5, 8}) {
               all.push_back({hz, substeps, velocity, position, skin, warm});

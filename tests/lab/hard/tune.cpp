@@ -61,7 +61,7 @@ class Search {
     for (const int substeps : {1, 2, 4}) {
       Solver s = problem_.own;
       const Solver usual;
-      s.substeps = usual.substeps;
+      s.substeps = SubstepsMin(s.tick_hz);
       s.velocity_iterations = usual.velocity_iterations;
       s.position_iterations = usual.position_iterations;
       s.joints = JointSolving::kExact;
@@ -78,6 +78,7 @@ class Search {
     for (const float skin : {0.0f, kTunedSkin}) {
       for (const int hz : rates) {
         for (const int substeps : {1, 2, 3, 4, 6, 8}) {
+          if (substeps < SubstepsMin(hz)) continue;
           for (const auto& [velocity, position] : iterations) {
             Solver s = problem_.own;
             if (problem_.jointed) s.joints = JointSolving::kIterative;
@@ -115,7 +116,7 @@ class Search {
          {&Solver::substeps, &Solver::velocity_iterations, &Solver::position_iterations}) {
       Solver less = solver;
       less.*lever -= 1;
-      if (less.*lever >= 1) lesser.push_back(less);
+      if (less.*lever >= 1 && less.substeps >= SubstepsMin(less.tick_hz)) lesser.push_back(less);
     }
     return lesser;
   }
