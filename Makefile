@@ -1,7 +1,7 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds the mains of seam-measure and seam-export too, client/swarm/
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure, seam-export and seam-import too, client/swarm/
 # and client/top/ those of seam-swarm and seam-top); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
@@ -44,13 +44,13 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
 LIBS := -llcm -lbox2d -lfmt -lsodium -pthread
-RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz
+RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz -ltinyxml2
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
 DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
 	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core \
-	libgtest-dev libsodium-dev iproute2 util-linux
+	libgtest-dev libsodium-dev nlohmann-json3-dev libtinyxml2-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_test := python3
 # For the tests that open a review page; without it they are skipped. It is 2 minutes, so CI alone installs it.
@@ -63,7 +63,7 @@ DEBS_lint := clang-tidy git
 
 # All .cpp below a folder.
 below = $(sort $(shell find $(1) -name '*.cpp'))
-MAINS := server/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 
 # The objects of sources. Two thirds of a build is parsing headers, so the sources of a folder are compiled together
@@ -84,6 +84,7 @@ TOP := $(call obj,$(filter-out $(MAINS),$(filter client/top/%,$(SOURCES))))
 CLIENT := $(filter-out $(WATCHERS),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
 EXPORT := $(call obj,$(filter render/export/%,$(SOURCES))) $(call alone,render/canvas/shapes.cpp render/canvas/figure.cpp)
+IMPORT := $(call obj,$(filter render/import/%,$(SOURCES))) $(EXPORT)
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 # What seam-lab has from the tests.
 LAB_SUPPORT := $(call obj,tests/support/plan/plain_scene.cpp)
@@ -93,7 +94,7 @@ TESTS := $(call obj,$(TEST_SOURCES))
 OBJECTS_ALONE := $(call alone,$(SOURCES))
 OBJECTS := $(OBJECTS_ALONE) $(UNITS:%=$(OUT)/unity/%.o)
 CODEC := $(filter $(OUT)/common/codec/% $(OUT)/unity/common/codec%,$(OBJECTS))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
@@ -220,6 +221,8 @@ $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-import: $(OUT)/render/import_main.o $(IMPORT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -ltinyxml2 -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.

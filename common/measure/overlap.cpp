@@ -66,8 +66,9 @@ OverlapMeter::OverlapMeter(const Scene& scene, const Composition& composition)
 }
 
 void OverlapMeter::AddPart(const Part& part, const Part& root, int assembly, int moving) {
-  std::vector<Vector2d> corners = Corners(part);
   const int imposed = imposed_.IndexOf(assembly);
+  if (part.kind == ShapeKind::kChain && (moving >= 0 || imposed >= 0)) return;  // see overlap.h
+  std::vector<Vector2d> corners = Corners(part);
   for (Vector2d& corner : corners) {
     corner = ToRootFrame(part, root, corner);
     if (moving < 0 && imposed < 0) corner = RootFrame(root).ToWorld(corner);
@@ -77,7 +78,7 @@ void OverlapMeter::AddPart(const Part& part, const Part& root, int assembly, int
   solid.imposed = imposed;
   solid.assembly = assembly;
   solid.moving = moving;
-  solid.group = part.group;
+  solid.filter = part.filter;
   const bool round = part.kind == ShapeKind::kCircle || part.kind == ShapeKind::kCapsule;
   solid.radius = round ? double{part.radius} : 0;
   solid.first = static_cast<int>(corners_.size());
@@ -98,7 +99,7 @@ void OverlapMeter::AddPart(const Part& part, const Part& root, int assembly, int
 
 bool OverlapMeter::MayCollide(const Solid& a, const Solid& b) const {
   if (a.assembly == b.assembly) return false;
-  if (a.group == b.group && a.group < 0) return false;
+  if (!seam::MayCollide(a.filter, b.filter)) return false;
   return !std::binary_search(joined_.begin(), joined_.end(), Ordered(a.assembly, b.assembly));
 }
 

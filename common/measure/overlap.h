@@ -18,10 +18,10 @@ class OverlapMeter {
   OverlapMeter(const Scene& scene, const Composition& composition);
 
   /// Returns the deepest overlap of any two parts that may collide, m, >= 0. Parts of one assembly,
-  /// of one negative group, of assemblies joined by a joint without `collide`, or both anchored may
-  /// not. `moving`: states of the moving assemblies, ascending by id, as
-  /// World::Read(0..body_count-1). `tick`: places kinematic parts. Infinite when a pose is not
-  /// finite.
+  /// whose filters exclude each other, of assemblies joined by a joint without `collide`, or both
+  /// anchored may not. Chains that move, as parts of bodies or on a path, are left out. `moving`:
+  /// states of the moving assemblies, ascending by id, as World::Read(0..body_count-1). `tick`:
+  /// places kinematic parts. Infinite when a pose is not finite.
   double Deepest(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
   /// Receives two parts and their overlap depth, m. A solid near terrain is reported once, with one
@@ -39,7 +39,7 @@ class OverlapMeter {
     int assembly = 0;  // index into the composition's assemblies
     int moving = -1;   // index into the states; -1: anchored
     int imposed = -1;  // anchored, but moved: index into imposed_
-    int group = 0;
+    CollisionFilter filter;
     int first = 0, count = 0;  // its corners
     double radius = 0;         // m
     int edge = -1;             // index into edges_; -1: not of a chain

@@ -17,15 +17,17 @@ using Eigen::Vector2d;
 /// Positions closer than this are equal, m.
 constexpr double kSame = 1e-3;
 
-/// Properties in which boxes must agree to be merged: angle, friction, restitution, group,
+/// Properties in which boxes must agree to be merged: angle, friction, restitution, filter,
 /// conveyor.
-using Kind = std::tuple<float, float, float, int, float, int, int>;
+using Kind = std::tuple<float, float, float, int, int, int, float, int, int>;
 
 Kind KindOf(const Part& part) {
   return {part.angle,
           part.material.friction,
           part.material.restitution,
-          part.group,
+          part.filter.group,
+          part.filter.category,
+          part.filter.mask,
           part.conveyor->speed,
           part.conveyor->player,
           static_cast<int>(part.conveyor->axis)};

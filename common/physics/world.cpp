@@ -216,7 +216,7 @@ double World::Energy() const {
     const double mass = static_cast<double>(m.mass.mass);
     const double inertia = static_cast<double>(m.mass.I) - mass * local.dot(local);
     energy += mass * velocity.dot(velocity) / 2 + inertia * spin * spin / 2;
-    energy -= mass * gravity.dot(centre);
+    energy -= static_cast<double>(m.body->GetGravityScale()) * mass * gravity.dot(centre);
   }
   return energy;
 }

@@ -76,7 +76,7 @@ b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
   data.I = static_cast<float>(own.inertia + own.mass * own.centre.dot(own.centre));
   // Box2D subtracts this again and asserts a positive rest. The rest is positive: the root is the
   // heaviest of at most 65 535 parts, so its distance to the centre is part of the inertia.
-  SEAM_ASSERT(own.inertia > 1e-5 * own.mass * own.centre.dot(own.centre));
+  SEAM_ASSERT(own.inertia > kInertiaLeft / 10 * own.mass * own.centre.dot(own.centre));
   return data;
 }
 
@@ -157,6 +157,9 @@ class Builder {
     if (kept) return;  // keeps its state
     made->GetUserData().pointer = i + 1;
     made->SetMassData(&memory_.mass[i]);
+    made->SetLinearDamping(memory_.motion[i].linear_damping);
+    made->SetAngularDamping(memory_.motion[i].angular_damping);
+    made->SetGravityScale(memory_.motion[i].gravity_scale);
     const Part& root = scene_.parts[static_cast<std::size_t>(of.id)];
     made->SetLinearVelocity(ToB2(root.velocity));
     made->SetAngularVelocity(root.spin);
@@ -215,6 +218,7 @@ void Arrange(std::size_t bodies, BuildMemory* memory) {
 void BuildMemory::Clear(std::uint64_t hash) {
   composition = hash;
   mass.clear();
+  motion.clear();
   for (b2Body* body : bodies) {
     if (body != nullptr) aside.DestroyBody(body);
   }
@@ -260,7 +264,10 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
       continue;
     }
     const std::size_t index = built.moving.size();
-    if (memory->mass.size() == index) memory->mass.push_back(MassDataOf(scene, assembly));
+    if (memory->mass.size() == index) {
+      memory->mass.push_back(MassDataOf(scene, assembly));
+      memory->motion.push_back(AssemblyMotion(scene, assembly));
+    }
     memory->assembly_of.push_back(static_cast<int>(a));
     built.moving.push_back({nullptr, assembly.id, assembly.mechanism, memory->mass[index]});
     builder.AddMoving(static_cast<int>(index), nullptr);

@@ -15,6 +15,7 @@
 #include "common/physics/world_shapes.h"
 #include "common/scene/assembly.h"
 #include "common/scene/mass.h"
+#include "common/scene/motion/part_motion.h"
 #include "common/scene/scene.h"
 
 namespace seam {
@@ -45,6 +46,7 @@ struct BuiltScene {
 struct BuildMemory {
   std::uint64_t composition = 0;          ///< hash of the parts of each body
   std::vector<b2MassData> mass;           ///< by moving body; empty: not known yet
+  std::vector<PartMotion> motion;         ///< likewise
   int revision = 0;                       ///< number of edits that the scene has had
   int share_revision = -1;                ///< revision of `share` and `shared`
   std::vector<bool> share;                ///< by assembly: see ShareBodies

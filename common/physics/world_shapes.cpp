@@ -89,7 +89,9 @@ class Pieces {
     def_.friction = part.material.friction;
     def_.restitution = part.material.restitution;
     def_.userData.pointer = static_cast<std::uintptr_t>(part.id);
-    def_.filter.groupIndex = static_cast<int16>(part.group);
+    def_.filter.groupIndex = static_cast<int16>(part.filter.group);
+    def_.filter.categoryBits = part.filter.category;
+    def_.filter.maskBits = part.filter.mask;
   }
   void Add(const b2Shape& shape) {
     def_.shape = &shape;

@@ -34,7 +34,7 @@ struct Composition {
   std::uint64_t hash = 0;             ///< hash of all of the above
 };
 
-/// Returns a part's mass from its shape and density, kg; 0 for lines.
+/// Returns a part's mass from its shape and density, kg; 0 for anchored lines.
 float PartMass(const Part& part);
 
 /// Returns true if a joint that is present makes its parts one body: glue, or a rigid weld unless

@@ -124,7 +124,7 @@ std::vector<Part> CharacterParts(const CharacterDraft& draft) {
     part.material.density = draft.density;
     MoveToCentre(&part);
     part.material.friction = draft.friction;
-    part.group = draft.group;
+    part.filter.group = draft.group;
     part.velocity = draft.velocity;
     part.owner = draft.owner;
     part.line = draft.character.line;

@@ -140,8 +140,10 @@ class Count {
 
   bool MayCollide(const Box& a, const Box& b) const {
     if (a.assembly == b.assembly || std::max(a.part, b.part) < first_) return false;
-    const int group = scene_.parts[static_cast<std::size_t>(a.part)].group;
-    if (group < 0 && group == scene_.parts[static_cast<std::size_t>(b.part)].group) return false;
+    if (!seam::MayCollide(scene_.parts[static_cast<std::size_t>(a.part)].filter,
+                          scene_.parts[static_cast<std::size_t>(b.part)].filter)) {
+      return false;
+    }
     if (joined_.empty()) return true;
     return joined_.count({std::min(a.assembly, b.assembly), std::max(a.assembly, b.assembly)}) == 0;
   }

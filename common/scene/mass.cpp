@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/scene/motion/part_motion.h"
+#include "common/scene/scene_limits.h"
 
 namespace seam {
 namespace {
@@ -39,9 +41,26 @@ MassProperties CapsuleProperties(const Part& part, double density) {
   return {box + discs, (first + last) / 2, inertia};
 }
 
-}  // namespace
+/// Strips of kLineWidth along the segments: each has the moment m (length^2 + width^2) / 12.
+MassProperties LineProperties(const Part& part, double density) {
+  constexpr auto kWidth = static_cast<double>(kLineWidth);
+  MassProperties all;
+  double second = 0;  // about the part's position
+  for (std::size_t i = 0; i + 1 < part.points.size(); ++i) {
+    const Eigen::Vector2d from = part.points[i].cast<double>(),
+                          to = part.points[i + 1].cast<double>();
+    const double length = (to - from).norm(), mass = density * length * kWidth;
+    const Eigen::Vector2d middle = (from + to) / 2;
+    all.mass += mass;
+    all.centre += mass * middle;
+    second += mass * ((length * length + kWidth * kWidth) / 12 + middle.squaredNorm());
+  }
+  all.centre /= all.mass;
+  all.inertia = second - all.mass * all.centre.squaredNorm();
+  return all;
+}
 
-MassProperties PartProperties(const Part& part) {
+MassProperties ShapeProperties(const Part& part) {
   const double density = static_cast<double>(part.material.density);
   switch (part.kind) {
     case ShapeKind::kBox: {
@@ -57,9 +76,18 @@ MassProperties PartProperties(const Part& part) {
     case ShapeKind::kCapsule: return CapsuleProperties(part, density);
     case ShapeKind::kPolygon: return PolygonProperties(part, density);
     case ShapeKind::kChain:
-    case ShapeKind::kSegment: break;
+    case ShapeKind::kSegment:
+      return part.anchored ? MassProperties{} : LineProperties(part, density);
   }
   return {};
+}
+
+}  // namespace
+
+MassProperties PartProperties(const Part& part) {
+  MassProperties own = ShapeProperties(part);
+  if (part.motion->fixed_rotation) own.inertia = kFixedInertia;
+  return own;
 }
 
 Eigen::Vector2d ToRootFrame(const Part& part, const Part& root, const Eigen::Vector2d& point) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/scene/feature.h"
+#include "common/scene/motion/collision_filter.h"
 #include "common/scene/types.h"
 
 namespace seam {
@@ -20,6 +21,7 @@ struct Strand;        // strand.h
 struct Thrust;        // forces.h
 struct Expected;      // expected.h
 struct Grouping;      // grouping.h
+struct PartMotion;    // motion/part_motion.h
 struct PartRules;     // part_rules.h
 struct PlannerRules;  // planner/planner_rules.h
 struct ScriptSource;  // part_rules.h
@@ -28,7 +30,8 @@ struct Water;         // water.h
 
 enum class ShapeKind { kBox, kCircle, kCapsule, kPolygon, kChain, kSegment };
 
-/// True for shapes without an inside: always anchored, without mass.
+/// True for shapes without an inside: anchored unless the scene says otherwise; a moving one has
+/// the mass of a strip (mass.h).
 inline bool IsLine(ShapeKind kind) {
   return kind == ShapeKind::kChain || kind == ShapeKind::kSegment;
 }
@@ -51,11 +54,12 @@ struct Part {
                              ///< solid on its right-hand side along its points), segment (2) or the
                              ///< centres of a capsule's ends (2)
   Material material;
-  bool anchored = false;  ///< never moves (lines always are)
+  bool anchored = false;  ///< never moves
   bool bullet = false;    ///< continuous collision against moving bodies
-  int group = 0;          ///< Box2D group index: equal negative groups do not collide
+  CollisionFilter filter;
   Vec2 velocity{0, 0};    ///< m/s at tick 0, of the assembly's centre of mass
   float spin = 0;         ///< rad/s at tick 0
+  Feature<PartMotion> motion;
   Feature<PartRules> rules;
   int owner = -1;  ///< player with the authority while connected; -1: by region
   Feature<Connectors> connectors;
@@ -85,7 +89,8 @@ struct Joint {
   Vec2 anchor_a{0, 0};     ///< world, at tick 0
   Vec2 anchor_b{0, 0};     ///< world; at first as anchor_a, unless kDistance, kRope, kPulley
   Vec2 axis{0, 1};         ///< world, unit; kWheel: spring's; kPrismatic: motion's
-  float frequency_hz = 0;  ///< spring's (wheel, distance, weld); 0: rigid
+  float frequency_hz = 0;  ///< spring's (wheel, distance, weld); 0: rigid. A prismatic joint's
+                           ///< spring is a distance joint of its own, coupled to it
   float damping_ratio = 0.7f;
   float length = -1;           ///< m; kRope: the most; -1: as placed; kPulley: the sum with `ratio`
   bool limited = false;        ///< kRevolute, kWheel, kPrismatic, kDistance
@@ -108,8 +113,8 @@ struct Joint {
   double phase = 0;        ///< kKinematic: share of the cycle done at tick 0
   bool ease = false;       ///< kKinematic: pauses for a moment at each point
   float turning = 0;       ///< kKinematic: rad/s about the anchor
-  /// kGear: the two coupled joints (hinge or prismatic, earlier in the scene). The gear's a and b
-  /// are their second parts. With q the angle or shift of each since the start:
+  /// Earlier joints with which this one ends. kGear: the two coupled joints (hinge or prismatic).
+  /// The gear's a and b are their second parts. With q the angle or shift of each since the start:
   /// q[0] + ratio * q[1] = 0
   std::array<int, 2> coupled{-1, -1};
   /// kGear: rad or m of the first joint for 1 rad or m of the second; not 0.

@@ -25,7 +25,9 @@ const std::vector<JointName>& JointNames() {
       {"glue", JointKind::kGlue, {"a", "anchor", "strength"}},
       {"hinge", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
       {"revolute", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
-      {"prismatic", JointKind::kPrismatic, {"a", "anchor", "axis", "limits", "motor", "collide"}},
+      {"prismatic",
+       JointKind::kPrismatic,
+       {"a", "anchor", "axis", "frequency", "damping_ratio", "limits", "motor", "collide"}},
       {"wheel",
        JointKind::kWheel,
        {"a", "anchor", "axis", "frequency", "damping_ratio", "limits", "motor", "collide"}},
@@ -197,6 +199,26 @@ void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
   draft->scene.joints.push_back(joint);
 }
 
+/// Adds a joint, and the spring of a prismatic one: a sprung distance along the axis to a point of
+/// a's frame that b does not reach.
+void AddSprung(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
+  Joint slide = joint;
+  const bool sprung = HoldOf(joint.kind) == JointHold::kAxis && joint.frequency_hz > 0;
+  if (sprung) slide.frequency_hz = 0;
+  Add(r, slide, draft);
+  if (!sprung) return;
+  Joint spring = joint;
+  spring.name += ".spring";
+  spring.kind = JointKind::kDistance;
+  spring.length = joint.limited ? 1 + std::max(joint.upper, -joint.lower) : kSpringTravel;
+  spring.anchor_a -= spring.length * joint.axis;
+  spring.limited = false;
+  spring.motor_player = -1;
+  spring.motor_torque = 0;
+  spring.coupled[0] = static_cast<int>(draft->scene.joints.size()) - 1;
+  Add(r, spring, draft);
+}
+
 void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
   const Repeat repeat = ReadRepeat(r, draft->file);
   if (repeat.joined) r.FailAt("repeat", "repeat: only parts are welded or glued");
@@ -211,7 +233,7 @@ void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
       joint.anchor_b += repeat.Offset(column, row);
       joint.ground_a += repeat.Offset(column, row);
       joint.ground_b += repeat.Offset(column, row);
-      Add(r, joint, draft);
+      AddSprung(r, joint, draft);
     }
   }
 }
@@ -233,6 +255,7 @@ void ReadDetails(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
       break;
     case JointKind::kPrismatic:
       ReadAxis(r, Vec2(1, 0), joint);
+      ReadSpring(r, joint);
       ReadLimits(r, joint);
       ReadMotor(r, draft, joint);
       break;
@@ -306,7 +329,7 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   if (r.Has("repeat")) {
     Copy(r, joint, draft);
   } else {
-    Add(r, joint, draft);
+    AddSprung(r, joint, draft);
   }
 }
 

@@ -27,6 +27,12 @@ constexpr std::size_t kPolygonPointsMax = 64, kChainPointsMax = 2000;
 constexpr std::size_t kPathPointsMax = 200;
 /// kg/m^2; the engine's solver needs moderate mass ratios.
 constexpr Range kDensity{0.01, 100};
+/// 1/s; above 100 a body stops within a tick. Times gravity.
+constexpr Range kPartDamping{0, 100}, kGravityScale{-10, 10};
+/// m. Width of a moving line for its mass: twice the rim of the engine's shapes.
+constexpr float kLineWidth = 0.02f;
+/// m. Travel of a prismatic spring without limits, to either side.
+constexpr float kSpringTravel = 100;
 /// Least number of the engine's steps a second, normally one a tick. The engine moves a body by at
 /// most 2 m and turns it by at most a quarter turn in a step. With fewer steps it would slow bodies
 /// that are within the two limits below.

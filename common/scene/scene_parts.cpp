@@ -1,6 +1,8 @@
 
 #include "common/scene/connectors.h"
 #include "common/scene/forces.h"
+#include "common/scene/mass.h"
+#include "common/scene/motion/part_motion.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -8,10 +10,6 @@ namespace seam {
 namespace {
 
 void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
-  if (!part->anchored)
-    part->anchored = r.Flag("anchored", false);
-  else if (!r.Flag("anchored", true))
-    r.FailAt("anchored", "a line is always anchored");
   part->bullet = r.Flag("bullet", false);
   part->velocity = r.Vector("velocity", {-speed_limit, speed_limit}, Vec2(0, 0));
   part->spin = r.Number("spin", {-kSpinMax, kSpinMax}, 0.0f);
@@ -21,6 +19,15 @@ void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
   if (part->anchored && (r.Has("velocity") || r.Has("spin"))) {
     r.Fail("an anchored part cannot have velocity or spin");
   }
+}
+
+/// Single precision holds a body's moment of inertia about its position, from which the engine
+/// subtracts that of its mass at the centre: the rest has to be left.
+void CheckCentre(const SceneReader& r, const Part& part) {
+  if (part.anchored) return;
+  const MassProperties own = PartProperties(part);
+  if (own.inertia > kInertiaLeft * own.mass * own.centre.squaredNorm()) return;
+  r.Fail("its shape lies too far from its position for its size");
 }
 
 /// Returns the owners of the copies, in turn; -1 for nobody.
@@ -92,13 +99,16 @@ void FollowCopy(const SceneReader& r, int followed, const Repeat& repeat, int co
 }
 
 void ReadPart(const TomlNode& node, SceneDraft* draft) {
-  SceneReader r(node, draft->file, "part",
-                {"name",        "box",         "circle",   "capsule", "wedge",         "polygon",
-                 "chain",       "segment",     "position", "angle",   "density",       "friction",
-                 "restitution", "anchored",    "bullet",   "group",   "conveyor",      "velocity",
-                 "spin",        "owner",       "owners",   "repeat",  "health",        "damage",
-                 "score",       "permissions", "inlets",   "outlets", "join_strength", "join_reach",
-                 "join_angle"});
+  SceneReader r(
+      node, draft->file, "part",
+      {"name",          "box",           "circle",      "capsule",        "wedge",
+       "polygon",       "chain",         "segment",     "position",       "angle",
+       "density",       "friction",      "restitution", "anchored",       "bullet",
+       "group",         "conveyor",      "velocity",    "spin",           "owner",
+       "owners",        "repeat",        "health",      "damage",         "score",
+       "permissions",   "inlets",        "outlets",     "join_strength",  "join_reach",
+       "join_angle",    "category",      "mask",        "linear_damping", "angular_damping",
+       "gravity_scale", "fixed_rotation"});
   const std::string name = r.Name("name");
   r.Rename("part '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {
@@ -106,15 +116,17 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   }
   Part part;
   part.line = r.line();
-  ReadShape(r, r.Flag("anchored", false) ? kSizeMaxMax : draft->size_max, &part);
+  part.anchored = r.Flag("anchored", r.Has("chain") || r.Has("segment"));
+  ReadShape(r, part.anchored ? kSizeMaxMax : draft->size_max, &part);
   part.position = r.Vector("position", kCoordinate, Vec2(0, 0));
   part.angle = r.Number("angle", {-100, 100}, 0.0f);
   part.material.density = r.Number("density", kDensity, part.material.density);
   part.material.friction = r.Number("friction", {0, 1}, part.material.friction);
   part.material.restitution = r.Number("restitution", {0, 1}, part.material.restitution);
-  part.group = r.Integer("group", {-1000, 1000}, 0);
   ReadConveyor(r, *draft, &part);
   ReadMotion(r, draft->scene.speed_limit, &part);
+  ReadPartMotion(r, &part);
+  CheckCentre(r, part);
   part.rules.Set(ReadPartRules(r, *draft));
   part.connectors.Set(ReadConnectors(r));
   const std::vector<int> owners = ReadOwners(r, *draft, part.anchored);

@@ -52,10 +52,10 @@ void ReadWedge(const SceneReader& r, float size_max, Part* part) {
   CheckPolygon(r, "wedge", size_max, *part);
 }
 
-void ReadLine(const SceneReader& r, const char* key, Part* part) {
+void ReadLine(const SceneReader& r, const char* key, float size_max, Part* part) {
   const bool chain = part->kind == ShapeKind::kChain;
-  part->anchored = true;
-  part->points = r.Points(key, kCoordinate, chain ? kChainPointsMax : 2);
+  const Range range = part->anchored ? kCoordinate : Range{-size_max, size_max};
+  part->points = r.Points(key, range, chain ? kChainPointsMax : 2);
   if (!chain && part->points.size() != 2) r.FailAt(key, "a segment has 2 points");
   const Status status = ValidateChain(part->points);
   if (!status.ok()) r.FailAt(key, status.why());
@@ -85,10 +85,10 @@ void ReadShape(const SceneReader& r, float size_max, Part* part) {
     CheckPolygon(r, "polygon", size_max, *part);
   } else if (r.Has("chain")) {
     part->kind = ShapeKind::kChain;
-    ReadLine(r, "chain", part);
+    ReadLine(r, "chain", size_max, part);
   } else {
     part->kind = ShapeKind::kSegment;
-    ReadLine(r, "segment", part);
+    ReadLine(r, "segment", size_max, part);
   }
 }
 

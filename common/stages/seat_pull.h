@@ -18,21 +18,22 @@ template <typename Each, typename VelocityOf>
 b2Vec2 PullTogether(const Each& each, const VelocityOf& velocity_of, float spin, float h,
                     const b2Vec2& gravity) {
   float whole = 0;
-  b2Vec2 before(0, 0), asked(0, 0);
+  b2Vec2 before(0, 0), asked(0, 0), fall(0, 0);
   each([&](b2Body* body, float mass) {
     whole += mass;
     before += mass * body->GetLinearVelocity();
     asked += mass * velocity_of(body);
+    fall += mass * h * body->GetGravityScale() * gravity;
   });
   if (whole <= 0) return b2Vec2(0, 0);
   const b2Vec2 change = (1 / whole) * (asked - before);
   const float most = kSeatPull * h, size = change.Length();
   const b2Vec2 short_by = size > most ? (1 - most / size) * change : b2Vec2(0, 0);
   each([&](b2Body* body, float /*mass*/) {
-    body->SetLinearVelocity(velocity_of(body) - short_by - h * gravity);
+    body->SetLinearVelocity(velocity_of(body) - short_by - h * body->GetGravityScale() * gravity);
     body->SetAngularVelocity(spin);
   });
-  return asked - before - whole * (short_by + h * gravity);
+  return asked - before - whole * short_by - fall;
 }
 
 }  // namespace seam

@@ -282,7 +282,8 @@ Status Topology::Insert(const InsertEdit& edit) {
 void Topology::Break(std::int32_t joint) {
   scene_.joints[static_cast<std::size_t>(joint)].gone = true;
   if (IsBond(joint)) free_bonds_.insert(joint);
-  for (std::size_t j = 0; j < scene_.joints.size(); ++j) {  // a gear ends with either of its joints
+  for (std::size_t j = 0; j < scene_.joints.size();
+       ++j) {  // a gear ends with either of its joints, a spring with its slide
     const Joint& gear = scene_.joints[j];
     const bool on_it = gear.coupled[0] == joint || gear.coupled[1] == joint;
     if (on_it && !gear.gone) Break(static_cast<std::int32_t>(j));

@@ -88,7 +88,7 @@ int Through(float skin) {
     part.angle = between(0, 6.28);
     part.velocity = Vec2(between(-20, 20), -between(10, 100));
     part.spin = between(-30, 30);
-    part.group = -1;
+    part.filter.group = -1;
     scene.parts.push_back(part);
   }
   World world(scene);

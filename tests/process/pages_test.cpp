@@ -16,8 +16,8 @@ namespace pages_test {
 
 using Words = std::vector<std::string>;
 
-constexpr const char* kPrograms[] = {"seam-server",  "seam-client", "seam-render",
-                                     "seam-measure", "seam-export", "seam-lab"};
+constexpr const char* kPrograms[] = {"seam-server", "seam-client", "seam-render", "seam-measure",
+                                     "seam-export", "seam-import", "seam-lab"};
 
 std::string Generated(const std::string& program, const std::string& kind) {
   Program run({BuiltProgram(program), "--generate", kind});

@@ -122,7 +122,7 @@ follow = "car"
   EXPECT_EQ(car.material.friction, 0.3f);
   EXPECT_EQ(car.material.restitution, 0.4f);
   EXPECT_TRUE(car.bullet);
-  EXPECT_EQ(car.group, -2);
+  EXPECT_EQ(car.filter.group, -2);
   EXPECT_EQ(car.velocity, Vec2(3, -4));
   EXPECT_EQ(car.spin, 5);
   EXPECT_EQ(car.owner, 0);

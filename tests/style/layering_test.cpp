@@ -180,6 +180,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"common/scene/joints", "common/scene(/toml)?"},
+      {"common/scene/motion", "common/scene(/toml)?"},
       {"common/scene/charges", "common/scene(/toml)?"},
       {"common/scene/planner", "common/scene(/toml)?"},
       {"common/scene/saved", "common/scene"},
@@ -188,6 +189,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
       {"render/export", "render/canvas"},
+      {"render/import", "none"},
       {"render/page", "render/(canvas|draw|playback)"},
       {"tests/support/allocations", "none"},
       {"tests/support/browser", "tests/support"},
@@ -267,7 +269,7 @@ TEST(Layering, EveryIncludeOfOursIsWrittenFromTheRoot) {
 TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn(
       "common/(physics|stages)/.*|tests/lab/hard/raw_box2d\\.cpp|tests/physics/"
-      "contact_find_test\\.cpp",
+      "contact_find_test\\.cpp|tests/render/import_dump_test\\.cpp",
       kCode, "box2d/.*|Box2D/.*");
   ExpectOnlyIn("render/canvas/canvas[^/]*", kCode, "GL/.*|EGL/.*");
   ExpectOnlyIn("common/record/bus\\.cpp", kCode, "lcm/.*");
@@ -279,6 +281,8 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/base/command/(command_line|command_table|mistake)\\.cpp", kCode, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
+  ExpectOnlyIn("render/import/rube\\.cpp", kCode, "nlohmann/.*");
+  ExpectOnlyIn("render/import/tiled\\.cpp", kCode, "tinyxml2\\.h");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
   ExpectOnlyIn("common/net/(udp|http_)[^/]*", kProduct,
                "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");

@@ -101,7 +101,7 @@ BodyState Flight::After(const BodyState& from, float seconds) {
 
 void Flight::Leg(Pose* at, float seconds) {
   for (int bounces = 0; bounces <= kBouncesMost && seconds > 0; ++bounces) {
-    b2Vec2 pull = world_->GetGravity();
+    b2Vec2 pull = body_->GetGravityScale() * world_->GetGravity();
     const b2Transform from = TransformOf(*at);
     FindNear(from, ShiftOf(*at, pull, seconds));
     if (!near_.empty()) pull = HeldBack(at, pull);

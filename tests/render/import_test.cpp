@@ -1,0 +1,151 @@
+/// seam-import: R.U.B.E. JSON and Tiled maps as scenes that load, and what is dropped.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
+#include "common/base/check.h"
+#include "common/scene/mass.h"
+#include "common/scene/motion/part_motion.h"
+#include "common/scene/scene.h"
+#include "render/import/imported.h"
+
+namespace seam {
+namespace import_test {
+
+const char* kRube = R"({
+"gravity": {"x": 0, "y": -9.5},
+"body": [
+ {"name": "ground", "type": 0, "position": 0, "angle": 0, "fixture": [
+   {"name": "terrain", "friction": 0.4,
+    "chain": {"vertices": {"x": [-10, 0, 10], "y": [1, 0, 1]}}}]},
+ {"name": "cart body", "type": 2, "position": {"x": 1, "y": 3}, "angle": 0.25,
+  "linearVelocity": {"x": 2, "y": 0}, "linearDamping": 0.5, "gravityScale": 0.5, "fixture": [
+   {"density": 2, "filter-categoryBits": 2, "filter-maskBits": 65533, "filter-groupIndex": -3,
+    "polygon": {"vertices": {"x": [-1, 1, 1, -1], "y": [-0.5, -0.5, 0.5, 0.5]}}},
+   {"density": 1, "circle": {"center": {"x": 1, "y": 0}, "radius": "3F000000"}},
+   {"name": "feeler", "sensor": true, "circle": {"center": 0, "radius": 3}}]},
+ {"name": "bob", "type": 2, "position": {"x": 1, "y": 1}, "angle": 0, "fixture": [
+   {"density": 0.001, "friction": 1.5, "polygon": {"vertices": {"x": [0, 1, 0.2, 0],
+     "y": [0, 0, 0.2, 1]}}}]}],
+"joint": [
+ {"type": "revolute", "name": "pin", "bodyA": 1, "bodyB": 2, "anchorA": {"x": 0.5, "y": -0.5},
+  "anchorB": {"x": 0, "y": 0}, "refAngle": 0.1, "enableLimit": true, "lowerLimit": -1,
+  "upperLimit": 1, "enableMotor": true, "motorSpeed": 3, "maxMotorTorque": 20},
+ {"type": "friction", "name": "rub", "bodyA": 0, "bodyB": 1}],
+"image": [{"name": "sky"}]
+})";
+
+std::string ErrorOf(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const OperatorError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+const Part& Named(const Scene& scene, const std::string& name) {
+  for (const Part& part : scene.parts) {
+    if (part.name == name) return part;
+  }
+  throw std::runtime_error("no part " + name);
+}
+
+TEST(Import, RubeBodiesFixturesAndJointsAreThere) {
+  Imported world = ReadRube(kRube, "r.json");
+  const Scene scene = ParseScene(SceneText(&world, "r.json"), "r.toml");
+  EXPECT_EQ(scene.gravity, Vec2(0, -9.5f));
+  const Part& cart = Named(scene, "cart-body");
+  EXPECT_EQ(cart.kind, ShapeKind::kBox);
+  EXPECT_EQ(cart.size, Vec2(2, 1));
+  EXPECT_NEAR(cart.angle, 0.25, 1e-6);
+  EXPECT_EQ(cart.filter.category, 2);
+  EXPECT_EQ(cart.filter.mask, 65533);
+  EXPECT_EQ(cart.filter.group, -3);
+  EXPECT_EQ(cart.motion->linear_damping, 0.5f);
+  EXPECT_EQ(cart.motion->gravity_scale, 0.5f);
+  EXPECT_EQ(cart.velocity, Vec2(2, 0));
+  EXPECT_EQ(Named(scene, "cart-body-2").radius, 0.5f) << "a float in hexadecimal digits";
+  EXPECT_EQ(Named(scene, "ground").kind, ShapeKind::kChain);
+  EXPECT_EQ(Named(scene, "ground-2").points.front(), Named(scene, "ground").points.back());
+  const auto pin = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                [](const Joint& j) { return j.name == "pin"; });
+  ASSERT_NE(pin, scene.joints.end());
+  EXPECT_EQ(pin->kind, JointKind::kRevolute);
+  EXPECT_EQ(pin->motor_speed, 3);
+  EXPECT_EQ(pin->lower, -1);
+  // The concave outline became triangles of the same area.
+  double area = 0;
+  for (const Part& part : scene.parts) {
+    if (part.name.rfind("bob", 0) == 0) area += PartProperties(part).mass / 0.01;
+  }
+  EXPECT_NEAR(area, 0.2, 1e-4);
+}
+
+TEST(Import, DroppedThingsAreListed) {
+  Imported world = ReadRube(kRube, "r.json");
+  SceneText(&world, "r.json");
+  std::string all;
+  for (const std::string& line : world.dropped) all += line + "\n";
+  for (const char* what : {"sky", "feeler: a sensor", "rub", "density", "friction of 1.5"}) {
+    EXPECT_NE(all.find(what), std::string::npos) << what << " in\n" << all;
+  }
+}
+
+TEST(Import, RubeMistakesAreOneLine) {
+  for (const char* text :
+       {"{", "{\"body\": 3}", "{}", "[]", "{\"body\": [{\"type\": 7}]}",
+        "{\"body\": [{\"fixture\": [{}]}]}", "{\"body\": [{\"angle\": \"zz\"}]}"}) {
+    const std::string error = ErrorOf([&] { ReadRube(text, "r.json"); });
+    EXPECT_EQ(error.rfind("r.json", 0), 0u) << text << ": " << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+}
+
+const char* kTiled = R"(<?xml version="1.0"?>
+<map width="10" height="10" tilewidth="16" tileheight="16">
+ <layer id="1" name="pictures" width="10" height="10"><data encoding="csv">0</data></layer>
+ <objectgroup name="solid">
+  <object id="1" name="floor" x="0" y="144" width="160" height="16"/>
+  <object id="2" name="hill" x="32" y="144"><polygon points="0,0 16,-16 32,-8 48,0"/></object>
+  <object id="3" name="start" x="1" y="1"><point/></object>
+ </objectgroup>
+ <objectgroup name="things" offsetx="16">
+  <properties><property name="body" value="dynamic"/></properties>
+  <object id="4" x="16" y="16" width="32" height="16" rotation="90">
+   <properties><property name="density" type="float" value="2"/></properties></object>
+  <object id="5" name="ball" x="80" y="32" width="16" height="16"><ellipse/></object>
+ </objectgroup>
+</map>)";
+
+TEST(Import, TiledObjectsStandWhereTheMapShowsThem) {
+  Imported world = ReadTiled(kTiled, "m.tmx", 16);
+  const Scene scene = ParseScene(SceneText(&world, "m.tmx"), "m.toml");
+  const Part& floor = Named(scene, "floor");
+  EXPECT_TRUE(floor.anchored);
+  EXPECT_LT((floor.position - Vec2(5, 0.5f)).norm(), 1e-5);
+  // Turned clockwise about its upper left corner at (2, 9): it hangs to the left and below.
+  const Part& box = Named(scene, "object-4");
+  EXPECT_FALSE(box.anchored);
+  EXPECT_LT((box.position - Vec2(1.5f, 8)).norm(), 1e-5) << box.position.transpose();
+  EXPECT_EQ(box.material.density, 2);
+  const Part& ball = Named(scene, "ball");
+  EXPECT_EQ(ball.radius, 0.5f);
+  EXPECT_LT((ball.position - Vec2(6.5f, 7.5f)).norm(), 1e-5);
+  EXPECT_EQ(world.dropped.size(), 2u) << "the layer of tiles and the point";
+}
+
+TEST(Import, TiledMistakesAreOneLine) {
+  for (const char* text :
+       {"<map", "<html/>", "<map/>", "<map><objectgroup><object x=\"a\"/></objectgroup></map>"}) {
+    const std::string error = ErrorOf([&] { ReadTiled(text, "m.tmx", 16); });
+    EXPECT_EQ(error.rfind("m.tmx", 0), 0u) << text << ": " << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+}
+
+}  // namespace import_test
+}  // namespace seam
