@@ -121,6 +121,7 @@ struct World::Impl {
   std::uint64_t JointsHash() const;
   /// True if the joint exists, or would if its bodies were not absent.
   bool Holds(std::size_t joint) const;
+  std::vector<bool> AllHeld() const;  ///< Holds of each joint
   std::vector<Pin> FindPins() const;
 
   /// Called before and after one of the engine's steps of h seconds.

@@ -108,11 +108,6 @@ std::vector<float> World::Impl::Speeds() const {
   return speeds;
 }
 
-bool World::Impl::Holds(std::size_t joint) const {
-  if (built.joints[joint] != nullptr) return true;
-  return all_present && all_present->made[joint] != 0 && !scene.joints[joint].gone;
-}
-
 std::uint64_t World::Impl::JointsHash() const {
   if (joints_hash && joints_hash_revision == topology.revision()) return *joints_hash;
   std::uint64_t hash = Fnv1a("", 0);

@@ -151,6 +151,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/physics/exact", "common/physics"},
       {"common/physics/flight", "none"},
+      {"common/physics/rest", "common/physics"},
       {"common/physics/saved", "common/physics"},
       {"common/codec/packed", "common/codec"},
       {"common/sync/table", "none"},
