@@ -150,11 +150,13 @@ void World::Step() {
   for (int i = 0; i < solver.substeps; ++i) {
     for (const auto& stage : w.stages) stage->BeforeStep(h);
     if (w.prescribed_count > 0) w.BeginPrescribedStep();
+    if (solver.sleep) w.slow.Before(w.present, w.built);
     if (w.exact) {
       w.exact->Step(h, solver.velocity_iterations, solver.position_iterations);
     } else {
       w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
     }
+    if (solver.sleep) w.slow.After(w.present, w.motions, w.built, h);
     if (w.ordered) OrderNewContacts(&*w.world);
     if (w.prescribed_count > 0) w.EndPrescribedStep(h);
   }

@@ -14,6 +14,7 @@
 #include "common/physics/contact_hub.h"
 #include "common/physics/exact/exact_step.h"
 #include "common/physics/flight/flight.h"
+#include "common/physics/rest/slow_watch.h"
 #include "common/physics/stage.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
@@ -43,6 +44,7 @@ struct World::Impl {
       body_of_id[static_cast<std::size_t>(built.moving[i].id)] = static_cast<int>(i);
     }
     motions.assign(built.moving.size(), Motion::kDynamic);
+    slow.Reset(built.moving.size());
     prescribed_count = 0;
     lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
@@ -167,6 +169,7 @@ struct World::Impl {
   std::optional<ExactStep> exact;      // only when there are joints for it
   std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
   std::vector<Motion> motions;         // by moving body
+  SlowWatch slow;
   mutable std::int64_t looks = 0;      // calls of moving()
   int prescribed_count = 0;            // number of kPrescribed bodies
   std::vector<BodyState>

@@ -79,6 +79,7 @@ WorldSnapshot World::Impl::Keep() {
                     b->GetAngularVelocity()};
       body.awake = b->IsAwake();
       body.quiet_s = b->*Member(SleepTime());
+      body.going_s = slow.going_s(static_cast<int>(i));
       return body;
     });
     stale[page] = 0;
@@ -260,6 +261,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     b->SetAngularVelocity(body.state.spin);
     b->SetAwake(body.awake);
     b->*Member(SleepTime()) = body.quiet_s;
+    slow.Restore(static_cast<int>(i), body.going_s);
     if (IsAside(*b)) MarkAside(static_cast<int>(i));
   });
   if (exact && snapshot.composition == composition.hash) exact->Leave(snapshot.left);

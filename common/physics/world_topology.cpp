@@ -181,7 +181,7 @@ std::vector<BodyState> Carry(const WorldBeforeEdit& before, const Scene& scene,
     body.state.position += jumps[i].position;
     body.state.angle += jumps[i].angle;
     body.awake = true;
-    body.quiet_s = 0;
+    body.quiet_s = body.going_s = 0;
   }
   return jumps;
 }
@@ -275,6 +275,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
         body.state = then.state;
         body.awake = then.awake;
         body.quiet_s = then.quiet_s;
+        body.going_s = then.going_s;
       }
       bodies.push_back(body);
       out->bodies.push_back(origin);
