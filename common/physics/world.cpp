@@ -150,12 +150,14 @@ void World::Step() {
     for (const auto& stage : w.stages) stage->BeforeStep(h);
     if (w.prescribed_count > 0) w.BeginPrescribedStep();
     FindNewContactsInOrder(&*w.world);
+    if (solver.sleep) w.slow.Before(w.present, w.built);
     if (w.exact) {
       w.exact->Step(h, solver.velocity_iterations, solver.position_iterations);
     } else {
       w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
     }
     OrderNewContacts(&*w.world);
+    if (solver.sleep) w.slow.After(w.present, w.activities, w.built, h);
     if (w.prescribed_count > 0) w.EndPrescribedStep(h);
   }
   if (!w.scene.seats.empty()) w.MarkAllAside();  // a stage may have moved a body there

@@ -55,6 +55,7 @@ struct WorldSnapshot {
     BodyState state;
     bool awake = true;
     float quiet_s = 0;  ///< how long it has been slow enough to sleep
+    float going_s = 0;  ///< how long it has been slow, and would not stay (rest/slow_watch.h)
   };
   /// A contact point's impulse: the warm start of the next step.
   struct Point {

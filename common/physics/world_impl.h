@@ -16,6 +16,7 @@
 #include "common/physics/exact/exact_step.h"
 #include "common/physics/flight/flight.h"
 #include "common/physics/outline/outline_contacts.h"
+#include "common/physics/rest/slow_watch.h"
 #include "common/physics/stage.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
@@ -56,6 +57,7 @@ struct World::Impl {
       body_of_id[static_cast<std::size_t>(built.moving[i].id)] = static_cast<int>(i);
     }
     activities.assign(built.moving.size(), Activity::kSimulated);
+    slow.Reset(built.moving.size());
     prescribed_count = 0;
     lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
@@ -134,6 +136,7 @@ struct World::Impl {
   std::uint64_t JointsHash() const;
   /// True if the joint exists, or would if its bodies were present.
   bool Holds(std::size_t joint) const;
+  std::vector<bool> AllHeld() const;  ///< Holds of each joint
   std::vector<Pin> FindPins() const;
 
   /// Called before and after one of the engine's steps of h seconds.
@@ -183,6 +186,7 @@ struct World::Impl {
   std::optional<ExactStep> exact;      // only when there are joints for it
   std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
   std::vector<Activity> activities;    // by moving body
+  SlowWatch slow;
   mutable std::int64_t looks = 0;      // calls of moving()
   int prescribed_count = 0;            // number of kPrescribed bodies
   std::vector<BodyState>

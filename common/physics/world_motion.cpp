@@ -231,6 +231,17 @@ BodyState World::AfterFlight(int body, const BodyState& from, float seconds) con
   return impl_->flight.After(from, seconds);
 }
 
+bool World::Impl::Holds(std::size_t joint) const {
+  if (built.joints[joint] != nullptr) return true;
+  return all_present && all_present->made[joint] != 0 && !scene.joints[joint].gone;
+}
+
+std::vector<bool> World::Impl::AllHeld() const {
+  std::vector<bool> held;
+  for (std::size_t j = 0; j < built.joints.size(); ++j) held.push_back(Holds(j));
+  return held;
+}
+
 /// Stores the joints as they are while no body is aside.
 void World::Impl::SaveAllJoints(bool any_aside) {
   if (!any_aside) return all_present.reset();

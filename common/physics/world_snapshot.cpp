@@ -78,6 +78,7 @@ WorldSnapshot World::Impl::Keep() {
                     b->GetAngularVelocity()};
       body.awake = b->IsAwake();
       body.quiet_s = b->*Member(SleepTime());
+      body.going_s = slow.going_s(static_cast<int>(i));
       return body;
     });
     stale[page] = 0;
@@ -105,11 +106,6 @@ std::vector<float> World::Impl::Speeds() const {
     speeds[static_cast<std::size_t>(motor.index)] = motor.Speed();
   }
   return speeds;
-}
-
-bool World::Impl::Holds(std::size_t joint) const {
-  if (built.joints[joint] != nullptr) return true;
-  return all_present && all_present->made[joint] != 0 && !scene.joints[joint].gone;
 }
 
 std::uint64_t World::Impl::JointsHash() const {
@@ -262,6 +258,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot,
     b->SetAngularVelocity(body.state.spin);
     b->SetAwake(body.awake);
     b->*Member(SleepTime()) = body.quiet_s;
+    slow.Restore(static_cast<int>(i), body.going_s);
     if (IsAside(*b)) MarkAside(static_cast<int>(i));
   });
   if (exact && snapshot.composition == composition.hash) exact->Leave(snapshot.left);

@@ -12,6 +12,7 @@
 #include "common/base/geometry.h"
 #include "common/physics/blast_push.h"
 #include "common/physics/carried_along.h"
+#include "common/physics/rest/edit_wake.h"
 #include "common/physics/world_impl.h"
 #include "common/scene/mass.h"
 
@@ -38,17 +39,33 @@ void ShiftVelocity(const Vector2d& centre, double sign, BodyState* state) {
       (state->velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x())).cast<float>();
 }
 
+/// Motion of an assembly: pose of its root, velocity of its centre.
+struct RigidMotion {
+  BodyState state;
+  Vector2d centre{0, 0};  // m, in the root's frame: of mass, but a lift's root
+};
+
 /// The world before the edits.
 struct WorldBeforeEdit {
   Composition composition;
-  std::vector<Part> parts;                 // poses within their assemblies
-  std::vector<BodyState> states;           // by body, velocities of the centres of mass
-  std::vector<int> body_of_assembly;       // -1: anchored
-  std::vector<MassProperties> properties;  // by body, in the root's frame
+  std::vector<Part> parts;            // poses within their assemblies
+  std::vector<BodyState> states;      // by body, velocities of the centres of mass
+  std::vector<int> body_of_assembly;  // -1: anchored
+  std::vector<RigidMotion> motions;   // by assembly
 
   int BodyOf(PartId part) const {
     const int index = AssemblyIndex(composition, part);
     return index < 0 ? -1 : body_of_assembly[static_cast<std::size_t>(index)];
+  }
+  /// Returns the assembly with the part, if that moved or was moved along a path; else -1.
+  int MovedWith(PartId part) const {
+    const int index = AssemblyIndex(composition, part);
+    if (index < 0) return -1;
+    const Assembly& assembly = AssemblyOf(composition, index);
+    return assembly.anchored && assembly.kinematic < 0 ? -1 : index;
+  }
+  const RigidMotion& MotionOf(int assembly) const {
+    return motions[static_cast<std::size_t>(assembly)];
   }
   const Part& RootOf(PartId part) const {
     return parts[static_cast<std::size_t>(
@@ -93,19 +110,20 @@ Piece PieceOf(const WorldBeforeEdit& before, const Scene& scene, const Part& roo
 BodyOrigin OriginOf(const WorldBeforeEdit& before, const Scene& scene, const Assembly& now) {
   BodyOrigin origin;
   origin.body = before.BodyOf(now.id);
-  if (origin.body < 0) return origin;
-  const Assembly& then = AssemblyOf(before.composition, AssemblyIndex(before.composition, now.id));
-  origin.same = then.id == now.id && then.parts == now.parts;
+  const int moved_with = before.MovedWith(now.id);
+  if (moved_with < 0) return origin;
+  const Assembly& then = AssemblyOf(before.composition, moved_with);
+  origin.same = origin.body >= 0 && then.id == now.id && then.parts == now.parts;
   const Part& root_then = before.parts[static_cast<std::size_t>(then.id)];
   const Part& root_part = before.parts[static_cast<std::size_t>(now.id)];
   origin.root = ToRootFrame(root_part, root_then, Vector2d(0, 0));
   origin.angle = root_part.id == root_then.id
                      ? 0.0
                      : static_cast<double>(root_part.angle) - static_cast<double>(root_then.angle);
-  origin.centre_before = before.properties[static_cast<std::size_t>(origin.body)].centre;
+  origin.centre_before = before.MotionOf(moved_with).centre;
   std::vector<PartId> from_there;
   for (const PartId id : now.parts) {
-    if (before.BodyOf(id) == origin.body) from_there.push_back(id);
+    if (before.MovedWith(id) == moved_with) from_there.push_back(id);
   }
   const Part& root_now = scene.parts[static_cast<std::size_t>(now.id)];
   origin.centre = PieceOf(before, scene, root_now, from_there, true).centre_then;
@@ -120,25 +138,22 @@ BodyState StateOf(const WorldBeforeEdit& before, const Scene& scene, const Assem
   BodyState state;
   state.position = root.position;
   state.angle = root.angle;
-  if (origin.body >= 0) {
-    state = Carried(origin, before.states[static_cast<std::size_t>(origin.body)]);
-  }
-  std::map<int, std::vector<PartId>> by_body;
-  for (const PartId id : now.parts) by_body[before.BodyOf(id)].push_back(id);
+  const int moved_with = before.MovedWith(now.id);
+  if (moved_with >= 0) state = Carried(origin, before.MotionOf(moved_with).state);
+  std::map<int, std::vector<PartId>> pieces;  // by the assembly that they moved with
+  for (const PartId id : now.parts) pieces[before.MovedWith(id)].push_back(id);
   const MassProperties whole = AssemblyProperties(scene, now);
   const double angle = static_cast<double>(state.angle);
   Vector2d momentum{0, 0};
   double angular = 0;
-  for (const auto& [body, parts] : by_body) {
-    const Piece piece = PieceOf(before, scene, root, parts, body >= 0);
+  for (const auto& [assembly, parts] : pieces) {
+    const Piece piece = PieceOf(before, scene, root, parts, assembly >= 0);
     Vector2d velocity{0, 0};
     double spin = 0;
-    if (body >= 0) {
-      const BodyState& then = before.states[static_cast<std::size_t>(body)];
+    if (assembly >= 0) {
+      const auto& [then, centre] = before.MotionOf(assembly);
       spin = static_cast<double>(then.spin);
-      const Vector2d arm =
-          Turned(piece.centre_then - before.properties[static_cast<std::size_t>(body)].centre,
-                 static_cast<double>(then.angle));
+      const Vector2d arm = Turned(piece.centre_then - centre, static_cast<double>(then.angle));
       velocity = then.velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x());
     } else {
       velocity = root.velocity.cast<double>();  // 0 for anchored parts
@@ -166,7 +181,7 @@ std::vector<BodyState> Carry(const WorldBeforeEdit& before, const Scene& scene,
     body.state.position += jumps[i].position;
     body.state.angle += jumps[i].angle;
     body.awake = true;
-    body.quiet_s = 0;
+    body.quiet_s = body.going_s = 0;
   }
   return jumps;
 }
@@ -215,17 +230,19 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   const std::uint64_t hash = w.composition.hash;
   const std::size_t joints_before = w.scene.joints.size();
   WorldBeforeEdit before{w.composition, w.scene.parts, {}, BodyOfAssembly(w.composition), {}};
-  std::vector<bool> held;  // joints that exist, not broken ones
-  for (std::size_t j = 0; j < joints_before; ++j) held.push_back(w.Holds(j));
-  for (int body = 0; body < body_count(); ++body) before.states.push_back(Read(body));
-  for (const Assembly& a : w.composition.assemblies) {
-    if (!a.anchored) before.properties.push_back(AssemblyProperties(w.scene, a));
+  for (std::size_t a = 0; a < w.composition.assemblies.size(); ++a) {
+    const Assembly& assembly = w.composition.assemblies[a];
+    RigidMotion moved{ReadAssembly(static_cast<int>(a))};
+    const int body = before.body_of_assembly[a];
+    if (body >= 0) {
+      moved.centre = AssemblyProperties(w.scene, assembly).centre;
+      if (activity(body) != Activity::kSimulated) ShiftVelocity(moved.centre, 1, &moved.state);
+      before.states.push_back(moved.state);
+    }
+    before.motions.push_back(moved);
   }
-  for (int body = 0; body < body_count(); ++body) {
-    const auto b = static_cast<std::size_t>(body);
-    if (activity(body) == Activity::kSimulated) continue;
-    ShiftVelocity(before.properties[b].centre, 1, &before.states[b]);
-  }
+  const std::vector<bool> held = w.AllHeld();
+  const EditWake wake(*w.world, w.scene, w.built, held);
   const WorldSnapshot kept = w.Keep();
   const std::vector<Status> results = w.topology.Apply(edits);
   bool bonded = false;
@@ -258,6 +275,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
         body.state = then.state;
         body.awake = then.awake;
         body.quiet_s = then.quiet_s;
+        body.going_s = then.going_s;
       }
       bodies.push_back(body);
       out->bodies.push_back(origin);
@@ -273,6 +291,8 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     if (w.stages.size() == stages) snapshot.stages = kept.stages;
     w.memory.composition = 0;  // it belongs to other bodies or joints
     w.Rebuild(snapshot, &activities);
+    const EditWake::Edited edited{*w.world, w.scene, before.composition, w.composition, w.built};
+    for (const int body : wake.Bodies(edited, w.AllHeld())) SetAwake(body, true);
     w.impacts.clear();
   }
   for (const Edit& edit : edits) Do(edit);

@@ -78,6 +78,8 @@ struct Character {
   /// Gains of its controller, for optimisation; nullptr: the built-in ones. Not part of a scene
   /// file: a peer always uses the built-in ones.
   std::shared_ptr<const CharacterGains> gains;
+  /// m/s: when it dies, a blow that changes the velocity of a part by more tears a joint.
+  float tears_above = 5;
   bool grip = false;  ///< its hands may grip parts (common/topology/grip.h)
   int line = 0;       ///< line in the scene file
 };

@@ -54,6 +54,10 @@ CharacterDraft ReadDraft(const SceneReader& r, const std::string& name, const Sc
   if (draft.velocity.norm() > limit) {
     r.FailAt("velocity", "velocity is above the speed_limit of " + Decimal(limit) + " m/s");
   }
+  c.tears_above = r.Number("tears_above", {0, 1e6}, c.tears_above);
+  if (r.Has("tears_above") && !c.active) {
+    r.FailAt("tears_above", "all joints of a passive character break when it dies");
+  }
   c.grip = r.Flag("grip", false);
   if (c.grip && !c.active) r.FailAt("grip", "a passive character holds nothing");
   if (r.Has("player")) c.player = FindPlayer(r, "player", r.Text("player"), scene);
@@ -103,7 +107,7 @@ void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(
       node, draft->file, "character",
       {"name", "kind", "player", "owner", "position", "angle", "facing", "height", "density",
-       "friction", "strength", "torque", "velocity", "health", "grip", "group"});
+       "friction", "strength", "torque", "velocity", "health", "grip", "group", "tears_above"});
   const std::string name = r.Name("name");
   r.Rename("character '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {

@@ -48,6 +48,8 @@ class KinematicStage : public Stage {
       const bool there =
           FromB2(body->GetPosition()) == now.position && body->GetAngle() == now.angle;
       if (!there) body->SetTransform(ToB2(now.position), now.angle);
+      body->SetLinearVelocity(ToB2(now.velocity));  // also for an edit, and after a barrier
+      body->SetAngularVelocity(now.spin);
     }
   }
 

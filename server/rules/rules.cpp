@@ -63,6 +63,7 @@ void Rules::AfterTick() {
   happened_.clear();
   player_events_.clear();
   struck_by_.clear();
+  violence_ = Violence{};
 }
 
 void Rules::NoteNewParts() {

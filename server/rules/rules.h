@@ -13,6 +13,7 @@
 #include "common/physics/world.h"
 #include "common/sync/metadata.h"
 #include "server/rules/rule_source.h"
+#include "server/rules/tearing.h"
 #include "server/rules/triggers.h"
 
 namespace seam {
@@ -90,12 +91,14 @@ class Rules {
   // rules_charges.cpp
   void RunCharges();
   void SetOff(const Charge& charge);
+  void Blast(const BlastEdit& blast);  ///< throws ScriptRefusal
   // rules_damage.cpp
   void RunDamage();
   void Strike(const Blow& blow);
   void Hurt(PartId part, float amount, int by_player);
   void RunDeaths();
   void Die(PartId part);
+  void BreakJoints(const std::vector<int>& joints);
   // rules_scripts.cpp
   void RunScripts();
   void ReportStopped(Script& script);
@@ -120,6 +123,7 @@ class Rules {
   int last_checkpoint_ = 0;          // highest order in the scene
   std::size_t parts_noted_ = 0;      // parts with initial health set
   std::map<PartId, int> struck_by_;  // player, in this tick
+  Violence violence_;                // in this tick
   std::set<PartId> dead_;
   std::vector<TriggerEvent> happened_;  // trigger events of this tick
   struct Stay {

@@ -46,11 +46,16 @@ void Rules::SetOff(const Charge& charge) {
     centre += state.position;
   }
   try {
-    commands_.Blast(centre, charge.radius, charge.speed, charge.impulse);
+    Blast({centre, charge.radius, charge.speed, charge.impulse});
     Say(charge.name + " goes off");
   } catch (const ScriptRefusal& refusal) {
     commands_.Warn("charge " + charge.name + " does not go off: " + refusal.what());
   }
+}
+
+void Rules::Blast(const BlastEdit& blast) {
+  commands_.Blast(blast.centre, blast.radius, blast.speed, blast.impulse);
+  violence_.blasts.push_back(blast);
 }
 
 }  // namespace seam

@@ -8,21 +8,26 @@
 #include "common/topology/edit.h"
 #include "server/rules/part_owner.h"
 #include "server/rules/rules.h"
+#include "server/rules/tearing.h"
 #include "server/script/script_host.h"
 
 namespace seam {
 namespace {
 
-bool OfActiveCharacter(const Scene& scene, PartId id) {
-  return std::any_of(scene.characters.begin(), scene.characters.end(), [id](const Character& c) {
-    return c.active && std::find(c.parts.begin(), c.parts.end(), id) != c.parts.end();
-  });
+/// Returns nullptr if the part is of none.
+const Character* ActiveCharacterOf(const Scene& scene, PartId id) {
+  const auto found =
+      std::find_if(scene.characters.begin(), scene.characters.end(), [id](const Character& c) {
+        return c.active && std::find(c.parts.begin(), c.parts.end(), id) != c.parts.end();
+      });
+  return found == scene.characters.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 void Rules::RunDamage() {
-  for (const Blow& blow : source_.TakeImpacts()) Strike(blow);
+  violence_.blows = source_.TakeImpacts();
+  for (const Blow& blow : violence_.blows) Strike(blow);
 }
 
 void Rules::Strike(const Blow& blow) {
@@ -63,11 +68,12 @@ void Rules::RunDeaths() {
   }
 }
 
-/// Destroys a part, which stays in the room: an active character goes limp for good; any other
-/// mechanism breaks at its joints or, if it has none, at its welds.
+/// Destroys a part, which stays in the room: an active character goes limp for good, and what
+/// struck it in this tick tears the joints that it overloads; any other mechanism breaks at its
+/// joints or, if it has none, at its welds.
 void Rules::Die(PartId id) {
-  const bool person = OfActiveCharacter(scene(), id);
-  if (person) {
+  const Character* const person = ActiveCharacterOf(scene(), id);
+  if (person != nullptr) {
     try {
       commands_.Limp(id, kLimpUntilReleased);
     } catch (const ScriptRefusal&) {
@@ -82,9 +88,12 @@ void Rules::Die(PartId id) {
   if (by != struck_by_.end() && part.rules->score != 0) {
     table_.Add({kMetaPlayer, by->second, kMetaScore}, part.rules->score);
   }
+  if (person != nullptr) {
+    const auto read = [this](int body) { return source_.Read(body); };
+    return BreakJoints(OverloadedJoints(world_, *person, violence_, read));
+  }
   const int mechanism = MechanismOf(world_, id);
   if (mechanism < 0) return;
-  if (person) return;
   const std::vector<Joint>& joints = scene().joints;
   std::vector<int> moving, welds;
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -92,7 +101,11 @@ void Rules::Die(PartId id) {
                      MechanismOf(world_, joints[j].b) == mechanism;
     if (own) (joints[j].kind == JointKind::kWeld ? welds : moving).push_back(static_cast<int>(j));
   }
-  for (const int joint : moving.empty() ? welds : moving) {
+  BreakJoints(moving.empty() ? welds : moving);
+}
+
+void Rules::BreakJoints(const std::vector<int>& joints) {
+  for (const int joint : joints) {
     try {
       commands_.BreakJoint(joint);
     } catch (const ScriptRefusal&) {

@@ -80,7 +80,7 @@ void ScriptRoom::Limp(const std::string& character, float seconds) {
 }
 
 void ScriptRoom::Blast(const Vec2& centre, float radius, float speed, float impulse) {
-  rules_.commands_.Blast(centre, radius, speed, impulse);
+  rules_.Blast({centre, radius, speed, impulse});
 }
 
 void ScriptRoom::AddPart(const TomlNode& table) { rules_.commands_.Insert(ToToml("part", table)); }

@@ -152,6 +152,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/physics/exact", "common/physics"},
       {"common/physics/flight", "none"},
       {"common/physics/outline", "common/physics"},
+      {"common/physics/rest", "common/physics"},
       {"common/physics/saved", "common/physics"},
       {"common/codec/packed", "common/codec"},
       {"common/sync/table", "none"},

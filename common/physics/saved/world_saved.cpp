@@ -40,6 +40,7 @@ void Persist(StateArchive& a, WorldSnapshot* snapshot) {
     Persist(a, &body->state);
     a.Flag(&body->awake);
     a.Real(&body->quiet_s, kQuietMost);
+    a.Real(&body->going_s, kQuietMost);
   });
   if (a.reading()) snapshot->bodies.Take(bodies);
   a.List(&snapshot->points, kPointsMost, [&](WorldSnapshot::Point* point) {
