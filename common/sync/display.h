@@ -12,6 +12,7 @@
 #include "common/sync/mode.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
+#include "common/sync/show/delayed_path.h"
 #include "common/sync/show/joint_closer.h"
 #include "common/sync/show/reckoner.h"
 #include "common/sync/show/seat_glide.h"
@@ -44,7 +45,7 @@ class Display {
   const JointCloser& joints() const { return joints_; }
   /// Records that a state was this many ticks old on arrival.
   void AddAge(std::int64_t age_ticks) {
-    if (!config_.policy->Reckons()) delay_.AddAge(age_ticks);
+    if (!config_.policy->Reckons()) delayed_.AddAge(age_ticks);
   }
   /// Returns the displayed bodies with joints closed: all of them, or those that the peer
   /// simulates. utime is left 0.
@@ -53,8 +54,7 @@ class Display {
  private:
   void Edited(const BodyRemap& change);
   BodyState Visible(int body, BodyState jump) const;
-  BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
-  BodyState AlongReckoned(int body, BodyState state);
+  BodyState Along(int body, const BodyState& here, const PathSpeed& speed, const BodyState& state);
   void KeepClosed(const Roles& roles);
   /// True if a simulated mechanism may be displayed differently from its simulated poses.
   bool IsOff(int mechanism) const;
@@ -74,9 +74,9 @@ class Display {
   BodyMemory& memory_;
   const Snapshots& snapshots_;
   Smoother smoother_;
-  DisplayDelay delay_;
   JointCloser joints_;
   Reckoner reckoner_;
+  DelayedPath delayed_;
   SeatGlide seats_;
   std::function<void(int)> on_corrected_ = [](int) {};
   std::int64_t glides_ = 0;                        // number of Glide calls
