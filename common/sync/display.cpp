@@ -104,7 +104,7 @@ BodyState Display::Visible(int body, BodyState jump) const {
 }
 
 void Display::Moved(int body, const BodyState& by) {
-  if (!Negligible(by)) on_corrected_(body);
+  if (!Negligible(by)) on_corrected_(body, by);
   smoother_.Moved(body, Visible(body, by));
   corrected_until_[world_.mechanism(body)] = glides_ + kCorrectedTicks;
 }

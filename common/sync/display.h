@@ -37,8 +37,10 @@ class Display {
 
   /// Reports that the simulated state of `body` changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
-  /// Calls `call(body)` for each correction: a Moved by more than the wire's rounding.
-  void OnCorrected(std::function<void(int)> call) { on_corrected_ = std::move(call); }
+  /// Calls `call(body, by)` for each correction: a Moved by more than the wire's rounding.
+  void OnCorrected(std::function<void(int, const BodyState&)> call) {
+    on_corrected_ = std::move(call);
+  }
   /// Shows the body at its new place at once.
   void Reset(int body) { smoother_.Reset(body); }
   /// Closes joints of mechanisms, for the world's current bodies.
@@ -78,7 +80,7 @@ class Display {
   Reckoner reckoner_;
   DelayedPath delayed_;
   SeatGlide seats_;
-  std::function<void(int)> on_corrected_ = [](int) {};
+  std::function<void(int, const BodyState&)> on_corrected_ = [](int, const BodyState&) {};
   std::int64_t glides_ = 0;                        // number of Glide calls
   MechanismColumn<std::int64_t> corrected_until_;  // in glides: joints may be torn until then
   MechanismColumn<MovingBox> far_;                 // where a parked one may have moved to

@@ -1,5 +1,5 @@
 /// Mode central, clients that predict only their own: the server leaves out states that dead
-/// reckoning gives, and clients show what it leaves out.
+/// reckoning gives, and clients reckon on.
 
 #include <gtest/gtest.h>
 
