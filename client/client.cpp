@@ -36,8 +36,9 @@ constexpr std::int64_t kWorldAgeUs = 250000;
 /// A late joiner starts up to 1 s / kCatchesUpPart ago, with the states of that time, and steps up
 /// to now.
 constexpr std::int64_t kCatchesUpPart = 4;
-/// Mode central: inputs should arrive this long before the server needs them, us.
-constexpr double kInputMarginUs = 35000;
+/// Mode central: inputs should arrive this long before the server needs them, us, and at least a
+/// tick: one that is late costs a whole tick, however long.
+constexpr std::int64_t kInputMarginUs = 35000;
 
 }  // namespace
 
@@ -61,7 +62,6 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   // Join with its number is ignored.
   const bool lost = silence_us > kLostUs && (peer_ >= 0 || token_);
   if (lost || (peer_ >= 0 && released_ && silence_us < kLeaseUs)) {
-    if (peer_ >= 0) ++rejoins_;
     Join(now_us);
   }
   if (peer_ < 0) {
@@ -73,6 +73,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   }
   StartIfDue(now_us);
   late_us_ = 0;
+  line_ready_ = LineReady(now_us);
   const std::int64_t before = replica_ != nullptr ? replica_->tick() : 0;
   if (started_) StepDue(now_us);
   const auto ticks = replica_ != nullptr ? static_cast<int>(replica_->tick() - before) : 0;
@@ -80,12 +81,14 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   const bool stats_due = now_us - last_stats_us_ >= 1000000;
   if (publisher_ != nullptr && peer_ >= 0 && stats_due) PublishStats(now_us, cpu_us);
   if (started_) SendInputs(now_us);
-  Flush(now_us);
+  if (LineReady(now_us)) Flush(now_us);
+  net_.Flush();
 }
 
 void Client::SendReadyAndPing(std::int64_t now_us) {
   if (!said_ready_ && replica_ != nullptr && clock_.settled()) {
     said_ready_ = true;
+    ++sessions_;
     Ready ready;
     ready.utime = now_us;
     link_->SendReliable(Encode(ready));
@@ -112,14 +115,15 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
       ping.rest_blocks = static_cast<std::int16_t>(at.blocks);
       ping.rest_block = static_cast<std::int16_t>(at.block);
       ping.rest_part = static_cast<std::int32_t>(replica_->rest().HashOf(at, -1));
-      ping.load = load_.permille();
+      ping.load = std::max(load_.permille(), LineLoad(now_us));
     }
     link_->SendUnreliable(Encode(ping));
   }
 }
 
 std::int64_t Client::LeadTarget() const {
-  return static_cast<std::int64_t>(static_cast<double>(clock_.rtt_p90_us()) / 2 + kInputMarginUs);
+  const std::int64_t tick_us = 1000000 / room_.tick_hz;
+  return clock_.rtt_p90_us() / 2 + std::max(kInputMarginUs, tick_us);
 }
 
 std::int64_t Client::RoomTime(std::int64_t now_us) {
@@ -163,7 +167,6 @@ void Client::StepDue(std::int64_t now_us) {
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t due = time * hz / 1000000;
   if (due - replica_->tick() > kGiveUpTicks) {  // suspended for seconds: the server dropped us
-    ++rejoins_;
     Join(now_us);
     return;
   }
@@ -233,19 +236,6 @@ bool Client::EditsWait() {
   return edits_wait_;
 }
 
-void Client::SendInputs(std::int64_t now_us) {
-  if (player_ < 0 || policy_->IsOracle() || Quiet()) return;
-  const InputTrack& track = replica_->inputs(player_);
-  // Where edits wait for all players' inputs, an otherwise silent client must not delay them.
-  const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
-  const bool rides = link_->Sends(now_us) || (due && EditsWait());
-  const int count = feed_.Take(track, link_->acked(player_), replica_->tick(), rides);
-  if (count == 0) return;
-  Inputs inputs = track.Export(player_, count);
-  inputs.utime = now_us;
-  link_->SendUnreliable(Encode(inputs), {{player_, track.newest()}});
-}
-
 void Client::StepOnce(std::int64_t now_us) {
   RecordOwnInput();
   RecordKnownInputs();
@@ -264,7 +254,7 @@ void Client::StepOnce(std::int64_t now_us) {
   }
   for (States& states : replica_->TakeStates()) {
     states.utime = now_us;
-    if (!released_) link_->SendUnreliable(Encode(states));
+    if (!released_) SendStates(Encode(states));
   }
   TellRest(now_us);
   PublishShown(now_us);
@@ -294,18 +284,8 @@ std::int64_t Client::next_tick_us(std::int64_t now_us) {
   if (!started_) return now_us + 10000;
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t next = (replica_->tick() + 1) * 1000000 / room_.tick_hz;
-  return now_us + timeline_.RealUs(std::max<std::int64_t>(0, next - time)) + 1;
-}
-
-void Client::Flush(std::int64_t now_us) {
-  // Before the server has a session for us, it ignores datagrams of a link.
-  if (link_->last_receive_us() < 0) return net_.Flush();
-  link_->Flush(now_us, [&](ByteView datagram) {
-    stats_.bytes_out += static_cast<std::int64_t>(datagram.size);
-    stats_.datagrams_out += 1;
-    net_.Send(config_.server, datagram);
-  });
-  net_.Flush();
+  const std::int64_t step_us = timeline_.RealUs(std::max<std::int64_t>(0, next - time)) + 1;
+  return now_us + std::min(step_us, kInputRepeatUs);
 }
 
 void Client::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
@@ -334,17 +314,6 @@ PartId Client::vehicle() const {
     if (character.player == player_) return character.parts[kTorso];
   }
   return -1;
-}
-
-void Client::Shutdown(std::int64_t now_us) {
-  if (link_ == nullptr || closed_) return;
-  Bye bye;
-  bye.utime = now_us;
-  bye.reason = "left";
-  for (int copy = 0; copy < 4; ++copy) {  // may be lost, and is not retransmitted
-    link_->SendUnreliable(Encode(bye));
-    Flush(now_us);
-  }
 }
 
 }  // namespace seam

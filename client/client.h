@@ -2,6 +2,7 @@
 /// The peer of a player or spectator: joins a room, follows the server's timeline, simulates its
 /// part, and publishes its view. A function of time and the received datagrams.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "common/codec/packed/states_unpacker.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
+#include "common/net/send_credit.h"
 #include "common/record/recorder.h"
 #include "common/sync/edits/topology_snapshot.h"
 #include "common/sync/inputs/input_feed.h"
@@ -82,7 +84,9 @@ class Client {
   /// Speed of the room's clock, per million of real time: below kFullSpeedPpm the server is
   /// overloaded.
   std::int32_t speed_ppm() const { return timeline_.speed_ppm(); }
-  std::int64_t rejoins() const { return rejoins_; }
+  /// Sessions that became ready, as the server counts them; all but the first.
+  std::int64_t sessions() const { return sessions_; }
+  std::int64_t rejoins() const { return std::max<std::int64_t>(0, sessions_ - 1); }
   /// CPU time of our ticks in thousandths of their duration; -1: not known.
   std::int16_t load_permille() const { return load_.permille(); }
   /// Number of copies moved by received states, by more than the wire's rounding.
@@ -143,6 +147,14 @@ class Client {
   /// True if everything rests, here and at the server, and the player does nothing: then a ping a
   /// second is enough.
   bool Quiet() const;
+
+  // client_send.cpp
+  /// True if the path to the server carries a datagram now.
+  bool LineReady(std::int64_t now_us);
+  void SendStates(const Bytes& states);
+  /// Returns the states that are due to the server, in thousandths of its full path's rate;
+  /// -1: it is not full.
+  std::int16_t LineLoad(std::int64_t now_us);
   void SendInputs(std::int64_t now_us);
   /// True if edits wait for all players' inputs of the tick in which physics found them. Scans
   /// every part of the scene, once a revision.
@@ -195,12 +207,17 @@ class Client {
   std::int64_t worst_late_us_ = 0;
   std::int64_t late_us_ = 0;  // worst lateness of this call's ticks
   LoadMeter load_;
-  std::int64_t rejoins_ = 0;
+  std::int64_t sessions_ = 0;  // that became ready
   std::int64_t corrections_ = 0;
   bool edits_wait_ = false;
   int edits_wait_revision_ = -1;  // the revision of edits_wait_; -1: not looked up
   Input live_;
   InputFeed feed_;
+  SendCredit credit_;        // for the path to the server
+  bool line_ready_ = false;  // in this call of Tick
+  double offered_bytes_ = 0;
+  std::int64_t offered_us_ = -1;
+  std::int16_t line_permille_ = -1;
   std::int64_t discarded_ = 0;  // datagrams discarded by the net, as counted in stats_
   Stats stats_;
   std::optional<StatesUnpacker> unpacker_;  // for this link's packed states

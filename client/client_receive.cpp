@@ -195,7 +195,7 @@ void Client::MakeReplica(const Topology* become) {
   sync.shows_far = config_.shows || Published(static_cast<int>(bodies)) == Publish::kAll;
   const std::unique_ptr<Replica> before = std::move(replica_);
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
-  replica_->OnCorrected([this](int) { ++corrections_; });
+  replica_->OnCorrected([this](int, const BodyState&) { ++corrections_; });
   if (before == nullptr) return;
   // Keep all known inputs: our own of the next ticks may have been sent, and others do not repeat
   // the inputs that we acknowledged.

@@ -179,7 +179,7 @@ int Play(const Flags& f) {
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
-      throw OperatorError((client.rejoins() == 0 ? "no answer from " : "lost the server ") +
+      throw OperatorError((client.sessions() == 0 ? "no answer from " : "lost the server ") +
                           ToString(config.server) + "; gave up after " + Seconds(f.join_s) +
                           " s (--join-timeout)");
     }

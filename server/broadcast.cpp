@@ -55,8 +55,8 @@ void Broadcast::SendRestToFollowers(std::int64_t now_us, const std::vector<Grant
   for (const Grants& grants : changes) {
     for (const std::int32_t id : grants.mechanism) {
       const int m = table.IndexOf(id);
-      if (m < 0 || static_cast<std::size_t>(m) >= followers_.size()) continue;
-      std::vector<int> peers = followers_[static_cast<std::size_t>(m)];
+      if (m < 0) continue;
+      std::vector<int> peers = followers_[m];
       peers.push_back(table.at(m).authority);
       for (const int peer : peers) {
         Session* const session = sessions_.Find(peer);
@@ -72,20 +72,25 @@ void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
     auto next = grants.follower.begin();
     for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {
       const auto end = next + grants.followers[i];
-      const auto m = static_cast<std::size_t>(replica_.authority().IndexOf(grants.mechanism[i]));
-      if (m < followers_.size()) followers_[m].assign(next, end);
+      const int m = replica_.authority().IndexOf(grants.mechanism[i]);
+      if (m >= 0) followers_[m].assign(next, end);
       next = end;
     }
   }
+}
+
+void Broadcast::AddFollowers(const std::vector<int>& before, std::vector<int>* into) {
+  into->insert(into->end(), before.begin(), before.end());
+  std::sort(into->begin(), into->end());
+  into->erase(std::unique(into->begin(), into->end()), into->end());
 }
 
 void Broadcast::FindFollowers() {
   PeerSet ready;
   sessions_.ForEachReady(0, [&ready](const Session& session) { ready.Add(session.peer); });
   const AuthorityTable& table = replica_.authority();
-  followers_.resize(static_cast<std::size_t>(table.count()));
   for (int m = 0; m < table.count(); ++m) {
-    std::vector<int>& followers = followers_[static_cast<std::size_t>(m)];
+    std::vector<int>& followers = followers_[m];
     followers.clear();
     table.at(m).secondaries.Each([&](int peer) {
       if (ready.Has(peer)) followers.push_back(peer);
@@ -239,7 +244,7 @@ void Broadcast::LookAround(std::int64_t now_us) {
   const bool anew = stale();
   looked_at_ = replica_.table().renumbered();
   if (Plain()) return;
-  if (anew || std::exchange(peer_became_ready_, false) || followers_.empty()) FindFollowers();
+  if (std::exchange(peer_became_ready_, false) || anew) FindFollowers();
   std::vector<Interest::Receiver> receivers;
   sessions_.ForEachReady(0, [&](const Session& session) {
     receivers.push_back({session.peer, session.player});

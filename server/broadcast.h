@@ -34,7 +34,8 @@ class Broadcast {
         newest_(replica.world(), replica.table(), config.tick_hz),
         interest_(scene, config_, replica),
         grant_audience_(replica, interest_),
-        rest_audience_(replica) {}
+        rest_audience_(replica),
+        followers_(replica.table(), AddFollowers) {}
 
   /// True if views are published and something listens to the bus.
   bool ShowsViews() const { return views_ && publisher_.listening(); }
@@ -142,6 +143,8 @@ class Broadcast {
   void MarkForSending(const Session& session);
   void SendWaitingTo(std::int64_t now_us, Session& session, bool stepped);
   void NoteFollowers(const std::vector<Grants>& changes);
+  /// Lists followers of a mechanism after an edit: of all that it came from.
+  static void AddFollowers(const std::vector<int>& before, std::vector<int>* into);
   void FindFollowers();
   void RefreshDistant(std::int64_t now_us, Session& session);
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
@@ -179,9 +182,8 @@ class Broadcast {
   std::vector<Entry> entries_;               // in Relay: entries of the message
   std::vector<Due> due_;                     // in Relay, by peer; else empty
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
-  bool peer_became_ready_ = false;           // a peer became ready: followers_ is out of date
-  // Peers, in large rooms only.
-  std::vector<std::vector<int>> followers_;  // rebuilt by FindFollowers, by mechanism
+  bool peer_became_ready_ = true;            // a peer became ready: followers_ is out of date
+  MechanismColumn<std::vector<int>> followers_;  // peers, in large rooms only
   std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_
 };

@@ -1,5 +1,6 @@
 /// Broadcast, relay of states: finds the receivers of each entry of a message.
 
+#include <algorithm>
 #include <utility>
 
 #include "common/physics/stage.h"
@@ -44,7 +45,7 @@ void Broadcast::FindDue(int but_peer) {
     if (entry.to_followers && record.authority != but_peer) {
       AddDue(record.authority, entry, Urgency::kFollowed);
     }
-    for (const int peer : followers_[static_cast<std::size_t>(entry.mechanism)]) {
+    for (const int peer : followers_[entry.mechanism]) {
       const bool follows = record.authority != peer && record.secondaries.Has(peer);
       if (entry.to_followers && follows && peer != but_peer) {
         AddDue(peer, entry, Urgency::kFollowed);
@@ -88,8 +89,9 @@ bool Broadcast::SendsToFollowers(std::int64_t now_us, int holder, int body) {
 void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
   if (Plain()) {
     const Bytes whole = Encode(states);
-    sessions_.ForEachReady(from_peer,
-                           [&](Session& session) { session.link.SendUnreliable(whole); });
+    sessions_.ForEachReady(from_peer, [&](Session& session) {
+      if (session.send_queue.Ready(now_us)) session.link.SendUnreliable(whole);
+    });
     return;
   }
   const bool for_silent = from_peer == 0 && states.peer != 0;
@@ -125,6 +127,9 @@ void Broadcast::RelayDue(std::int64_t now_us, const States& states, const Due& d
   if (due.size() == states.id.size() && session.send_queue.empty() &&
       session.send_queue.Affords(now_us, due.size())) {
     session.packer.Add(states);
+    session.send_queue.NoteFollowed(static_cast<std::size_t>(std::count_if(
+        due.begin(), due.end(),
+        [](const std::pair<PartId, Urgency>& one) { return one.second == Urgency::kFollowed; })));
     MarkForSending(session);
     return;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace seam {
 namespace {
@@ -30,12 +31,31 @@ std::string Time(std::int64_t tick, std::int64_t last_tick, int tick_hz) {
   return fmt::format("{:.0f} of {:g} s", now, static_cast<double>(last_tick) / tick_hz);
 }
 
+/// Formats "0", or the counts by reason: "12 (10 stale, 2 over budget)".
+std::string DropsText(const DropCount& drops) {
+  const std::pair<std::int64_t, const char*> reasons[] = {{drops.malformed, "malformed"},
+                                                          {drops.stale, "stale"},
+                                                          {drops.right, "without right"},
+                                                          {drops.implausible, "implausible"},
+                                                          {drops.budget, "over budget"}};
+  std::string text;
+  for (const auto& [count, reason] : reasons) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", count, reason);
+  }
+  return std::to_string(drops.total()) + text + (text.empty() ? "" : ")");
+}
+
 }  // namespace
 
 std::string MissingPlayers(const Server& server) {
+  constexpr std::size_t kMissingNamed = 3;
+  const std::vector<std::string> missing = server.missing();
+  // One name more is as short as "and 1 more".
+  const std::size_t named = missing.size() <= kMissingNamed + 1 ? missing.size() : kMissingNamed;
   std::string names;
-  for (const std::string& name : server.missing()) names += (names.empty() ? "" : ", ") + name;
-  return names;
+  for (std::size_t i = 0; i < named; ++i) names += (i == 0 ? "" : ", ") + missing[i];
+  if (named == missing.size()) return names;
+  return names + fmt::format(" and {} more", missing.size() - named);
 }
 
 std::string ServerProgress(const Server& server, std::int64_t last_tick,
@@ -67,7 +87,7 @@ std::string SessionSummary(const std::vector<ClientAccount>& accounts) {
     const std::int64_t worst_us = a.readings > 0 ? a.rtt_us_max : -1;
     table += line(a.name + (a.player ? "" : " (guest)"), a.peer, a.sessions,
                   Milliseconds(a.rtt_us()), Milliseconds(worst_us), Percent(a.loss_ppm()),
-                  Amount(a.bytes_in), Amount(a.bytes_out), a.corrections, a.dropped);
+                  Amount(a.bytes_in), Amount(a.bytes_out), a.corrections, DropsText(a.dropped));
   }
   return table;
 }

@@ -74,7 +74,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
       broadcast_(recorder, config.room, config.publish != Publish::kNone, config.sync, scene_,
                  replica_, sessions_),
       clock_(config.sync.tick_hz) {
-  replica_.OnCorrected([this](int body) { NoteCorrected(body); });
+  replica_.OnCorrected([this](int body, const BodyState& by) { NoteCorrected(body, by); });
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, *edits_, sessions_);
   rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
@@ -109,7 +109,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   if (stats_.Due(now_us)) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
-    sessions_.ReadAccounts();
+    sessions_.ReadAccounts(&stats_.connections);
   }
   broadcast_.SendWaiting(now_us, replica_.tick() != before);
   RelayInputs(now_us);
@@ -225,13 +225,13 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   situation.peer_of_player = sessions_.PeerOfPlayer();
   situation.one_way_s.reserve(situation.peer_of_player.size());
   for (int& peer : situation.peer_of_player) {
-    const Session* session = sessions_.Find(peer);
+    Session* session = sessions_.Find(peer);
     const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
     const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
                         now_us - session->link.last_receive_us() > kSilentUs;
     if (silent) situation.silent.Add(peer);
     if (session != nullptr && session->lapsed) peer = -1;
-    situation.load.push_back(session != nullptr ? session->load : -1.0f);
+    situation.load.push_back(session != nullptr ? session->LoadAt(now_us) : -1.0f);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_->WaitingMechanisms();

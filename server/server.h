@@ -81,6 +81,8 @@ class Server {
   /// Number of the scene's players with a ready client.
   int player_count() const { return sessions_.player_count(); }
   const Stats& stats() const { return stats_.counters; }
+  /// Round trips, losses, corrections and repairs, since the start.
+  const Connections& connections() const { return stats_.connections; }
   /// Parts that were removed because they had left the scene's bounds, since the start.
   std::int64_t left_bounds() const { return bounds_.left(); }
   /// Decoded messages of sessions, since the start.
@@ -168,7 +170,7 @@ class Server {
   void ReleaseSilentDrivers(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
-  void NoteCorrected(int body);
+  void NoteCorrected(int body, const BodyState& by);
 
   const Scene scene_;
   const ServerConfig config_;

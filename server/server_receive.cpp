@@ -36,9 +36,9 @@ void Server::ReceiveAll(std::int64_t now_us) {
 }
 
 void Server::Deliver(std::int64_t now_us, Session& session, ByteView bytes) {
-  const std::int64_t before = Dropped(stats_.counters);
+  const DropCount before = DropsOf(stats_.counters);
   OnMessage(now_us, session, bytes);
-  session.account->dropped += Dropped(stats_.counters) - before;
+  AddDrops(stats_.counters, before, &session.account->dropped);
 }
 
 void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
@@ -98,7 +98,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   broadcast_.Say(now_us, session.name + " (peer " + std::to_string(session.peer) +
                              ") has another composition after " + std::to_string(ping.revision) +
                              " edits: repaired");
-  ++stats_.counters.dropped_implausible;
+  ++stats_.connections.compositions;
   session.link.SendReliable(Encode(edits_->BeginAnew(now_us)));
   SendWorld(now_us, session);
 }
@@ -119,6 +119,7 @@ void Server::LookAtRest(std::int64_t now_us, Session& session, const Ping& ping,
     session.rest.Skip(at);
   } else if (session.rest.Lost(now_us, at, rest.HashOf(at, -1),
                                static_cast<std::uint32_t>(ping.rest_part))) {
+    ++stats_.connections.rests;
     for (Rest& again : replica_.rest().Again(at, -1)) {
       again.utime = now_us;
       session.link.SendReliable(Encode(again));
@@ -205,13 +206,17 @@ void Server::RelayInputs(std::int64_t now_us, const std::vector<int>& players, S
     }
     input_receipts_.clear();
   };
+  if (!session.send_queue.Ready(now_us)) {
+    session.unsent_players = std::vector<int>(players);
+    return;
+  }
   bool rides = session.link.Sends(now_us);
   session.unsent_players.clear();
   for (const int p : players) {
     const InputTrack& track = replica_.inputs(p);
     if (track.newest() < 0) continue;
     InputFeed& feed = session.feeds[static_cast<std::size_t>(p)];
-    const int count = feed.Take(track, session.link.acked(p), replica_.tick(), rides);
+    const int count = feed.Take(track, session.link.acked(p), replica_.tick(), now_us, rides);
     if (count > 0) {
       Inputs& newest = newest_inputs_[static_cast<std::size_t>(p)];
       if (newest.drive.empty()) track.Export(p, kInputsRedundant, &newest);

@@ -1,9 +1,11 @@
 /// Server: effects of sessions that come and go, and the lines for people about them.
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/scene/forces.h"
 #include "common/sync/lease.h"
+#include "server/console.h"
 #include "server/rules/rules.h"
 #include "server/server.h"
 
@@ -118,11 +120,8 @@ void Server::Tell(const std::string& line) {
   if (news_.size() >= kNewsMax) return;
   std::string all = line + "; " + std::to_string(player_count()) + " of " +
                     std::to_string(scene_.players.size()) + " players";
-  const char* before = ", missing: ";
-  for (const std::string& name : missing()) {
-    all += before + name;
-    before = ", ";
-  }
+  const std::string names = MissingPlayers(*this);
+  if (!names.empty()) all += ", missing: " + names;
   news_.push_back(all);
 }
 
@@ -137,7 +136,8 @@ std::vector<std::string> Server::missing() const {
 
 /// Counts a correction of the server's copy of a body: for the client with authority over the body,
 /// or, if the server has it, for the client of the player that owns the body.
-void Server::NoteCorrected(int body) {
+void Server::NoteCorrected(int body, const BodyState& by) {
+  stats_.connections.corrected.Add(std::llround(double{by.position.norm()} * 1e6));
   const int mechanism = replica_.world().mechanism(body);
   const int peer = replica_.authority().at(mechanism).authority;
   const auto& mechanisms = replica_.world().composition().mechanisms;

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "common/codec/messages.h"
+#include "common/record/load_page.h"
+#include "server/sessions/account_book.h"
 
 namespace seam {
 
@@ -14,8 +16,23 @@ inline std::int64_t Dropped(const Stats& stats) {
          stats.dropped_implausible + stats.dropped_budget;
 }
 
+inline DropCount DropsOf(const Stats& stats) {
+  return {stats.dropped_malformed, stats.dropped_stale, stats.dropped_right,
+          stats.dropped_implausible, stats.dropped_budget};
+}
+
+/// Adds to `to` what was dropped since `before`.
+inline void AddDrops(const Stats& stats, const DropCount& before, DropCount* to) {
+  to->malformed += stats.dropped_malformed - before.malformed;
+  to->stale += stats.dropped_stale - before.stale;
+  to->right += stats.dropped_right - before.right;
+  to->implausible += stats.dropped_implausible - before.implausible;
+  to->budget += stats.dropped_budget - before.budget;
+}
+
 struct ServerStats {
   Stats counters;                  ///< since the start
+  Connections connections;         ///< since the start
   std::int64_t decoded = 0;        ///< messages, since the start
   std::int64_t jumps = 0;          ///< since the start
   std::int64_t worst_late_us = 0;  ///< latest tick since the last report

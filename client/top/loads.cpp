@@ -24,7 +24,9 @@ class BusLoads : public Loads {
                      if (load == nullptr) return;
                      // "SEAM.<room>.load"; a room's name has no dot.
                      const std::size_t end = channel.find('.', 5);
-                     heard_.push_back({channel.substr(5, end - 5), *load, {}, {}});
+                     RoomLoad& heard = heard_.emplace_back();
+                     heard.room = channel.substr(5, end - 5);
+                     heard.load = *load;
                    });
   }
   std::vector<RoomLoad> Take(std::int64_t) override {

@@ -21,9 +21,11 @@ class TopTable {
  private:
   struct Heard {
     Load before, now;
+    Connections before_connections, connections;
     std::int64_t before_us = 0, now_us = 0;
     double seconds() const { return static_cast<double>(now_us - before_us) * 1e-6; }
   };
+  static std::string LinesText(const Heard& heard);
   static std::string Row(const std::string& room, const Heard& heard);
 
   std::map<std::string, Heard> rooms_;

@@ -11,9 +11,10 @@ namespace seam {
 struct BucketHistogram {
   /// Upper bounds of the buckets, us, each about 1.5 times the one before. Longer durations are
   /// in `count` only.
-  static constexpr std::array<std::int64_t, 21> kBoundsUs = {
-      100,  150,   220,   330,   470,   680,   1000,  1500,   2200,   3300,  4700,
-      6800, 10000, 15000, 22000, 33000, 47000, 68000, 100000, 150000, 250000};
+  static constexpr std::array<std::int64_t, 25> kBoundsUs = {
+      100,    150,    220,    330,    470,    680,    1000,   1500,  2200,
+      3300,   4700,   6800,   10000,  15000,  22000,  33000,  47000, 68000,
+      100000, 150000, 250000, 330000, 470000, 680000, 1000000};
 
   std::array<std::int64_t, kBoundsUs.size()> at_most{};  ///< durations of at most kBoundsUs[i]
   std::int64_t count = 0;

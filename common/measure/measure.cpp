@@ -68,6 +68,7 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
   }
   Screen screen(recording, revisions ? &*revisions : nullptr);
   MeasurePointError(recording, oracle, screen, &measures);
+  MeasureServed(recording, screen, &measures);
   MeasureScreens(recording, oracle, revisions ? &*revisions : nullptr, screen, &measures);
   const RevisionHistory* changing = revisions && revisions->change() ? &*revisions : nullptr;
   MeasureSmoothness(recording, oracle, changing, &measures);

@@ -22,7 +22,12 @@ struct Measures {
   // RMS of the largest displacement of a point of each body: of other players' bodies in clients'
   // views, of clients' own bodies, and of the server's view. Empty where there is no such view.
   std::optional<double> error_others_m, error_own_m, error_server_m;
-  // The same for other players' bodies, against the oracle at the tick that is shown.
+  // Mode central: other players' bodies in clients' views against the server's view of the tick.
+  std::optional<double> error_served_m;
+  // Inputs that reached the server after the tick in which they should have acted, and that it did
+  // not guess. 0 where peers go back to a late input; empty where inputs have no tick of their own.
+  std::optional<std::int64_t> inputs_late;
+  // As error_others_m, against the oracle at the tick that is shown.
   std::optional<double> path_error_rms_m;
   std::optional<double> view_age_ms;  ///< age of that tick; empty if no span has a reliable age
   // Median latency from an input to visible motion: on the player's own screen, in the server's

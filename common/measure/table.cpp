@@ -30,6 +30,8 @@ const char* const kColumns[] = {"scene",
                                 "rebound",
                                 "bytes_per_s",
                                 "cpu_us_per_s",
+                                "inputs_late",
+                                "error_served_m",
                                 "valid"};
 /// Number of leading columns with text, aligned to the left.
 constexpr std::size_t kTextColumns = 5;
@@ -68,6 +70,8 @@ std::vector<std::string> Values(const MeasuredRun& run) {
                                      Number(m.rebound.value_or(0), m.rebound.has_value()),
                                      Number(m.bytes_per_s, m.bytes_per_s > 0),
                                      Number(m.cpu_us_per_s, m.cpu_us_per_s > 0),
+                                     m.inputs_late ? std::to_string(*m.inputs_late) : "",
+                                     Number(m.error_served_m),
                                      run.valid};
   // A session that is not valid has only its identity and the reason.
   for (std::size_t i = kIdentityColumns; !run.valid.empty() && i + 1 < values.size(); ++i) {

@@ -45,10 +45,12 @@ struct Link::Impl {
   std::deque<SentRecord> sent;  // for successive sequence numbers up to the newest
   std::vector<SentRecord> spare;
   std::int64_t srtt_us = -1;
+  LineRate rate;
   bool ever_acked = false;
   std::int64_t acks_newest = 0;  // largest acknowledged sequence number
   std::uint64_t acks_seen = 0;   // bit i: acks_newest - i is acknowledged
   bool quiet = false;
+  const SentRecord* sampled = nullptr;  // in ReadAcks: the newest that it acknowledges
 
   SequenceWindow window;
   std::int64_t flushed_newest = -1;  // window.newest() at the last Flush
@@ -110,6 +112,8 @@ struct Link::Impl {
       header.ack = static_cast<std::uint16_t>(ack);
       header.ack_bits = window.BitsBefore(ack);
     }
+    carried.bytes = writer.bytes();
+    carried.total = rate.NoteSent(packing.now_us, carried.bytes);
     RecordSent(packing.now_us);
     packing.send(writer.Finish(header));
     ++packing.datagrams;
@@ -140,11 +144,11 @@ struct Link::Impl {
     return std::min(last_send_us + (quiet ? kIdleQuietUs : kIdleUs), reliable.DueUs());
   }
 
-  void Flush(std::int64_t now_us, const Sink& send) {
+  void Flush(std::int64_t now_us, const Sink& send, std::size_t reliable_bytes) {
     FindAckPoints();
     Packing packing{now_us, send};
     const bool rides = !unreliable.empty() || MustSendDatagram(now_us);
-    reliable.Take(now_us, rides, [&](std::int64_t id, ByteView message) {
+    reliable.Take(now_us, rides, reliable_bytes, [&](std::int64_t id, ByteView message) {
       Pack(packing, {true, static_cast<std::uint16_t>(id), message});
       carried.ids.push_back(id);
     });
@@ -174,7 +178,11 @@ struct Link::Impl {
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
-    if (sample && !quiet) SampleRtt(now_us - record.sent_us);
+    rate.NoteArrived(record.bytes);
+    if (sample && !quiet) {
+      SampleRtt(now_us - record.sent_us);
+      sampled = &record;
+    }
     for (const Receipt& receipt : record.receipts) {
       std::int64_t& largest = arrived[static_cast<std::size_t>(receipt.slot)];
       largest = std::max(largest, receipt.number);
@@ -214,11 +222,14 @@ struct Link::Impl {
   void ReadAcks(std::int64_t ack, std::uint32_t bits, std::int64_t now_us) {
     // All zeros mean "nothing has arrived" until the first real ack.
     if (!ever_acked && static_cast<std::uint16_t>(ack) == 0 && bits == 0) return;
+    sampled = nullptr;
     if (!Seen(ack)) Acknowledge(ack, now_us, true);
     for (int i = 0; i < 32; ++i) {
       const bool arrived_too = ((bits >> i) & 1u) != 0;
       if (arrived_too && !Seen(ack - 1 - i)) Acknowledge(ack - 1 - i, now_us, false);
     }
+    if (sampled == nullptr) return;
+    rate.NoteRoundTrip(now_us, now_us - sampled->sent_us, sampled->total);
   }
 
   void DeliverReliable(std::int64_t now_us, const DatagramMessage& message, const Sink& deliver) {
@@ -287,10 +298,10 @@ bool Link::SendUrgent(ByteView message) {
   return impl_->reliable.Push(message, true);
 }
 
-void Link::Flush(std::int64_t now_us, const Sink& send) {
+void Link::Flush(std::int64_t now_us, const Sink& send, std::size_t reliable_bytes) {
   if (!Sends(now_us)) return;
   Wake();
-  impl_->Flush(now_us, send);
+  impl_->Flush(now_us, send, reliable_bytes);
 }
 
 bool Link::Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver) {
@@ -322,6 +333,7 @@ bool Link::SendsNow(std::int64_t now_us) const {
 }
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
+const LineRate& Link::rate() const { return impl_->rate; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }
 std::int64_t Link::rejected() const { return impl_->rejected; }
 bool Link::reliable_pending() const { return !impl_->reliable.empty(); }

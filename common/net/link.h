@@ -16,6 +16,7 @@
 
 #include "common/base/bytes.h"
 #include "common/base/limits.h"
+#include "common/net/line_rate.h"
 #include "common/net/net.h"
 #include "common/net/sent_record.h"
 
@@ -61,7 +62,9 @@ class Link {
   /// Unacknowledged reliable messages come first, about 9 kB per call, and are resent at intervals
   /// of the round trip so that they do not fill the path. Sends a datagram without messages (acks
   /// only) if nothing was sent for 100 ms or a reliable message has arrived since the last one.
-  void Flush(std::int64_t now_us, const Sink& send);
+  /// `reliable_bytes`: most bytes of reliable messages, besides one message.
+  void Flush(std::int64_t now_us, const Sink& send,
+             std::size_t reliable_bytes = std::numeric_limits<std::size_t>::max());
 
   /// Reads a datagram and calls `deliver` for each new message in it. Returns false, counts it and
   /// delivers nothing when it is malformed, of another session, a duplicate or too old. `deliver`
@@ -84,6 +87,8 @@ class Link {
   /// Returns the smoothed round trip (RFC 6298), including the peer's wait for its next datagram;
   /// -1 before the first sample.
   std::int64_t rtt_us() const;
+  /// Returns the rate that the path to the peer carries; the owner keeps to it (SendCredit).
+  const LineRate& rate() const;
   std::int64_t loss_ppm() const;  ///< share missing of the last 256 incoming sequence numbers
   std::int64_t rejected() const;  ///< datagrams for which Receive returned false
   bool reliable_pending() const;  ///< true if a reliable message is not acknowledged yet

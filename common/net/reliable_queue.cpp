@@ -95,15 +95,18 @@ void ReliableQueue::ChargeDuplicate(std::int64_t now_us, const Message& message)
       std::max(duplicates_paid_us_, now_us) + 1'000'000 * bytes / kDuplicateBytesPerS;
 }
 
-void ReliableQueue::Take(std::int64_t now_us, bool rides, const Pack& pack) {
+void ReliableQueue::Take(std::int64_t now_us, bool rides, std::size_t most_bytes,
+                         const Pack& pack) {
   if (now_us < due_us_ && !rides) return;
   const std::int64_t chance_us = rides ? kDuplicateRidesUs : kDuplicateDelayUs;
-  std::size_t budget = kTakeBytes;
+  std::size_t budget = std::min(kTakeBytes, most_bytes);
+  bool first = true;
   for (std::size_t i = 0; i < window_; ++i) {
     Message& message = messages_[i];
     if (message.acked || now_us < DueUs(message, chance_us)) continue;
-    if (message.bytes.size() > budget) break;
-    budget -= message.bytes.size();
+    if (message.bytes.size() > budget && !std::exchange(first, false)) break;
+    budget -= std::min(budget, message.bytes.size());
+    first = false;
     if (message.sent_us >= 0) {
       if (now_us - message.sent_us < late_us_) ChargeDuplicate(now_us, message);
       message.chance = false;

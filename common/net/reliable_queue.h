@@ -26,9 +26,9 @@ class ReliableQueue {
   /// Returns the earliest time at which a message may be due, us. Valid after Due returned false.
   std::int64_t DueUs() const { return due_us_; }
   using Pack = std::function<void(std::int64_t id, ByteView message)>;
-  /// Calls `pack` for each message due now. `rides`: a datagram goes out in any case, so that
-  /// duplicates may go earlier.
-  void Take(std::int64_t now_us, bool rides, const Pack& pack);
+  /// Calls `pack` for each message due now, of at most `most_bytes` besides the first one. `rides`:
+  /// a datagram goes out in any case, so that duplicates may go earlier.
+  void Take(std::int64_t now_us, bool rides, std::size_t most_bytes, const Pack& pack);
 
   bool empty() const { return messages_.empty(); }
   std::size_t size() const { return messages_.size(); }

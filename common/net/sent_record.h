@@ -1,6 +1,7 @@
 #pragma once
 /// A link's records of sent datagrams, by which an ack tells which messages have arrived.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Passing {
 /// The contents of a sent datagram.
 struct SentRecord {
   std::int64_t sent_us = 0;
+  std::size_t bytes = 0;
+  std::int64_t total = 0;  ///< LineRate::NoteSent
   bool acked = false;
   std::vector<std::int64_t> ids;
   std::vector<Receipt> receipts;

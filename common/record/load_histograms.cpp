@@ -10,16 +10,26 @@ namespace {
 struct Named {
   const char* name;
   const char* help;
-  BucketHistogram RoomLoad::*of;
+  BucketHistogram& (*of)(RoomLoad&);
 };
 const Named kHistograms[] = {
-    {"seam_tick_seconds", "Wall time of the ticks since the start.", &RoomLoad::tick},
-    {"seam_late_seconds", "Lateness of the ticks since the start.", &RoomLoad::late}};
+    {"seam_tick_seconds", "Wall time of the ticks since the start.",
+     [](RoomLoad& room) -> BucketHistogram& { return room.tick; }},
+    {"seam_late_seconds", "Lateness of the ticks since the start.",
+     [](RoomLoad& room) -> BucketHistogram& { return room.late; }},
+    {"seam_round_trip_seconds", "Round trips, of each client once a second.",
+     [](RoomLoad& room) -> BucketHistogram& { return room.connections.round_trip; }},
+    {"seam_queue_seconds", "Delay of a client's path by our own traffic, once a second.",
+     [](RoomLoad& room) -> BucketHistogram& { return room.connections.queue; }},
+    {"seam_loss_ratio", "Share of a client's datagrams that is lost, once a second.",
+     [](RoomLoad& room) -> BucketHistogram& { return room.connections.loss; }},
+    {"seam_corrected_metres", "Corrections of the server's copies of clients' bodies.",
+     [](RoomLoad& room) -> BucketHistogram& { return room.connections.corrected; }}};
 
 std::string Seconds(std::int64_t us) { return MetricNumber(static_cast<double>(us) * 1e-6); }
 
 void Write(const Named& named, const RoomLoad& load, std::string* text) {
-  const BucketHistogram& h = load.*named.of;
+  const BucketHistogram& h = named.of(const_cast<RoomLoad&>(load));  // which is only read
   const std::string name = named.name, room = "{room=\"" + load.room + '"';
   const std::string bucket = name + "_bucket" + room + ",le=\"";
   for (std::size_t i = 0; i < h.at_most.size(); ++i) {
@@ -63,7 +73,7 @@ void TakeHistogram(const std::string& name, const std::string& le, double value,
     const std::string of = named.name;
     if (name.rfind(of, 0) != 0) continue;
     const std::string what = name.substr(of.size());
-    BucketHistogram& h = room->*named.of;
+    BucketHistogram& h = named.of(*room);
     if (what == "_bucket") TakeBucket(le, std::llround(value), &h);
     if (what == "_count") h.count = std::llround(value);
     if (what == "_sum") h.sum_us = std::llround(value * 1e6);

@@ -70,6 +70,23 @@ const Reason kReasons[] = {{"malformed", &Load::dropped_malformed},
                            {"implausible", &Load::dropped_implausible},
                            {"budget", &Load::dropped_budget}};
 
+/// A number of the connections and its metric in the page.
+struct OfConnections {
+  const char* name;
+  const char* type;
+  const char* help;
+  std::int64_t Connections::*number;
+};
+const OfConnections kConnections[] = {
+    {"seam_repaired_compositions_total", "counter",
+     "Clients with other bodies than the server: sent anew.", &Connections::compositions},
+    {"seam_repaired_rests_total", "counter", "Clients that lacked bodies at rest: sent again.",
+     &Connections::rests},
+    {"seam_line_least_bytes_per_second", "gauge", "Least budget of a client now.",
+     &Connections::least_line},
+    {"seam_lines_thin", "gauge", "Clients that their path limits.", &Connections::thin_lines},
+};
+
 constexpr const char* kDropped = "seam_dropped_total";
 constexpr const char* kTrafficBytes = "seam_traffic_bytes_total";
 
@@ -137,6 +154,13 @@ void TakeTraffic(const Line& line, Load* load) {
   }
 }
 
+void TakeConnections(const Line& line, Connections* connections) {
+  for (const OfConnections& metric : kConnections) {
+    if (line.name != metric.name) continue;
+    connections->*metric.number = static_cast<std::int64_t>(line.value);
+  }
+}
+
 void Take(const Line& line, Load* load) {
   for (const Metric& metric : kMetrics) {
     if (line.name == metric.name) SetValue(metric, line.value, load);
@@ -160,6 +184,13 @@ std::string WriteLoadPage(const std::vector<RoomLoad>& loads) {
     text += Head(metric.name, metric.type, metric.help);
     for (const RoomLoad& of : loads) {
       text += Sample(metric.name, of.room, "", Value(metric, of.load));
+    }
+  }
+  for (const OfConnections& metric : kConnections) {
+    text += Head(metric.name, metric.type, metric.help);
+    for (const RoomLoad& of : loads) {
+      const auto number = static_cast<double>(of.connections.*metric.number);
+      text += Sample(metric.name, of.room, "", number);
     }
   }
   text += Head(kDropped, "counter", "Messages and datagrams that were dropped.");
@@ -194,10 +225,12 @@ std::vector<RoomLoad> ReadLoadPage(const std::string& text) {
     RoomLoad* found = nullptr;
     for (RoomLoad& known : loads) found = known.room == room ? &known : found;
     if (found == nullptr) {
-      loads.push_back({room, Load{}, {}, {}});
+      loads.emplace_back();
+      loads.back().room = room;
       found = &loads.back();
     }
     Take(line, &found->load);
+    TakeConnections(line, &found->connections);
     TakeHistogram(line.name, line.Label("le"), line.value, found);
   }
   return loads;

@@ -11,11 +11,23 @@
 
 namespace seam {
 
+/// The room's connections, since the start; each client is read once a second.
+struct Connections {
+  /// Round trip; delay that our own traffic adds to it; share lost on the way to the server, ppm.
+  BucketHistogram round_trip{}, queue{}, loss{};
+  BucketHistogram corrected{};    ///< distance of a correction of the server's copy, um
+  std::int64_t compositions = 0;  ///< clients with other bodies than the server: repaired
+  std::int64_t rests = 0;         ///< clients without some bodies at rest: sent again
+  std::int64_t least_line = 0;    ///< least budget of a client now, bytes/s
+  std::int64_t thin_lines = 0;    ///< clients whose path was full once, and is the limit now
+};
+
 struct RoomLoad {
   std::string room;
   Load load;
-  /// Wall time and lateness of all ticks since the start. Empty if the Load came from the bus.
-  BucketHistogram tick{}, late{};
+  // Only in the page; empty if the Load came from the bus.
+  BucketHistogram tick{}, late{};  ///< wall time and lateness of all ticks since the start
+  Connections connections{};
 };
 
 /// Returns the page: one metric after the other, each with a sample per room (docs/server.md).

@@ -11,8 +11,6 @@
 namespace seam {
 namespace {
 
-/// Maximum spin given to a kinematic body, rad/s: the engine clamps at 94.
-constexpr float kSpinDrivenMax = 90.0f;
 /// A larger turn within a tick is taken for a fast wheel's, which the eye cannot follow.
 constexpr float kTurnSeen = 0.5f;
 
@@ -84,9 +82,9 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory, Act
       activities_(activities),
       snapshots_(memory.snapshots()),
       smoother_(memory.table(), config.smooth_rate),
-      delay_(config.send_every()),
       joints_(world),
       reckoner_(world, memory.snapshots(), joints_),
+      delayed_(world, memory.snapshots(), config.send_every()),
       seats_(memory.table()),
       corrected_until_(memory.table(), MechanismRule::kFresh, 0),
       far_(memory.table(), MechanismRule::kFresh, Nowhere()),
@@ -106,7 +104,7 @@ BodyState Display::Visible(int body, BodyState jump) const {
 }
 
 void Display::Moved(int body, const BodyState& by) {
-  if (!Negligible(by)) on_corrected_(body);
+  if (!Negligible(by)) on_corrected_(body, by);
   smoother_.Moved(body, Visible(body, by));
   corrected_until_[world_.mechanism(body)] = glides_ + kCorrectedTicks;
 }
@@ -215,8 +213,12 @@ void Display::Leave(int body) {
 }
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
-  const double delay = config_.policy->Reckons() ? 0 : delay_.Advance();  // it has none
-  reckoner_.Begin(next);
+  const bool reckons = config_.policy->Reckons();
+  if (reckons) {
+    reckoner_.Begin(next);
+  } else {
+    delayed_.Begin(next);
+  }
   CheckParked(next, seen);
   leaving_.clear();
   FindDriven(world_, memory_, joints_, back_, next, &driven_);
@@ -231,11 +233,10 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
       state.spin = 0;
-    } else if (config_.policy->Reckons()) {
-      state = AlongReckoned(body, state);
+    } else if (reckons) {
+      state = Along(body, reckoner_.Here(body), reckoner_.Speed(body), state);
     } else {
-      state = AlongSnapshots(body, snapshots_.Interpolate(body, static_cast<double>(next) - delay),
-                             state);
+      state = Along(body, delayed_.Here(body), delayed_.Speed(body), state);
     }
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);
@@ -244,30 +245,10 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   for (const int body : leaving_) Leave(body);
 }
 
-/// Moves a body in the past, between snapshots: the path has no jumps; its steps are the velocity.
-BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState state) {
-  state.velocity = (target.position - state.position) / world_.dt();
-  if (state.velocity.norm() > world_.scene().speed_limit) {
-    // Too far for one tick: the body is placed there at once.
-    BodyState jump;
-    jump.position = target.position - state.position;
-    smoother_.Moved(body, jump);
-    state.position = target.position;
-    state.velocity.setZero();
-  }
-  // A fast wheel turns by more than the wire's angle can tell: its spin is set, its angle placed.
-  const float turn = WrapAngle(target.angle - state.angle);
-  const bool fast = std::fabs(turn) > kSpinDrivenMax * world_.dt();
-  state.spin = fast ? target.spin : turn / world_.dt();
-  if (fast) state.angle += turn - target.spin * world_.dt();
-  return state;
-}
-
-/// Moves a body in the present, by dead reckoning. Each message begins another path; the body is
-/// placed on it and gets the path's velocity, not that of the jump. The view glides over.
-BodyState Display::AlongReckoned(int body, BodyState state) {
-  const BodyState here = reckoner_.Here(body);
-  const PathSpeed& speed = reckoner_.Speed(body);
+/// Moves a body along its path. Each message begins another path; the body is placed on it and gets
+/// the path's velocity, not that of the jump. The view glides over.
+BodyState Display::Along(int body, const BodyState& here, const PathSpeed& speed,
+                         const BodyState& state) {
   BodyState along = here;
   along.angle = UnwrapAngle(here.angle, state.angle);
   along.velocity = speed.velocity;
@@ -275,8 +256,8 @@ BodyState Display::AlongReckoned(int body, BodyState state) {
   BodyState jump = Minus(along, state);
   if (std::fabs(jump.angle) > kTurnSeen) jump.angle = 0;
   jump.spin = 0;
-  // Velocity changes by gravity and bounces are no jumps.
-  if (snapshots_.falls(body)) jump.velocity.setZero();
+  // Velocity changes by gravity and bounces, and those along a path of the past, are no jumps.
+  if (snapshots_.falls(body) || !config_.policy->Reckons()) jump.velocity.setZero();
   smoother_.Moved(body, jump);
   return along;
 }

@@ -13,6 +13,7 @@
 #include "common/sync/reach/activities.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
+#include "common/sync/show/delayed_path.h"
 #include "common/sync/show/joint_closer.h"
 #include "common/sync/show/reckoner.h"
 #include "common/sync/show/seat_glide.h"
@@ -37,15 +38,17 @@ class Display {
 
   /// Reports that the simulated state of `body` changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
-  /// Calls `call(body)` for each correction: a Moved by more than the wire's rounding.
-  void OnCorrected(std::function<void(int)> call) { on_corrected_ = std::move(call); }
+  /// Calls `call(body, by)` for each correction: a Moved by more than the wire's rounding.
+  void OnCorrected(std::function<void(int, const BodyState&)> call) {
+    on_corrected_ = std::move(call);
+  }
   /// Shows the body at its new place at once.
   void Reset(int body) { smoother_.Reset(body); }
   /// Closes joints of mechanisms, for the world's current bodies.
   const JointCloser& joints() const { return joints_; }
   /// Records that a state was this many ticks old on arrival.
   void AddAge(std::int64_t age_ticks) {
-    if (!config_.policy->Reckons()) delay_.AddAge(age_ticks);
+    if (!config_.policy->Reckons()) delayed_.AddAge(age_ticks);
   }
   /// Returns the displayed bodies with joints closed: all of them, or those that the peer
   /// simulates. utime is left 0.
@@ -54,8 +57,7 @@ class Display {
  private:
   void Edited(const BodyRemap& change);
   BodyState Visible(int body, BodyState jump) const;
-  BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
-  BodyState AlongReckoned(int body, BodyState state);
+  BodyState Along(int body, const BodyState& here, const PathSpeed& speed, const BodyState& state);
   void KeepClosed(const Roles& roles);
   /// True if a simulated mechanism may be displayed differently from its simulated poses.
   bool IsOff(int mechanism) const;
@@ -76,11 +78,11 @@ class Display {
   Activities& activities_;
   const Snapshots& snapshots_;
   Smoother smoother_;
-  DisplayDelay delay_;
   JointCloser joints_;
   Reckoner reckoner_;
+  DelayedPath delayed_;
   SeatGlide seats_;
-  std::function<void(int)> on_corrected_ = [](int) {};
+  std::function<void(int, const BodyState&)> on_corrected_ = [](int, const BodyState&) {};
   std::int64_t glides_ = 0;                        // number of Glide calls
   MechanismColumn<std::int64_t> corrected_until_;  // in glides: joints may be torn until then
   MechanismColumn<MovingBox> far_;                 // where a parked one may have moved to

@@ -137,7 +137,9 @@ class Replica {
   std::int64_t replays_deferred() const { return replay_.deferred(); }
   /// Calls `call(body)` for each correction: a change of a body's simulated state by more than the
   /// wire's rounding, caused by messages.
-  void OnCorrected(std::function<void(int)> call) { display_.OnCorrected(std::move(call)); }
+  void OnCorrected(std::function<void(int, const BodyState&)> call) {
+    display_.OnCorrected(std::move(call));
+  }
 
   const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
   /// Records a player's input of a future tick, or a late one of a past tick.

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
+#include "common/sync/quantize.h"
 #include "common/sync/state_arithmetic.h"
 
 namespace seam {
@@ -15,8 +17,6 @@ namespace {
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
 constexpr std::size_t kKeptStates = 96;   // states per body: about three seconds
 constexpr std::int64_t kKeptTicks = 512;  // ...and none older than this
-constexpr std::size_t kAges = 90;         // ages used for the delay
-constexpr double kSlewPerTick = 0.02;     // ticks of delay per tick: 2 % slower or faster
 
 /// Returns the shortest vector on the segment from `a` to `b`: equal to both if they agree, 0 if
 /// they oppose each other or one is 0.
@@ -24,6 +24,13 @@ Vec2 LeastBetween(const Vec2& a, const Vec2& b) {
   const Vec2 way = b - a;
   const float length = way.squaredNorm();
   return length > 0 ? Vec2(a + std::clamp(-a.dot(way) / length, 0.0f, 1.0f) * way) : a;
+}
+
+/// True if the velocities of two states differ by what gravity adds in between, `pull`, within the
+/// rounding of the wire.
+bool FellBetween(const BodyState& before, const BodyState& after, const Vec2& pull) {
+  const float off = (after.velocity - before.velocity - pull).norm();
+  return off < 2 * kVelocityQuantum;
 }
 
 }  // namespace
@@ -97,7 +104,7 @@ const BodyState* Snapshots::At(int body, std::int64_t tick) const {
   return nullptr;
 }
 
-BodyState Snapshots::Interpolate(int body, double tick) const {
+BodyState Snapshots::Interpolate(int body, double tick, float dt, const Vec2& gravity) const {
   const Ring& ring = rings_[body];
   SEAM_ASSERT(ring.size() > 0);
   if (tick >= static_cast<double>(ring.newest_tick())) return ring.newest();
@@ -105,8 +112,15 @@ BodyState Snapshots::Interpolate(int body, double tick) const {
     const Stamped& a = ring.FromNewest(k);
     if (static_cast<double>(a.tick) > tick) continue;
     const Stamped& b = ring.FromNewest(k - 1);
-    const double t = (tick - static_cast<double>(a.tick)) / static_cast<double>(b.tick - a.tick);
-    return PlusScaled(a.state, Minus(b.state, a.state), static_cast<float>(t));
+    const float whole = static_cast<float>(b.tick - a.tick) * dt;
+    const float since = static_cast<float>(tick - static_cast<double>(a.tick)) * dt;
+    BodyState off = Minus(b.state, seam::Extrapolate(a.state, whole));
+    off.angle = WrapAngle(off.angle);
+    BodyState out = PlusScaled(seam::Extrapolate(a.state, since), off, since / whole);
+    if (FellBetween(a.state, b.state, whole * gravity)) {
+      out.position += (since * (since - whole) / 2) * gravity;
+    }
+    return out;
   }
   return ring.FromNewest(ring.size() - 1).state;
 }
@@ -149,23 +163,6 @@ BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float ma
 BodyState Snapshots::ExtrapolateNewest(int body, std::int64_t tick, float dt, float max_s) const {
   const Ring& ring = rings_[body];
   return Onward(ring, tick, dt, max_s, AccelerationBefore(0, ring, dt));
-}
-
-void DisplayDelay::AddAge(std::int64_t age_ticks) {
-  ages_.push_back(std::max<std::int64_t>(0, age_ticks));
-  if (ages_.size() > kAges) ages_.pop_front();
-}
-
-double DisplayDelay::Advance() {
-  if (ages_.empty()) return std::max(delay_, 0.0);
-  std::vector<std::int64_t> sorted(ages_.begin(), ages_.end());
-  const std::size_t rank = (sorted.size() - 1) * 19 / 20;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
-                   sorted.end());
-  const double target = static_cast<double>(sorted[rank] + interval_ticks_);
-  if (delay_ < 0) delay_ = target;
-  delay_ += std::clamp(target - delay_, -kSlewPerTick, kSlewPerTick);
-  return delay_;
 }
 
 }  // namespace seam

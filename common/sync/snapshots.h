@@ -3,7 +3,6 @@
 /// central, dead reckoning beyond the buffer zone), for pullers and for replays.
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include "common/scene/types.h"
@@ -42,9 +41,11 @@ class Snapshots {
 
   /// Returns the state of exactly this tick; nullptr if it is not kept.
   const BodyState* At(int body, std::int64_t tick) const;
-  /// Returns the state interpolated at a (fractional) tick; outside the kept range the oldest or
-  /// newest, never an extrapolation. Requires has(body).
-  BodyState Interpolate(int body, double tick) const;
+  /// Returns the state at a (fractional) tick between two kept ones: dead-reckoned from the one
+  /// before, with a share of its error at the one after that grows with time. Along a parabola
+  /// where gravity (m/s^2) alone has changed the velocity. Outside the kept range the oldest or
+  /// newest. Requires has(body).
+  BodyState Interpolate(int body, double tick, float dt, const Vec2& gravity) const;
   /// Returns the common acceleration of the last two intervals between states, m/s^2. 0 if they
   /// oppose each other, if one is too large to last or too long, or if the newest state is not of
   /// `tick`.
@@ -104,23 +105,6 @@ class Snapshots {
   static Ring AfterEdit(const BodyOrigin& origin, Ring* before);
 
   BodyColumn<Ring> rings_;
-};
-
-/// Display delay for which the next snapshot has nearly always arrived: the age that 19 of 20
-/// snapshots stay below, plus one interval. Changes slowly, because a jump of it is a stutter.
-class DisplayDelay {
- public:
-  explicit DisplayDelay(int interval_ticks) : interval_ticks_(interval_ticks) {}
-  /// Records that a snapshot was `age_ticks` old on arrival.
-  void AddAge(std::int64_t age_ticks);
-  /// Call once a tick. Returns the delay in ticks.
-  double Advance();
-  double ticks() const { return delay_; }
-
- private:
-  int interval_ticks_;
-  std::deque<std::int64_t> ages_;
-  double delay_ = -1;
 };
 
 }  // namespace seam

@@ -51,7 +51,8 @@ AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config,
       memory_(
           replica.table(),
           [this](int m, const std::vector<const Memory*>& before) { return Merged(m, before); }),
-      edited_(replica.table(), [this](const BodyRemap&) {
+      edited_(replica.table(), [this](const BodyRemap& change) {
+        plan_ = PlanAfter(change);
         open_.clear();
         restricted_ = RestrictedParts(replica_.world().scene());
         sleeping_index_.Clear(0);

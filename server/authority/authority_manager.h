@@ -140,6 +140,7 @@ class AuthorityManager {
   const AuthorityTable& table() const { return replica_.authority(); }
   /// Returns the state of a mechanism made of these.
   Memory Merged(int m, const std::vector<const Memory*>& before) const;
+  AuthorityPlan PlanAfter(const BodyRemap& change) const;
   /// Fills in the planner's input (authority_view.cpp).
   void Look(const PlannerInputs& situation);
   void LookAtPlayers(const PlannerInputs& situation, AuthorityView* view) const;
@@ -188,7 +189,7 @@ class AuthorityManager {
   Replica& replica_;
   const bool physics_edits_;
   const bool islands_;
-  AuthorityPlan plan_;     // rebuilt by Plan, by mechanism
+  AuthorityPlan plan_;     // rebuilt by Plan and by PlanAfter, by mechanism
   AuthorityView view_;     // input of the last plan; kept to reuse its memory
   std::vector<int> seen_;  // mechanisms in view_, ascending
   bool limited_ = false;   // the last plan had a player of limited capacity

@@ -78,4 +78,19 @@ void AuthorityManager::Persist(StateArchive& a) {
   }
 }
 
+/// Returns the plan of the mechanisms after an edit, until the next one is made.
+AuthorityPlan AuthorityManager::PlanAfter(const BodyRemap& change) const {
+  if (plan_.empty()) return {};
+  AuthorityPlan after(change.mechanisms.size());
+  for (std::size_t m = 0; m < after.size(); ++m) {
+    for (const int before : change.mechanisms[m]) {
+      const PlannedAuthority& planned = plan_[static_cast<std::size_t>(before)];
+      const bool decided = after[m].decided || planned.decided;
+      if (before == change.mechanisms[m].front()) after[m] = planned;
+      after[m].decided = decided;
+    }
+  }
+  return after;
+}
+
 }  // namespace seam

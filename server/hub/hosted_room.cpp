@@ -81,6 +81,7 @@ void HostedRoom::Tell(std::int64_t now_us) {
   publisher_.Publish(load);
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_.load = load;
+  newest_.connections = server_.connections();
 }
 
 /// Prefixes each event with its time: "12.3 s: bob is gone: left".

@@ -78,9 +78,11 @@ int ReportEnd(const Hub& hub) {
                static_cast<long long>(sum.dropped_implausible),
                static_cast<long long>(sum.dropped_budget), left_bounds, again, deferred, failures);
   for (const auto& room : hub.rooms()) {
-    if (hub.rooms().size() == 1) {
-      std::fputs(SessionSummary(room->server().accounts()).c_str(), stderr);
+    const std::string table = SessionSummary(room->server().accounts());
+    if (hub.rooms().size() > 1 && !table.empty()) {
+      std::fprintf(stderr, "room %s:\n", room->newest().room.c_str());
     }
+    std::fputs(table.c_str(), stderr);
     status = std::max(status, recording.End(room->sink().trouble()));
   }
   return status;

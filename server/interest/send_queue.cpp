@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -33,6 +34,7 @@ bool Same(const StatesHeader& a, const StatesHeader& b) {
 void SendQueue::Add(std::int64_t now_us, PartId id, Urgency urgency) {
   const auto i = static_cast<std::size_t>(id);
   pressing_ = pressing_ || urgency == Urgency::kFollowed;
+  if (urgency == Urgency::kFollowed) NoteFollowed(1);
   if (place_.size() <= i) place_.resize(i + 1, -1);
   if (place_[i] >= 0) {
     Urgency& before = waiting_[static_cast<std::size_t>(place_[i])].urgency;
@@ -43,19 +45,30 @@ void SendQueue::Add(std::int64_t now_us, PartId id, Urgency urgency) {
   waiting_.push_back({id, urgency, now_us});
 }
 
-void SendQueue::Fill(std::int64_t now_us) {
-  const double most = std::max(kBurst * bytes_per_s_, 2.0 * kDatagramBytesMax);
-  if (filled_us_ < 0) credit_ = most;
-  const double passed_s = filled_us_ < 0 ? 0 : 1e-6 * static_cast<double>(now_us - filled_us_);
-  filled_us_ = now_us;
-  // Messages sent before the states, such as the room, delay them by no more than a burst.
-  credit_ = std::min(std::max(credit_, -most) + passed_s * bytes_per_s_, most);
+bool SendQueue::Ready(std::int64_t now_us) {
+  if (bytes_per_s() <= 0) return true;
+  credit_.Fill(now_us, bytes_per_s());
+  return credit_.Ready();
+}
+
+std::size_t SendQueue::allowed() const {
+  if (bytes_per_s() <= 0) return std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(std::max(0.0, credit_.bytes()));
+}
+
+float SendQueue::FollowedLoad(std::int64_t now_us) {
+  if (loaded_us_ < 0) loaded_us_ = now_us;
+  if (now_us - loaded_us_ < kLoadUs) return load_;
+  const double carries = bytes_per_s() * static_cast<double>(now_us - loaded_us_) * 1e-6;
+  load_ = full_ && carries > 0 ? static_cast<float>(followed_ / carries) : 0.0f;
+  followed_ = 0;
+  loaded_us_ = now_us;
+  return load_;
 }
 
 bool SendQueue::Affords(std::int64_t now_us, std::size_t bodies) {
-  if (bytes_per_s_ <= 0) return true;
-  Fill(now_us);
-  return credit_ >= kMessageCost + each_ * static_cast<double>(bodies);
+  return Ready(now_us) && (bytes_per_s() <= 0 ||
+                           credit_.bytes() >= kMessageCost + each_ * static_cast<double>(bodies));
 }
 
 void SendQueue::NoteCost(std::size_t bytes, std::size_t bodies) {
@@ -64,8 +77,7 @@ void SendQueue::NoteCost(std::size_t bytes, std::size_t bodies) {
 }
 
 std::size_t SendQueue::Affordable(std::int64_t now_us) {
-  Fill(now_us);
-  const double bodies = (credit_ - kMessageCost) / each_;
+  const double bodies = Ready(now_us) ? (credit_.bytes() - kMessageCost) / each_ : 0;
   if (bodies >= static_cast<double>(waiting_.size())) return waiting_.size();
   if (bodies < 1 || now_us - part_us_ < kPartEveryUs) return 0;
   part_us_ = now_us;
@@ -106,7 +118,7 @@ const std::vector<SendQueue::Message>& SendQueue::Compose(std::int64_t now_us,
                                                           const NewestStates& newest) {
   composed_.clear();
   std::size_t count = waiting_.size();
-  if (bytes_per_s_ > 0) count = Affordable(now_us);
+  if (bytes_per_s() > 0) count = Affordable(now_us);
   if (count == 0) return composed_;
   order_.clear();
   for (std::size_t i = 0; i < count; ++i) {

@@ -6,6 +6,7 @@
 
 #include "common/codec/messages.h"
 #include "common/codec/wire_body.h"
+#include "common/net/send_credit.h"
 #include "common/sync/limits.h"
 #include "server/interest/newest_states.h"
 
@@ -21,12 +22,34 @@ enum class Urgency : std::uint8_t { kFar = 1, kNear = 3, kFollowed = 10 };
 class SendQueue {
  public:
   /// `bytes_per_s`: limit for everything sent to the receiver, UDP payload; 0: no limit.
-  explicit SendQueue(double bytes_per_s) : bytes_per_s_(bytes_per_s) {}
+  explicit SendQueue(double bytes_per_s) : most_per_s_(bytes_per_s) {}
+
+  /// Sets the rate that the path carries, which is another limit. `full`: it was full once.
+  void SetPath(double bytes_per_s, bool full) {
+    path_per_s_ = bytes_per_s;
+    full_ = full;
+  }
+  /// Returns the lesser limit, bytes/s; 0: none.
+  double bytes_per_s() const {
+    const bool path = path_per_s_ > 0 && (most_per_s_ <= 0 || path_per_s_ < most_per_s_);
+    return path ? path_per_s_ : most_per_s_;
+  }
+  /// True if the path is the lesser limit, and was full once.
+  bool IsThin() const { return full_ && bytes_per_s() == path_per_s_; }
+  /// True if the budget allows a datagram now.
+  bool Ready(std::int64_t now_us);
+  /// Returns the bytes that may be sent, as of the last Ready or Compose.
+  std::size_t allowed() const;
+  /// Returns the bytes of states of followed bodies, as a share of the full path's rate; 0
+  /// while the path is not full. Of the last kLoadUs.
+  float FollowedLoad(std::int64_t now_us);
+  /// Counts states of followed bodies that were not queued.
+  void NoteFollowed(std::size_t bodies) { followed_ += each_ * static_cast<double>(bodies); }
 
   /// Queues a body. The next Compose that has room for it sends its latest state.
   void Add(std::int64_t now_us, PartId id, Urgency urgency);
   /// Takes bytes that were sent to the receiver, in messages of any kind, out of the budget.
-  void Spend(std::size_t bytes) { credit_ -= static_cast<double>(bytes); }
+  void Spend(std::size_t bytes) { credit_.Spend(bytes); }
   /// States for one message: one authority, one tick, all near one origin.
   struct Message {
     StatesHeader header;
@@ -48,8 +71,8 @@ class SendQueue {
   /// Updates the estimate of bytes per body by the size of a message.
   void NoteCost(std::size_t bytes, std::size_t bodies);
 
-  /// s of the budget that may be sent at once.
-  static constexpr double kBurst = 0.1;
+  /// Time over which FollowedLoad is the mean, us.
+  static constexpr std::int64_t kLoadUs = 2000000;
   /// us between two sends when the budget does not cover the whole queue: many small messages would
   /// be mostly headers.
   static constexpr std::int64_t kPartEveryUs = 15000;
@@ -67,16 +90,19 @@ class SendQueue {
     PartId id;
     bool operator<(const Place& o) const;
   };
-  void Fill(std::int64_t now_us);
   /// Splits order_ into messages.
   void ComposeInOrder(const NewestStates& newest);
   /// Moves the states of highest priority to the front of the queue; returns how many fit the
   /// budget.
   std::size_t Affordable(std::int64_t now_us);
 
-  double bytes_per_s_, credit_ = 0;
+  double most_per_s_, path_per_s_ = 0;
+  bool full_ = false;
+  SendCredit credit_;
+  double followed_ = 0;  // bytes since loaded_us_
+  float load_ = 0;
+  std::int64_t loaded_us_ = -1;
   std::int64_t part_us_ = -1000000000;  // time of the last send of only a part of the queue
-  std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
   bool pressing_ = false;
   std::vector<Message> composed_;  // by the last Compose

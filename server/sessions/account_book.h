@@ -8,6 +8,12 @@
 
 namespace seam {
 
+/// Datagrams and messages that were dropped, by reason (stats_t).
+struct DropCount {
+  std::int64_t malformed = 0, stale = 0, right = 0, implausible = 0, budget = 0;
+  std::int64_t total() const { return malformed + stale + right + implausible + budget; }
+};
+
 /// Totals of all sessions under one name.
 struct ClientAccount {
   std::string name;
@@ -15,7 +21,7 @@ struct ClientAccount {
   bool player = false;                          ///< drives a player; else a spectator
   int sessions = 0;                             ///< sessions that became ready
   std::int64_t bytes_in = 0, bytes_out = 0;     ///< UDP payload
-  std::int64_t dropped = 0;                     ///< datagrams and messages from it, dropped
+  DropCount dropped;                            ///< datagrams and messages from it
   std::int64_t corrections = 0;                 ///< corrections of the server's copy of its bodies
   std::int64_t readings = 0;                    ///< readings of round trip and loss, one a second
   std::int64_t rtt_us_sum = 0, rtt_us_max = 0;  ///< over the readings

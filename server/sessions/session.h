@@ -1,6 +1,7 @@
 #pragma once
 /// The server's record of one client.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,7 +40,9 @@ struct Session {
         link(session.number),
         budget(allowed),
         send_queue(bytes_per_s),
-        packer(motion) {}
+        packer(motion) {
+    send_queue.SetPath(link.rate().bytes_per_s(), false);
+  }
 
   SessionId id;
   Link link;
@@ -67,6 +70,13 @@ struct Session {
   bool goodbye = false;  ///< the client itself said so
   std::string leaving_why;
   StatesPacker packer;  ///< states to send with the next flush
+
+  /// Returns the load of the client's machine or, if greater, of the path to it; below 0: unknown.
+  /// The planner takes a thin line as it takes a slow machine.
+  float LoadAt(std::int64_t now_us) {
+    const float line = send_queue.FollowedLoad(now_us);
+    return line > 0 ? std::max(load, line) : load;
+  }
 };
 
 }  // namespace seam

@@ -1,6 +1,7 @@
 /// SessionTable: functions over many sessions at once.
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "server/sessions/session_table.h"
@@ -44,10 +45,21 @@ std::int64_t SessionTable::WorstLossPpm() const {
   return worst;
 }
 
-void SessionTable::ReadAccounts() {
-  ForEachReady(0, [](Session& session) {
-    session.account->Read(session.link.rtt_us(), session.link.loss_ppm());
+void SessionTable::ReadAccounts(Connections* connections) {
+  double least = 0;
+  connections->thin_lines = 0;
+  ForEachReady(0, [&](Session& session) {
+    const Link& link = session.link;
+    session.account->Read(link.rtt_us(), link.loss_ppm());
+    const double line = session.send_queue.bytes_per_s();
+    least = least <= 0 ? line : std::min(least, line);
+    connections->thin_lines += session.send_queue.IsThin() ? 1 : 0;
+    if (link.rtt_us() < 0) return;
+    connections->round_trip.Add(link.rtt_us());
+    connections->queue.Add(link.rate().queue_us());
+    connections->loss.Add(link.loss_ppm());
   });
+  connections->least_line = std::llround(least);
 }
 
 void SessionTable::SendToAll(const Bytes& message, int but_peer) {
@@ -78,17 +90,25 @@ void SessionTable::Leave(Session& session, const std::string& why) {
   session.leaving_why = why;
 }
 
+void SessionTable::FlushTo(std::int64_t now_us, Session& session, std::size_t reliable_bytes,
+                           Stats* stats) {
+  const Address to = session.id.address;
+  const auto send = [&](ByteView datagram) {
+    stats->bytes_out += static_cast<std::int64_t>(datagram.size);
+    stats->datagrams_out += 1;
+    session.account->bytes_out += static_cast<std::int64_t>(datagram.size);
+    session.send_queue.Spend(datagram.size);
+    net_.Send(to, datagram);
+  };
+  session.link.Flush(now_us, send, reliable_bytes);
+}
+
 void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
   for (Session* const session : in_order_) {
-    if (!session->link.Sends(now_us)) continue;
-    const Address to = session->id.address;
-    session->link.Flush(now_us, [&](ByteView datagram) {
-      stats->bytes_out += static_cast<std::int64_t>(datagram.size);
-      stats->datagrams_out += 1;
-      session->account->bytes_out += static_cast<std::int64_t>(datagram.size);
-      session->send_queue.Spend(datagram.size);
-      net_.Send(to, datagram);
-    });
+    if (!session->link.Sends(now_us) || !session->send_queue.Ready(now_us)) continue;
+    FlushTo(now_us, *session, session->send_queue.allowed(), stats);
+    const LineRate& rate = session->link.rate();
+    session->send_queue.SetPath(rate.bytes_per_s(), rate.full());
   }
   handshake_.Count(stats);
   net_.Flush();

@@ -107,9 +107,14 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
   const bool good = session.link.Receive(now_us, datagram, gate,
                                          [&](ByteView message) { deliver(session, message); });
   session.account->bytes_in += static_cast<std::int64_t>(datagram.size());
-  session.account->dropped += over || !good ? 1 : 0;
-  if (over) return Verdict::kOverBudget;
-  if (!good) return Verdict::kMalformed;
+  if (over) {
+    ++session.account->dropped.budget;
+    return Verdict::kOverBudget;
+  }
+  if (!good) {
+    ++session.account->dropped.malformed;
+    return Verdict::kMalformed;
+  }
   for (const std::int64_t number : session.link.TakeAckedNumbers())
     session.packer.Acknowledge(number);
   places_.Heard(session.peer, now_us, session.stage == SessionStage::kReady);
@@ -209,8 +214,11 @@ void SessionTable::Close(std::int64_t now_us, const std::string& reason, Stats* 
   bye.utime = now_us;
   bye.reason = reason;
   for (int copy = 0; copy < kByeCopies; ++copy) {  // no retransmission after this
-    for (auto& [id, session] : sessions_) session->link.SendUnreliable(Encode(bye));
-    Flush(now_us, stats);
+    for (auto& [id, session] : sessions_) {
+      session->link.SendUnreliable(Encode(bye));
+      FlushTo(now_us, *session, 0, stats);
+    }
+    net_.Flush();
   }
   sessions_.clear();
   by_peer_.clear();

@@ -12,6 +12,7 @@
 #include "common/base/entropy.h"
 #include "common/codec/codec.h"
 #include "common/net/net.h"
+#include "common/record/load_page.h"
 #include "common/scene/scene.h"
 #include "server/sessions/account_book.h"
 #include "server/sessions/handshake.h"
@@ -72,8 +73,9 @@ class SessionTable {
   /// Returns "free are bob, carl": the scene's players that may join now, as many as fit a message.
   std::string FreeNames(std::int64_t now_us) const { return places_.FreeNames(now_us); }
   PlaceTable& places() { return places_; }
-  /// Reads round trip and loss of all ready sessions into their accounts. Once a second.
-  void ReadAccounts();
+  /// Reads round trip and loss of all ready sessions into their accounts and the room's sums. Once
+  /// a second.
+  void ReadAccounts(Connections* connections);
   /// Accounts of all clients that were in the room, present or gone.
   const AccountBook& accounts() const { return accounts_; }
 
@@ -100,7 +102,8 @@ class SessionTable {
       visit(*session);
     }
   }
-  /// Sends all queued messages; counts bytes and datagrams in `stats`.
+  /// Sends queued messages, to each session as fast as its path and budget allow; counts bytes and
+  /// datagrams in `stats`.
   void Flush(std::int64_t now_us, Stats* stats);
   /// Says goodbye to all sessions and ends them without events.
   void Close(std::int64_t now_us, const std::string& reason, Stats* stats);
@@ -108,6 +111,7 @@ class SessionTable {
  private:
   using Sessions = std::map<SessionId, std::unique_ptr<Session>>;
 
+  void FlushTo(std::int64_t now_us, Session& session, std::size_t reliable_bytes, Stats* stats);
   void LeaveUnless(bool sent, Session& session);
   /// Rebuilds the indices after a session came, went or became ready.
   void NoteChanged();

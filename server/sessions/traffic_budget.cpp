@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kInputsUsual = 16;
 /// Pings a second while the clock settles, and their bytes.
 constexpr double kPingsPerSecond = 20;
-constexpr std::size_t kPingBytes = 36;
+/// Eight bytes of LCM's hash, and the fields of ping_t.
+constexpr std::size_t kPingBytes = 8 + 8 + 4 + 8 + 8 + 2 + 2 + 4 + 2;
 /// Most messages per send of States in our scenes: one for each 120 m that the bodies extend, and
 /// one for each kStatesBodiesMax bodies. (Bodies a send: kBodiesPerSend.)
 constexpr std::size_t kStatesPerSend = 12;

@@ -52,7 +52,7 @@ TEST(TopTable, RatesAreTakenBetweenTheLastTwoMessages) {
   table.Take(1000000, LoadOf("hall", 10));
   table.Take(3000000, LoadOf("hall", 12));
   const std::vector<std::string> row = Row(table.Text(3000000), "hall");
-  ASSERT_EQ(row.size(), 16u) << table.Text(3000000);
+  ASSERT_EQ(row.size(), 20u) << table.Text(3000000);
   EXPECT_EQ(row[1], "47") << "% of its speed";
   EXPECT_EQ(row[2], "3/5");
   EXPECT_EQ(row[7], "25.0") << "% of a core";
@@ -62,7 +62,27 @@ TEST(TopTable, RatesAreTakenBetweenTheLastTwoMessages) {
   EXPECT_EQ(row[13], "12.0") << "kB/s out";
   EXPECT_EQ(row[14], "3.5") << "kB/s in";
   EXPECT_EQ(row[15], "7.0") << "dropped a second";
+  EXPECT_EQ(row[16], "-") << "the bus does not tell of round trips";
   EXPECT_NE(table.Text(3000000).find("sent, kB/s: states 10.0 clock 2.0\n"), std::string::npos);
+}
+
+TEST(TopTable, ShowsTheLinesSinceTheLastLook) {
+  RoomLoad told = LoadOf("hall", 10);
+  for (int i = 0; i < 100; ++i) told.connections.round_trip.Add(400000);
+  for (int i = 0; i < 100; ++i) told.connections.loss.Add(500000);
+  TopTable table;
+  table.Take(1000000, told);
+  for (int i = 0; i < 10; ++i) told.connections.round_trip.Add(90000);
+  for (int i = 0; i < 10; ++i) told.connections.loss.Add(20000);
+  told.connections.thin_lines = 2;
+  told.connections.least_line = 4500;
+  table.Take(2000000, told);
+  const std::vector<std::string> row = Row(table.Text(2000000), "hall");
+  ASSERT_EQ(row.size(), 20u) << table.Text(2000000);
+  EXPECT_NEAR(std::stod(row[16]), 99, 2) << "ms, in the bucket of 68 to 100";
+  EXPECT_EQ(row[17], "2.0") << "% lost";
+  EXPECT_EQ(row[18], "2") << "thin lines";
+  EXPECT_EQ(row[19], "4.5") << "kB/s";
 }
 
 TEST(TopTable, ASilentRoomIsLeftOut) {

@@ -64,6 +64,8 @@ Values MeasureValues(const SweptRun& run) {
   return {Number("error_others_m", m.error_others_m),
           Number("error_own_m", m.error_own_m),
           Number("error_server_m", m.error_server_m),
+          Number("error_served_m", m.error_served_m),
+          Number("inputs_late", m.inputs_late),
           Number("path_error_rms_m", m.path_error_rms_m),
           Number("view_age_ms", m.view_age_ms),
           Number("response_own_ms", m.response_own_ms),

@@ -207,5 +207,52 @@ TEST(Handover, ThePercentileOfTheGapsIsTheNearestRank) {
   EXPECT_EQ(m.handover_dv_p95_mps, 0);
 }
 
+/// Two players in mode central; the server makes a tick each 1000 us. Bob's view is 0.5 m off.
+Recording Served() {
+  Recording run = InRoom(MakeRecording(3, 10, Moving(2)), "central");
+  run.room.predict = "all";
+  for (auto& [tick, view] : run.views[0]) view.utime = 1000 * tick;
+  for (auto& [tick, view] : run.views[2]) view.x[0] += 0.5f;
+  return run;
+}
+
+Inputs DriveAt(std::int64_t tick, int drive, std::int64_t utime) {
+  Inputs inputs;
+  inputs.utime = utime;
+  inputs.player = 0;
+  inputs.first_tick = tick;
+  inputs.drive = {static_cast<std::int8_t>(drive)};
+  inputs.lift = {0};
+  inputs.buttons = {0};
+  return inputs;
+}
+
+TEST(Served, CountsInputsThatCameAfterTheirTickAndWereNotGuessed) {
+  Recording run = Served();
+  run.inputs[0][3] = DriveAt(3, 50, 2900);  // in time
+  run.inputs[0][4] = DriveAt(4, 50, 6500);  // late, but held anyway
+  run.inputs[0][5] = DriveAt(5, 70, 5001);  // late
+  run.inputs[0][6] = DriveAt(6, 70, 7000);  // late, and tick 5 had come by then
+  const Oracle oracle = MakeOracle(10, Moving(2));
+  EXPECT_EQ(Measure(run, oracle).inputs_late, 1);
+  run.room.mode = "buffer";
+  run.room.reconcile = "rollback";
+  EXPECT_EQ(Measure(run, oracle).inputs_late, 0) << "its peers go back";
+  EXPECT_FALSE(Measure(run, oracle).error_served_m);
+  run.room.reconcile = "fade";
+  EXPECT_FALSE(Measure(run, oracle).inputs_late);
+}
+
+TEST(Served, ComparesClientsWithTheServerWhereverThatWent) {
+  Recording run = Served();
+  const Oracle oracle = MakeOracle(10, Moving(2));
+  EXPECT_DOUBLE_EQ(*Measure(run, oracle).error_served_m, *Measure(run, oracle).error_others_m);
+  for (int peer = 0; peer < 3; ++peer) {
+    for (auto& [tick, view] : run.views[peer]) view.x[0] += 9;
+  }
+  EXPECT_NEAR(*Measure(run, oracle).error_served_m, 0.5 / std::sqrt(3), 1e-6);
+  EXPECT_GT(*Measure(run, oracle).error_others_m, 4);
+}
+
 }  // namespace measure_screen_test
 }  // namespace seam

@@ -231,6 +231,8 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
                                             "rebound",
                                             "bytes_per_s",
                                             "cpu_us_per_s",
+                                            "inputs_late",
+                                            "error_served_m",
                                             "valid"};
   EXPECT_EQ(rows[0], columns);
   std::map<std::string, std::map<std::string, double>> number;

@@ -43,7 +43,16 @@ BucketHistogram RandomTicks(Random* random) {
 }
 
 RoomLoad RandomRoom(const std::string& name, RandomMessages* messages, Random* ticks) {
-  return {name, RandomLoad(messages), RandomTicks(ticks), RandomTicks(ticks)};
+  Connections connections;
+  for (auto* histogram :
+       {&connections.round_trip, &connections.queue, &connections.loss, &connections.corrected}) {
+    *histogram = RandomTicks(ticks);
+  }
+  for (auto* n : {&connections.compositions, &connections.rests, &connections.least_line,
+                  &connections.thin_lines}) {
+    *n = static_cast<std::int64_t>(ticks->Next() >> 30);
+  }
+  return {name, RandomLoad(messages), RandomTicks(ticks), RandomTicks(ticks), connections};
 }
 
 TEST(LoadPage, ReadsBackAWrittenPage) {
@@ -66,6 +75,16 @@ TEST(LoadPage, ReadsBackAWrittenPage) {
       EXPECT_EQ(read[r].room, loads[r].room);
       EXPECT_EQ(MessageTraits<Load>::Fields(read[r].load),
                 MessageTraits<Load>::Fields(loads[r].load));
+      const Connections &back = read[r].connections, &written = loads[r].connections;
+      for (const auto of : {&Connections::round_trip, &Connections::queue, &Connections::loss,
+                            &Connections::corrected}) {
+        EXPECT_EQ((back.*of).at_most, (written.*of).at_most);
+        EXPECT_EQ((back.*of).sum_us, (written.*of).sum_us);
+      }
+      for (const auto of : {&Connections::compositions, &Connections::rests,
+                            &Connections::least_line, &Connections::thin_lines}) {
+        EXPECT_EQ(back.*of, written.*of);
+      }
       for (const auto of : {&RoomLoad::tick, &RoomLoad::late}) {
         EXPECT_EQ((read[r].*of).at_most, (loads[r].*of).at_most);
         EXPECT_EQ((read[r].*of).count, 200);
@@ -146,7 +165,7 @@ TEST(LoadPage, BucketsGrowInBoundAndCountAndTheLastIsTheCount) {
       ++histograms;
     }
   }
-  EXPECT_EQ(histograms, 4);
+  EXPECT_EQ(histograms, 8);
 }
 
 TEST(LoadPage, ForeignAndBrokenPagesAreReadWithoutHarm) {

@@ -121,5 +121,34 @@ TEST(SessionSummary, IsEmptyWhenNobodyGotReady) {
   EXPECT_EQ(SessionSummary({ClientAccount{}}), "");
 }
 
+TEST(SessionSummary, NamesTheReasonsOfDrops) {
+  ClientAccount ann, bob;
+  ann.name = "ann";
+  bob.name = "bob";
+  ann.sessions = bob.sessions = 1;
+  ann.dropped.stale = 8639;
+  ann.dropped.budget = 2;
+  const std::string table = SessionSummary({ann, bob});
+  EXPECT_NE(table.find(" 8641 (8639 stale, 2 over budget)\n"), std::string::npos) << table;
+  EXPECT_EQ(table.find("malformed"), std::string::npos) << table;
+}
+
+TEST(MissingPlayersOfALargeScene, AreCounted) {
+  for (const int players : {4, 140}) {
+    std::string text;
+    for (int i = 0; i < players; ++i) {
+      const std::string n = std::to_string(i);
+      text += "[[player]]\nname = \"p" + n + "\"\nvehicle = \"v" + n + "\"\n[[part]]\nname = \"v" +
+              n + "\"\nbox = [1, 1]\nposition = [" + std::to_string(3 * i) + ", 0]\n";
+    }
+    ClusterConfig config;
+    config.scene_text = text;
+    config.players = 1;
+    Cluster cluster(config);
+    EXPECT_EQ(MissingPlayers(cluster.server()),
+              players == 4 ? "p0, p1, p2, p3" : "p0, p1, p2 and 137 more");
+  }
+}
+
 }  // namespace console_test
 }  // namespace seam

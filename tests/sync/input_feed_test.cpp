@@ -12,7 +12,7 @@ struct InputFeedTest : ::testing::Test {
   /// Records the next tick's input; returns the message sent then.
   std::optional<Inputs> Step(const Input& input, bool rides = false) {
     track.Note(++tick, input);
-    const int count = feed.Take(track, acked, tick, rides);
+    const int count = feed.Take(track, acked, tick, now_us, rides);
     if (count == 0) return std::nullopt;
     return track.Export(0, count);
   }
@@ -20,7 +20,7 @@ struct InputFeedTest : ::testing::Test {
 
   InputTrack track;
   InputFeed feed;
-  std::int64_t tick = 0, acked = -1;
+  std::int64_t tick = 0, acked = -1, now_us = 0;
 };
 
 TEST_F(InputFeedTest, SendsAChangeInEveryTickUntilItIsAcknowledged) {
@@ -38,7 +38,7 @@ TEST_F(InputFeedTest, SendsHeldInputsAlongWithOtherMessages) {
   ASSERT_TRUE(inputs);
   EXPECT_EQ(inputs->first_tick, 1) << "all that are not acknowledged";
   EXPECT_EQ(inputs->drive.size(), 5u);
-  EXPECT_FALSE(feed.Take(track, acked, tick + 1, true)) << "nothing new, and no change";
+  EXPECT_FALSE(feed.Take(track, acked, tick + 1, now_us, true)) << "nothing new, and no change";
 }
 
 TEST_F(InputFeedTest, SendsTheUnacknowledgedTicksAndAtLeastAFew) {
@@ -59,10 +59,20 @@ TEST_F(InputFeedTest, AButtonIsAChangeWhenPressedAndReleased) {
 
 TEST_F(InputFeedTest, SendsOnceATickUnlessSomethingNewComes) {
   EXPECT_TRUE(Step(Drive(5)));
-  EXPECT_FALSE(feed.Take(track, acked, tick, true)) << "the same tick again";
+  EXPECT_FALSE(feed.Take(track, acked, tick, now_us, true)) << "the same tick again";
   track.Note(tick + 1, Drive(6));
-  EXPECT_TRUE(feed.Take(track, acked, tick, false)) << "news, in the same tick of ours";
-  EXPECT_TRUE(feed.Take(track, acked, tick + 1, false)) << "again: not acknowledged";
+  EXPECT_TRUE(feed.Take(track, acked, tick, now_us, false)) << "news, in the same tick of ours";
+  EXPECT_TRUE(feed.Take(track, acked, tick + 1, now_us, false)) << "again: not acknowledged";
+}
+
+TEST_F(InputFeedTest, RepeatsWithinALongTickUntilAcknowledged) {
+  EXPECT_TRUE(Step(Drive(5)));
+  int sent = 0;
+  for (now_us = 1000; now_us < 100000; now_us += 1000) {
+    if (now_us > 70000) acked = tick;
+    sent += feed.Take(track, acked, tick, now_us, false) > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(sent, 3) << "after 20, 40 and 60 ms";
 }
 
 }  // namespace input_feed_test

@@ -295,32 +295,6 @@ TEST(Snapshots, KeepThreeSecondsAndLittleMoreOfSparseStates) {
   EXPECT_EQ(snapshots.At(1, 86 * kSeconds), nullptr);
 }
 
-TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {
-  const BodyTable bodies(1, 0);
-  Snapshots snapshots(bodies);
-  BodyState s;
-  s.velocity = Vec2(6, 0);
-  s.position = Vec2(1, 0);
-  snapshots.Add(0, 10, s);
-  s.position = Vec2(2, 0);
-  snapshots.Add(0, 20, s);
-  snapshots.Add(0, 15, BodyState{});
-  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 15).position.x(), 1.5f) << "older news is not taken";
-  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 25).position.x(), 2) << "never extrapolated";
-  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 5).position.x(), 1);
-  EXPECT_FLOAT_EQ(snapshots.Extrapolate(0, 26, 1 / 60.0f, 0.5f).position.x(), 2.6f);
-  EXPECT_FLOAT_EQ(snapshots.Extrapolate(0, 2000, 1 / 60.0f, 0.5f).position.x(), 5);
-}
-
-TEST(DisplayDelay, CoversNearlyAllArrivalsAndMovesSlowly) {
-  DisplayDelay delay(2);
-  for (int i = 0; i < 90; ++i) delay.AddAge(i % 10 == 0 ? 9 : 6);
-  EXPECT_NEAR(delay.Advance(), 11, 0.1) << "p95 of 6 and 9, plus the interval";
-  for (int i = 0; i < 90; ++i) delay.AddAge(20);
-  const double before = delay.ticks();
-  EXPECT_LE(delay.Advance() - before, 0.0201);
-}
-
 TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
   EXPECT_EQ(MakeSyncConfig("buffer", "").reconcile_name, "rollback");
   EXPECT_EQ(MakeSyncConfig("strict", "").reconcile, nullptr);

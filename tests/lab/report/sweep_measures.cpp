@@ -19,6 +19,8 @@ const std::vector<SweepMeasure>& SweepMeasures() {
   static const std::vector<SweepMeasure> measures = {
       Column("others", "error of others' bodies, RMS", "m", true, "error_others_m"),
       Column("own", "error of own bodies, RMS", "m", true, "error_own_m"),
+      Column("served", "error against the server's own view, RMS", "m", true, "error_served_m"),
+      Column("late", "own inputs that acted late", "inputs", false, "inputs_late"),
       Column("path", "error of the path shown, RMS", "m", true, "path_error_rms_m"),
       Column("age", "age of what is shown", "ms", false, "view_age_ms"),
       Column("response-own", "response, own screen", "ms", false, "response_own_ms"),

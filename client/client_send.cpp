@@ -1,0 +1,71 @@
+/// Client: sends to the server, no faster than the path carries.
+
+#include <algorithm>
+
+#include "client/client.h"
+
+namespace seam {
+
+bool Client::LineReady(std::int64_t now_us) {
+  if (link_ == nullptr) return false;
+  credit_.Fill(now_us, link_->rate().bytes_per_s());
+  return credit_.Ready();
+}
+
+/// States that the path cannot carry now are left out, as if they were lost: newer ones follow.
+void Client::SendStates(const Bytes& states) {
+  offered_bytes_ += static_cast<double>(states.size());
+  if (line_ready_) link_->SendUnreliable(states);
+}
+
+std::int16_t Client::LineLoad(std::int64_t now_us) {
+  constexpr std::int64_t kLineUs = 2000000;
+  if (offered_us_ < 0) offered_us_ = now_us;
+  if (now_us - offered_us_ < kLineUs) return line_permille_;
+  const double passed_s = static_cast<double>(now_us - offered_us_) * 1e-6;
+  const double load = offered_bytes_ / (link_->rate().bytes_per_s() * passed_s);
+  line_permille_ = link_->rate().full() ? static_cast<std::int16_t>(std::min(30000.0, 1000 * load))
+                                        : std::int16_t{-1};
+  offered_bytes_ = 0;
+  offered_us_ = now_us;
+  return line_permille_;
+}
+
+void Client::SendInputs(std::int64_t now_us) {
+  if (player_ < 0 || policy_->IsOracle() || Quiet() || !line_ready_) return;
+  const InputTrack& track = replica_->inputs(player_);
+  // Where edits wait for all players' inputs, an otherwise silent client must not delay them.
+  const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
+  const bool rides = link_->Sends(now_us) || (due && EditsWait());
+  const int count = feed_.Take(track, link_->acked(player_), replica_->tick(), now_us, rides);
+  if (count == 0) return;
+  Inputs inputs = track.Export(player_, count);
+  inputs.utime = now_us;
+  link_->SendUnreliable(Encode(inputs), {{player_, track.newest()}});
+}
+
+void Client::Flush(std::int64_t now_us) {
+  // Before the server has a session for us, it ignores datagrams of a link.
+  if (link_->last_receive_us() < 0) return;
+  const auto send = [&](ByteView datagram) {
+    stats_.bytes_out += static_cast<std::int64_t>(datagram.size);
+    stats_.datagrams_out += 1;
+    credit_.Spend(datagram.size);
+    net_.Send(config_.server, datagram);
+  };
+  link_->Flush(now_us, send, static_cast<std::size_t>(std::max(0.0, credit_.bytes())));
+}
+
+void Client::Shutdown(std::int64_t now_us) {
+  if (link_ == nullptr || closed_) return;
+  Bye bye;
+  bye.utime = now_us;
+  bye.reason = "left";
+  for (int copy = 0; copy < 4; ++copy) {  // may be lost, and is not retransmitted
+    link_->SendUnreliable(Encode(bye));
+    Flush(now_us);
+  }
+  net_.Flush();
+}
+
+}  // namespace seam

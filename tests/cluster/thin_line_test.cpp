@@ -1,0 +1,95 @@
+/// A client on a thin line plays on: its line carries no standing queue, it is sent less and not
+/// more, and the others do not notice.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "tests/lab/cluster.h"
+#include "tests/support/thin_net.h"
+
+namespace seam {
+namespace thin_line_test {
+
+/// Round trip of an idle line, and the queue that may be in it, ms.
+constexpr double kIdleMs = 66, kMoreMs = 60;
+/// A datagram on such a line, bytes with all headers: it takes its time.
+constexpr double kDatagram = 220;
+
+struct Line {
+  int down_kb = 0, up_kb = 0;  // kb/s; 0: wide
+};
+
+ImpairProfile Way(int kb) {
+  std::string text = "delay=33ms";
+  if (kb > 0) text += ",rate=" + std::to_string(kb) + "kb";
+  return FindProfile(text);
+}
+
+/// Runs a scene in which the first client has a thin line, and checks what holds on every line.
+void Check(const std::string& scene, const std::string& mode, const Line& line) {
+  SCOPED_TRACE(scene + ", " + mode + ", down " + std::to_string(line.down_kb) + ", up " +
+               std::to_string(line.up_kb) + " kb/s");
+  ClusterConfig config;
+  config.scene = scene;
+  config.mode = mode;
+  config.impair = "perfect";
+  config.drive = Drive::kBot;
+  config.publish = Publish::kNone;
+  config.duration_s = 12;
+  config.client_net = [&](std::size_t i, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
+    const Line own = i == 0 ? line : Line{};
+    return std::make_unique<ThinNet>(std::move(net), Way(own.up_kb), Way(own.down_kb), 7 + i);
+  };
+  Cluster cluster(config);
+  cluster.RunToTick(5 * 60);  // joined, and the rate found
+  const std::int64_t out = cluster.server().accounts()[0].bytes_out;
+  double sum_ms = 0, worst_ms = 0;
+  int looks = 0;
+  ClientAccount before = cluster.server().accounts()[0];
+  for (std::int64_t tick = 6 * 60; tick <= 11 * 60; tick += 60) {
+    cluster.RunToTick(tick);
+    const ClientAccount now = cluster.server().accounts()[0];
+    if (now.readings == before.readings) continue;
+    const double rtt_ms = 1e-3 * static_cast<double>(now.rtt_us_sum - before.rtt_us_sum) /
+                          static_cast<double>(now.readings - before.readings);
+    before = now;
+    sum_ms += rtt_ms;
+    worst_ms = std::max(worst_ms, rtt_ms);
+    ++looks;
+  }
+  ASSERT_GT(looks, 3);
+  EXPECT_EQ(cluster.client(0)->rejoins(), 0);
+  ASSERT_TRUE(cluster.client(0)->running());
+  EXPECT_GT(cluster.client(0)->replica()->tick(), 10 * 60) << "it plays on";
+  EXPECT_EQ(cluster.server().accounts()[0].sessions, 1);
+  const int thin_kb = std::max(line.down_kb, line.up_kb);
+  const double usual_ms = kIdleMs + 8 * kDatagram / thin_kb;
+  EXPECT_LT(sum_ms / looks, usual_ms + kMoreMs);
+  EXPECT_LT(worst_ms, usual_ms + 3 * kMoreMs) << "a large message, or the probing of more";
+  if (line.down_kb > 0) {
+    const double carried = 1000.0 / 8 * line.down_kb * 6;  // bytes in 6 s
+    EXPECT_LT(static_cast<double>(cluster.server().accounts()[0].bytes_out - out), 1.05 * carried);
+  }
+}
+
+TEST(ThinLine, DownwardsPlaysOnWithoutAQueue) {
+  for (const int kb : {40, 64, 128, 256}) Check("crossing", "buffer", {kb, 0});
+  Check("pile", "buffer", {64, 0});
+}
+
+TEST(ThinLine, InModeCentralToo) {
+  for (const int kb : {40, 128}) Check("crossing", "central", {kb, 0});
+}
+
+TEST(ThinLine, UpwardsAndBothWays) {
+  for (const int kb : {64, 128}) {
+    Check("crossing", "buffer", {0, kb});
+    Check("crossing", "buffer", {kb, kb});
+  }
+}
+
+}  // namespace thin_line_test
+}  // namespace seam
