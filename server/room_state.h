@@ -34,7 +34,7 @@ class SessionTable;
 class StateArchive;
 
 /// Version of the saved bytes. Raise it with every change of them; older ones are not read.
-constexpr std::uint32_t kRoomStateVersion = 1;
+constexpr std::uint32_t kRoomStateVersion = 2;
 
 /// The beginning of a saved room, enough to make the server that loads it.
 class SavedRoom {

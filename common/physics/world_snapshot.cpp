@@ -97,6 +97,7 @@ WorldSnapshot World::Impl::Keep() {
   if (exact) out.left = exact->Left();
   for (const auto& stage : stages) stage->Save(&out.stages);
   out.speeds = Speeds();
+  if (touch_log) out.touching = touch_log->touching();
   return out;
 }
 
@@ -274,6 +275,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   }
   SEAM_ASSERT(memory_of_stages.done());
   meter.Clear();
+  if (touch_log) touch_log->Rebuilt(*world, snapshot.touching);
   touches.reset();
   blocked_directions.reset();
   still.reset();
