@@ -120,8 +120,8 @@ const Mistake kMistakes[] = {
      "this loop never ends"},
     {"function on_trigger(t, p, e)\n  local i = 0\n  while i < 1 do i = i * 2 end\nend\n", 3,
      "more than 200000 instructions in a tick"},
-    {"function on_leave(p)\n  local all = {}\n  for i = 1, 90000 do all[i] = {i} end\nend\n", 3,
-     "is stopped: on_leave('ann'): "},
+    {"function on_leave(p)\n  local all = {}\n  for i = 1, 90000 do all[i] = {i} end\nend\n", 1,
+     "is stopped: on_leave('ann'): out of memory"},
     {"local t = nil\nfunction on_join(p)\n  world.say(t.x)\nend\n", 3,
      "attempt to index a nil value"},
     {"error('no')\n", 1, "no"},
@@ -158,8 +158,8 @@ TEST(LabCheckScript, FindsNothingInGoodScripts) {
       // Parts that scripts make, by their names and by what these begin with.
       "local n = 0\nfunction on_tick(t)\n  n = n + 1\n"
       "  if n == 3 then world.add_part{name = 'new', box = {1, 1}, position = {0, 9}} end\n"
-      "  if n == 9 then\n    world.add_part{name = 'shot.' .. n, circle = 0.2, position = {0, 7}}\n"
-      "  end\n  if n == 30 and world.part('shot.9') then world.remove_part('shot.9') end\n"
+      "  if n == 9 then\n    world.add_part{name = 'shot-' .. n, circle = 0.2, position = {0, 7}}\n"
+      "  end\n  if n == 30 and world.part('shot-9') then world.remove_part('shot-9') end\n"
       "  if n > 40 and world.part('new') then world.impulse('new', 0, 1) end\nend\n",
       // Helpers, a coroutine with a loop that yields, a goto, long texts and comments.
       "local Door = {}\nDoor.__index = Door\n"
