@@ -37,7 +37,7 @@ void Step(World* world, Bounces* bounces) {
   const Vec2 before = world->Read(0).velocity;
   world->Step();
   const Vec2 after = world->Read(0).velocity;
-  bounces->reversals += (before.array() * after.array() < 0).count();
+  bounces->reversals += static_cast<int>((before.array() * after.array() < 0).count());
   for (const PartTouch& touch : world->begun_touches()) {
     EXPECT_EQ(touch.b, kBall);
     ++bounces->told[touch.a];
