@@ -109,7 +109,7 @@ TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
 
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksANewerOne) {
   Next(0);
-  Answer(Refusal("protocol 13 is spoken here, you speak 12"));
+  Answer(Refusal("protocol 14 is spoken here, you speak 13"));
   Next(10000);
   EXPECT_EQ(client_.fatal(),
             "the server speaks protocol 14, this client speaks 13: they need the same version");
