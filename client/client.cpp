@@ -160,6 +160,7 @@ void Client::CatchUp(std::int64_t tick) {
   replica_->TakeStates();
   replica_->TakeProposals();
   replica_->TakeImpactReports();
+  replica_->TakeTouchReports();
 }
 
 void Client::StepDue(std::int64_t now_us) {
@@ -249,6 +250,10 @@ void Client::StepOnce(std::int64_t now_us) {
     if (!released_) link_->SendUrgent(Encode(proposal));
   }
   for (ImpactReport& report : replica_->TakeImpactReports()) {
+    report.utime = now_us;
+    if (!released_) link_->SendReliable(Encode(report));
+  }
+  for (TouchReport& report : replica_->TakeTouchReports()) {
     report.utime = now_us;
     if (!released_) link_->SendReliable(Encode(report));
   }

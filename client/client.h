@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/clock_filter.h"
@@ -77,6 +78,9 @@ class Client {
   /// Returns our vehicle's part (a character's torso); -1: none, or not known yet.
   PartId vehicle() const;
   const Replica* replica() const { return replica_.get(); }
+  /// Returns the newest line of the server for this player, once: about a seat, for example. "":
+  /// none.
+  std::string TakeNotice() { return std::exchange(notice_, {}); }
   /// Health, scores, ... as received from the server.
   const MetaTable& metadata() const { return metadata_; }
   const Room& room() const { return room_; }
@@ -178,6 +182,7 @@ class Client {
   std::unique_ptr<Replica> replica_;
   ClockFilter clock_;
   MetaTable metadata_;
+  std::string notice_;
   Room room_;
   const Policy* policy_ = &UnknownPolicy();   // of room_.mode, once its scene is loaded
   std::unique_ptr<SnapshotReader> snapshot_;  // a snapshot that arrives in parts

@@ -8,9 +8,22 @@
 #include "client/client.h"
 #include "common/base/check.h"
 #include "common/base/nearest.h"
+#include "common/scene/part_rules.h"
 #include "common/sync/method.h"
 
 namespace seam {
+
+namespace {
+
+/// True if a script has a callback for touches, or seems to.
+bool AsksForTouches(const Scene& scene) {
+  const auto& all = scene.scripts;
+  return std::any_of(all.begin(), all.end(), [](const ScriptSource& script) {
+    return script.code.find("on_touch") != std::string::npos;
+  });
+}
+
+}  // namespace
 
 void Client::ReceiveAll(std::int64_t now_us) {
   Address from;
@@ -46,6 +59,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     OnSnapshot(*snapshot);
   } else if (const auto* meta = std::get_if<Meta>(&any)) {
     metadata_.Apply(*meta);
+  } else if (const auto* event = std::get_if<Event>(&any)) {
+    notice_ = event->text;
   } else if (const auto* states = std::get_if<States>(&any)) {
     OnStates(*states);
   } else if (const auto* packed = std::get_if<PackedStates>(&any)) {
@@ -196,6 +211,7 @@ void Client::MakeReplica(const Topology* become) {
   const std::unique_ptr<Replica> before = std::move(replica_);
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
   replica_->OnCorrected([this](int, const BodyState&) { ++corrections_; });
+  if (!policy_->IsOracle() && AsksForTouches(*scene_)) replica_->WatchTouches();
   if (before == nullptr) return;
   // Keep all known inputs: our own of the next ticks may have been sent, and others do not repeat
   // the inputs that we acknowledged.

@@ -119,6 +119,9 @@ ClientConfig Configure(const Flags& f) {
 /// Help for the keyboard.
 const char* const kKeys = "keys: arrows or WASD drive and lift, space and 0-9 press, q quits";
 
+/// Time for which a line of the server stays on the screen, us.
+constexpr std::int64_t kNoticeUs = 4000000;
+
 /// Formats a number: "10", "0.5".
 std::string Seconds(double seconds) {
   char text[32];
@@ -165,6 +168,8 @@ int Play(const Flags& f) {
   CpuThrottle throttle(f.throttle);
   ProgressLine line(f.quiet);
   TroubleReport recording("seam-client", "the game goes on");
+  std::string notice;
+  std::int64_t notice_until_us = 0;
   while (g_stop == 0 && !client.closed() && client.fatal().empty()) {
     const std::int64_t now = SteadyClockUs();
     if (keyboard != nullptr) {
@@ -176,6 +181,15 @@ int Play(const Flags& f) {
     if (key_file != nullptr && client.key() != key_file->key()) key_file->Write(client.key());
     sink.Poll();
     recording.Look(sink.trouble(), line);
+    const std::string told = client.TakeNotice();
+    if (!told.empty()) {
+      notice = told;
+      notice_until_us = now + kNoticeUs;
+    }
+    if (!told.empty() && view == nullptr) {
+      line.End();
+      std::fprintf(stderr, "seam-client: %s\n", told.c_str());
+    }
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
@@ -184,7 +198,9 @@ int Play(const Flags& f) {
                           " s (--join-timeout)");
     }
     if (view != nullptr && client.running() && view->Due(now)) {
-      view->Show(now, client, Progress(f, client, elapsed_s), keyboard ? kKeys : "Ctrl-C stops");
+      const std::string keys = keyboard != nullptr ? kKeys : "Ctrl-C stops";
+      view->Show(now, client, Progress(f, client, elapsed_s),
+                 now < notice_until_us ? notice : keys);
     }
     if (view == nullptr && client.running() && line.Due(now)) {
       line.Show(now, Progress(f, client, elapsed_s) + "; Ctrl-C stops");

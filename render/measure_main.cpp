@@ -13,7 +13,7 @@
 #include "common/measure/contents/contents.h"
 #include "common/measure/contents/partial_views.h"
 #include "common/measure/handover_list.h"
-#include "common/measure/limit/information_limit.h"
+#include "common/measure/limit/held_inputs.h"
 #include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
@@ -127,14 +127,14 @@ void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
 }
 
 void PrintLimit(const Recording& recording) {
-  const std::optional<double> limit = InformationLimit(recording);
+  const std::optional<double> limit = HeldInputsError(recording);
   if (!limit) {
-    std::printf("information limit of %s: no player lacks an input of another one\n",
+    std::printf("inputs held, %s: no player lacks an input of another one\n",
                 recording.room.scene_name.c_str());
     return;
   }
   std::printf(
-      "information limit of %s: %.3g m RMS (exact physics, others' inputs held since the newest "
+      "inputs held, %s: %.3g m RMS (exact physics, others' inputs held since the newest "
       "that can be known)\n",
       recording.room.scene_name.c_str(), *limit);
 }

@@ -1,5 +1,8 @@
 #include "server/authority_source.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "common/sync/quantize.h"
 #include "server/rules/impact_check.h"
 
@@ -18,18 +21,27 @@ AuthoritySource::AuthoritySource(const Replica& replica, const AuthorityManager&
       authority_(authority),
       stats_(stats),
       trail_(replica.table()),
+      holders_(replica.table(), BodyRule::kOrigin),
       forget_blows_(replica.table(), [this](const BodyRemap&) { blows_.clear(); }) {}
 
 void AuthoritySource::NoteStates(const States& accepted) {
   for (std::size_t i = 0; i < accepted.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(accepted.id[i]);
     if (body < 0) continue;
+    Holders& holders = holders_[body];
+    const Held held{accepted.peer, accepted.epoch[i]};
+    if (!(holders.last == held)) holders = {held, holders.last};
     // Unwraps the angle towards the server's copy: it may be off by whole turns.
     trail_.Add(body, accepted.tick, Unpack(accepted, i, replica_.world().Read(body).angle));
   }
 }
 
-void AuthoritySource::NoteTick() {
+void AuthoritySource::NoteTick(const std::vector<NewTouch>& touches) {
+  const auto old = [this](const ToldTouch& told) {
+    return told.is.tick < replica_.tick() - kReportPast;
+  };
+  told_.erase(std::remove_if(told_.begin(), told_.end(), old), told_.end());
+  for (const NewTouch& touch : touches) NoteTouch(0, touch);
   const World& world = replica_.world();
   for (int body = 0; body < world.body_count(); ++body) {
     if (Mine(body)) trail_.Add(body, world.tick(), world.Read(body));
@@ -54,6 +66,54 @@ void AuthoritySource::NoteReport(int peer, const ImpactReport& report) {
   for (std::size_t i = 0; i < report.id.size(); ++i) {
     if (MayReport(peer, report, i)) NoteReported(report, i);
   }
+}
+
+/// Two peers tell of one touch if its authority changes hands at that moment.
+void AuthoritySource::NoteTouch(int peer, const NewTouch& touch) {
+  const bool known = std::any_of(told_.begin(), told_.end(), [&](const ToldTouch& told) {
+    return told.peer != peer && told.is.touch == touch.touch &&
+           std::llabs(told.is.tick - touch.tick) <= ImpactReporter::kSameImpactTicks;
+  });
+  told_.push_back({touch, peer});
+  if (!known) touches_.push_back(touch.touch);
+}
+
+void AuthoritySource::NoteReport(int peer, const TouchReport& report) {
+  const std::int64_t age = replica_.tick() - report.tick;
+  if (age > kReportPast || age < -kReportFuture || report.revision > replica_.revision()) {
+    ++stats_.dropped_stale;
+    return;
+  }
+  for (std::size_t i = 0; i < report.a.size(); ++i) {
+    if (!MayReport(peer, report, i)) {
+      ++stats_.dropped_right;
+    } else if (!MayTouch(replica_.world(), trail_, {report.a[i], report.b[i]}, report.tick)) {
+      ++stats_.dropped_implausible;
+    } else {
+      NoteTouch(peer, {{report.a[i], report.b[i]}, report.tick});
+    }
+  }
+}
+
+bool AuthoritySource::MayReport(int peer, const TouchReport& report, std::size_t i) const {
+  const World& world = replica_.world();
+  const auto parts = static_cast<std::int32_t>(world.scene().parts.size());
+  if (report.b[i] >= parts) return false;  // a < b
+  for (const PartId part : {report.a[i], report.b[i]}) {
+    const int assembly = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
+    if (assembly < 0) return false;  // it is gone
+    const Assembly& its = world.composition().assemblies[static_cast<std::size_t>(assembly)];
+    if (!its.anchored) return MayTell(peer, world.BodyOfId(its.id), report.epoch[i]);
+  }
+  return false;
+}
+
+/// A touch just before a hand-over is told after it: states of that epoch show that the peer had
+/// it.
+bool AuthoritySource::MayTell(int peer, int body, std::int32_t epoch) const {
+  if (authority_.RightToMove(peer, body, epoch) == AuthorityManager::Right::kYes) return true;
+  const Held held{peer, epoch};
+  return holders_[body].last == held || holders_[body].before == held;
 }
 
 bool AuthoritySource::MayReport(int peer, const ImpactReport& report, std::size_t i) {

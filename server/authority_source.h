@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/codec/messages.h"
 #include "common/sync/replica.h"
+#include "common/sync/table/body_column.h"
 #include "common/sync/table/body_table.h"
 #include "server/authority/authority_manager.h"
 #include "server/rules/rule_source.h"
@@ -26,8 +28,11 @@ class AuthoritySource : public RuleSource {
   /// Takes impacts reported by a peer. An impact counts once, if it is possible, if the peer has
   /// authority over the struck body in that epoch, and if no edit has changed the bodies since.
   void NoteReport(int peer, const ImpactReport& report);
-  /// To be called after each step of the replica.
-  void NoteTick();
+  /// Takes touches reported by a peer. A touch counts once, if its parts were near each other and
+  /// the peer has, or had a moment ago, authority over the first of them that moves.
+  void NoteReport(int peer, const TouchReport& report);
+  /// To be called after each step of the replica, with the touches that the server is to tell.
+  void NoteTick(const std::vector<NewTouch>& touches);
 
   /// Saves the newest state of each body. Reports since the last tick are not saved.
   void Persist(StateArchive& a) { trail_.Persist(a); }
@@ -38,16 +43,35 @@ class AuthoritySource : public RuleSource {
   std::int64_t TickOf(int body, std::int64_t tick) const override;
   void MarkProcessed() override { trail_.MarkProcessed(); }
   std::vector<Blow> TakeImpacts() override;
+  std::vector<PartTouch> TakeTouches() override { return std::exchange(touches_, {}); }
 
  private:
   bool Mine(int body) const { return authority_.Has(0, replica_.world().mechanism(body)); }
   bool MayReport(int peer, const ImpactReport& report, std::size_t i);
+  bool MayReport(int peer, const TouchReport& report, std::size_t i) const;
+  bool MayTell(int peer, int body, std::int32_t epoch) const;
+  void NoteTouch(int peer, const NewTouch& touch);
   void NoteReported(const ImpactReport& report, std::size_t i);
 
   const Replica& replica_;
   const AuthorityManager& authority_;
   Stats& stats_;
   StateTrail trail_;
+  struct Held {  // by a peer, in an epoch
+    int peer = -1;
+    std::int32_t epoch = -1;
+    bool operator==(const Held& o) const { return peer == o.peer && epoch == o.epoch; }
+  };
+  struct Holders {
+    Held last, before;  // of the states that came
+  };
+  struct ToldTouch {
+    NewTouch is;
+    int peer = 0;
+  };
+  BodyColumn<Holders> holders_;
+  std::vector<ToldTouch> told_;                                 // of the last kReportPast ticks
+  std::vector<PartTouch> touches_;                              // since the last TakeTouches
   std::vector<Blow> blows_;                                     // since the last TakeImpacts
   std::set<std::tuple<std::int64_t, PartId, PartId>> counted_;  // tick, struck, by
   EditHook forget_blows_;                                       // their body indices are stale

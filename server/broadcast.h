@@ -114,8 +114,8 @@ class Broadcast {
     visit_peer(record.authority);
     record.secondaries.Each(visit_peer);
   }
-  /// Publishes a line for people; on the bus only.
-  void Say(std::int64_t now_us, const std::string& text);
+  /// Publishes a line for people, on the bus only, and returns it.
+  Event Say(std::int64_t now_us, const std::string& text);
 
   /// Calls of LookAround a second.
   static constexpr int kInterestHz = 10;

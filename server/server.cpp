@@ -79,6 +79,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
   commands_ = std::make_unique<ServerCommands>(replica_, *edits_, sessions_);
   rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
   rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *commands_, rule_source_.get());
+  if (rules_->WantTouches()) replica_.WatchTouches();
 }
 
 Server::~Server() = default;
@@ -162,7 +163,7 @@ void Server::StepOnce(std::int64_t now_us) {
   replica_.Step();
   ApplyQueued(now_us);  // edits of this very tick
   for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);
-  RunSeats();
+  RunSeats(now_us);
   RemoveOutside(now_us);
   UpdateAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
@@ -260,8 +261,9 @@ void Server::UpdateInterest(std::int64_t now_us, bool changed) {
 
 void Server::RunRules(std::int64_t now_us) {
   if (rules_ == nullptr) return;
-  rule_source_->NoteTick();
+  rule_source_->NoteTick(replica_.TakeTouches());
   rules_->AfterTick();
+  if (rules_->WantTouches()) replica_.WatchTouches();
   for (const std::string& text : commands_->TakeSaid()) broadcast_.Say(now_us, text);
   for (const Meta& meta : rules_->TakeChanges(now_us)) broadcast_.ToAll(meta);
 }
@@ -279,6 +281,8 @@ void Server::RemoveOutside(std::int64_t now_us) {
 std::vector<std::string> Server::TakeWarnings() {
   return commands_ == nullptr ? std::vector<std::string>{} : commands_->TakeWarnings();
 }
+
+bool Server::script_stopped() const { return rules_ != nullptr && rules_->stopped(); }
 
 void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
   sessions_.Close(now_us, reason, &stats_.counters);

@@ -4,7 +4,9 @@
 /// it is given: the same Server runs over UDP and in virtual time.
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,6 +98,8 @@ class Server {
   bool Order(const Edit& edit) { return edits_->Add(edit); }
   /// Returns the operator's warnings since the last call, such as a stopped script. One line each.
   std::vector<std::string> TakeWarnings();
+  /// True if a script of the room was stopped.
+  bool script_stopped() const;
   /// Returns lines for people about clients that came and went, since the last call; the first 256.
   std::vector<std::string> TakeReports() { return std::exchange(news_, {}); }
   /// Names of the scene's players without a ready client.
@@ -136,7 +140,8 @@ class Server {
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
   void OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact);
   void OnRelease(std::int64_t now_us, Session& session, const Release& release);
-  void OnImpactReport(const Session& session, const ImpactReport& report);
+  template <class Report>
+  void OnReport(const Session& session, const Report& report);
   void OnProposal(Session& session, const EditOrder& proposal);
 
   // server.cpp
@@ -164,7 +169,10 @@ class Server {
   void UpdateInterest(std::int64_t now_us, bool changed);
   void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
-  void RunSeats();
+  // server_seats.cpp
+  void RunSeats(std::int64_t now_us);
+  void RefuseSeat(std::int64_t now_us, int player, int pressed, const std::set<int>& taken);
+  void FreeSeats(std::int64_t now_us);
   void EndLeases(std::int64_t now_us);
   void LetGo(std::int64_t now_us, int player, std::int16_t buttons);
   void ReleaseSilentDrivers(std::int64_t now_us);
@@ -182,6 +190,8 @@ class Server {
   AuthorityManager authority_;
   std::unique_ptr<EditLog> edits_;
   SeatBonds seat_bonds_;
+  std::set<int> seats_freed_;                 // edits that free them are on their way
+  std::map<int, std::int64_t> seat_told_us_;  // by player: the last refusal that it was told
   BoundsWatch bounds_;
   StateFilter filter_;
   Broadcast broadcast_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/physics/part_places.h"
+#include "server/rules/seats.h"
 #include "server/script/script_host.h"
 
 namespace seam {
@@ -19,6 +20,10 @@ void ServerCommands::Push(PartId part, const Vec2& impulse) { Ask(PushEdit{part,
 
 void ServerCommands::Limp(PartId part, float seconds) {
   Ask(PushEdit{part, Vec2(0, 0), 0, seconds});
+}
+
+void ServerCommands::LeaveSeat(int seat) {
+  for (const Edit& edit : seam::LeaveSeat(replica_.world(), seat)) Ask(edit);
 }
 
 void ServerCommands::Blast(const Vec2& centre, float radius, float speed, float impulse) {
@@ -42,8 +47,9 @@ Input ServerCommands::ReadInput(int player) const {
   return replica_.inputs(player).At(replica_.tick());
 }
 
-void ServerCommands::Ask(AnyEdit what) {
-  const Edit edit(std::move(what), EditCause::kOutside);
+void ServerCommands::Ask(AnyEdit what) { Ask(Edit(std::move(what), EditCause::kOutside)); }
+
+void ServerCommands::Ask(const Edit& edit) {
   const Status status = replica_.world().topology().Validate(edit);
   if (!status.ok()) throw ScriptRefusal(status.why());
   if (!edits_.Add(edit)) throw ScriptRefusal("too many edits are waiting");

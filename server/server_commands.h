@@ -24,6 +24,7 @@ class ServerCommands : public RoomCommands {
   void Bond(PartId a, PartId b, float strength) override;
   void Push(PartId part, const Vec2& impulse) override;
   void Limp(PartId part, float seconds) override;
+  void LeaveSeat(int seat) override;
   void Blast(const Vec2& centre, float radius, float speed, float impulse) override;
   void Insert(const std::string& text) override;
   void Say(const std::string& text) override;
@@ -37,6 +38,7 @@ class ServerCommands : public RoomCommands {
 
  private:
   void Ask(AnyEdit what);
+  void Ask(const Edit& edit);
 
   Replica& replica_;
   EditLog& edits_;

@@ -57,7 +57,9 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   } else if (const auto* release = std::get_if<Release>(&any)) {
     OnRelease(now_us, session, *release);
   } else if (const auto* report = std::get_if<ImpactReport>(&any)) {
-    OnImpactReport(session, *report);
+    OnReport(session, *report);
+  } else if (const auto* touches = std::get_if<TouchReport>(&any)) {
+    OnReport(session, *touches);
   } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
     OnProposal(session, *proposal);
   } else if (std::holds_alternative<Ready>(any)) {
@@ -319,7 +321,8 @@ void Server::OnRelease(std::int64_t now_us, Session& session, const Release& rel
   }
 }
 
-void Server::OnImpactReport(const Session& session, const ImpactReport& report) {
+template <class Report>
+void Server::OnReport(const Session& session, const Report& report) {
   if (session.stage != SessionStage::kReady || rule_source_ == nullptr) {
     ++stats_.counters.dropped_right;
     return;

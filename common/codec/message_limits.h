@@ -53,6 +53,9 @@ static_assert(30 + 32 * kExactBodiesMax <= kMessageBytesMax);
 /// Most impacts in one ImpactReport: 30 + 24 bytes each; a peer has few in one tick.
 constexpr std::size_t kReportedImpactsMax = 32;
 static_assert(30 + 24 * kReportedImpactsMax <= kMessageBytesMax);
+/// Most touches in one TouchReport: 30 + 12 bytes each.
+constexpr std::size_t kReportedTouchesMax = 64;
+static_assert(30 + 12 * kReportedTouchesMax <= kMessageBytesMax);
 /// Most bytes in one Chunk.
 constexpr std::size_t kChunkBytesMax = 1000;
 static_assert(kChunkBytesMax < kMessageBytesMax);

@@ -43,6 +43,7 @@
     m.angle, m.vx, m.vy, m.spin)                                                                  \
   X(ImpactReport, impact_report_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.by,   \
     m.x, m.y, m.dv)                                                                               \
+  X(TouchReport, touch_report_t, kEdge, "", m.utime, m.tick, m.revision, m.a, m.b, m.epoch)       \
   X(EditOrder, edit_t, kBusRoom, "edit", m.utime, m.sequence, m.number, m.tick, m.kind, m.cause,  \
     m.a, m.b, m.joint, m.player, m.text, m.value)                                                 \
   X(Snapshot, snapshot_t, kEdge, "", m.utime, m.number, m.part, m.parts, m.text, m.kind, m.joint, \

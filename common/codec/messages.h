@@ -14,7 +14,7 @@
 namespace seam {
 
 /// Raised when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 12;
+constexpr std::int32_t kProtocolVersion = 13;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 
@@ -200,6 +200,16 @@ struct ImpactReport {
   std::vector<std::int32_t> by;     ///< striking assembly; -1: something anchored
   std::vector<float> x, y;          ///< m, point of contact
   std::vector<float> dv;            ///< m/s, change of velocity of the struck body, >= 0
+};
+
+/// Client -> server, reliable: parts that began to touch, where the client decides about the touch
+/// and a script asks for touches.
+struct TouchReport {
+  std::int64_t utime = 0;
+  std::int64_t tick = 0;            ///< tick in which they began to touch
+  std::int32_t revision = 0;        ///< edits that the client had applied
+  std::vector<std::int32_t> a, b;   ///< parts, a < b
+  std::vector<std::int32_t> epoch;  ///< of the client's authority over the first that moves
 };
 
 /// An edit: a change of bonds, joints or parts; see common/topology/edit.h for the fields of each

@@ -185,6 +185,14 @@ bool Valid(const ImpactReport& m) {
          std::all_of(m.dv.begin(), m.dv.end(), [](float dv) { return dv >= 0; });
 }
 
+bool Valid(const TouchReport& m) {
+  bool ascend = m.a.size() == m.b.size();
+  for (std::size_t i = 0; ascend && i < m.a.size(); ++i) ascend = m.a[i] < m.b[i];
+  return Time(m.utime) && Tick(m.tick) && m.revision >= 0 &&
+         Within(m.a.size(), 1, kReportedTouchesMax) && Lengths(m.a.size(), m.b, m.epoch) &&
+         Ids(m.a) && Ids(m.b) && ascend && AllWithin(m.epoch, 0, INT32_MAX);
+}
+
 bool Valid(const EditOrder& m) {
   return Time(m.utime) && m.sequence >= 0 && m.number >= -1 && Tick(m.tick) &&
          Within(m.kind, 0, kEditKindsMax) && Within(m.cause, 0, 1) &&

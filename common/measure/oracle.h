@@ -106,7 +106,7 @@ double OracleDistance(const Recording& recording, const Oracle& a, const Oracle&
 
 /// Returns the oracle's own sensitivity, m: RMS distance between the oracle and a run with one body
 /// nudged, the median over at most `bodies` bodies, evenly chosen. Requires an oracle without
-/// barriers. No method can be expected to be better: where the floor is a metre, errors of a metre
+/// barriers. Hardly any method is better: where the floor is a metre, errors of a metre
 /// say nothing.
 double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge = kNudge,
                   int bodies = 7);

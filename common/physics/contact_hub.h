@@ -1,5 +1,5 @@
 #pragma once
-/// Forwards the engine's contact events to the stages that listen, and impulses to the meter.
+/// Forwards the engine's contact events to the stages that listen, and to the meter.
 
 #include <vector>
 
@@ -14,9 +14,11 @@ class ContactHub : public b2ContactListener {
       : meter_(meter), stages_(std::move(stages)) {}
 
   void BeginContact(b2Contact* contact) override {
+    meter_.BeginContact(contact);
     for (Stage* stage : stages_) stage->BeginContact(contact);
   }
   void EndContact(b2Contact* contact) override {
+    meter_.EndContact(contact);
     for (Stage* stage : stages_) stage->EndContact(contact);
   }
   void PreSolve(b2Contact* contact, const b2Manifold* old) override {

@@ -144,9 +144,11 @@ void World::Step() {
   const float h = w.step_s();
   w.Settle();
   w.meter.Clear();
+  if (w.touch_log) w.touch_log->BeginTick();
   DropFarContacts(&*w.world);
   for (const auto& stage : w.stages) stage->BeforeTick();
   for (int i = 0; i < solver.substeps; ++i) {
+    if (w.touch_log) w.touch_log->BeginSubstep(i);
     for (const auto& stage : w.stages) stage->BeforeStep(h);
     if (w.prescribed_count > 0) w.BeginPrescribedStep();
     FindNewContactsInOrder(&*w.world);
@@ -160,6 +162,7 @@ void World::Step() {
     if (solver.sleep) w.slow.After(w.present, w.activities, w.built, h);
     if (w.prescribed_count > 0) w.EndPrescribedStep(h);
   }
+  if (w.touch_log) w.touch_log->EndTick(*w.world);
   if (!w.scene.seats.empty()) w.MarkAllAside();  // a stage may have moved a body there
   w.MoveAside();
   ++w.tick;
@@ -184,6 +187,19 @@ const std::vector<Touch>& World::touches() const {
 
 std::vector<PartTouch> World::PartTouches() const {
   return FindPartTouches(*impl_->world, impl_->scene, impl_->built);
+}
+
+void World::WatchTouches() {
+  Impl& w = *impl_;
+  if (w.touch_log) return;
+  w.touch_log.emplace(w.scene, w.built);
+  w.meter.Watch(&*w.touch_log);
+  w.touch_log->Rebuilt(*w.world, {});
+}
+
+const std::vector<PartTouch>& World::begun_touches() const {
+  static const std::vector<PartTouch> kNone;
+  return impl_->touch_log ? impl_->touch_log->begun() : kNone;
 }
 
 const std::vector<BlockedDirection>& World::blocked_directions() const {

@@ -37,6 +37,7 @@ struct Touch {
 struct PartTouch {
   PartId a = -1, b = -1;
   bool operator<(const PartTouch& o) const { return a != o.a ? a < o.a : b < o.b; }
+  bool operator==(const PartTouch& o) const { return a == o.a && b == o.b; }
 };
 
 /// A direction in which a body is held back: the normal of any contact, or the line of a distance
@@ -78,6 +79,8 @@ struct WorldSnapshot {
   std::vector<Left> left;     ///< islands with joints not solved as one system, ascending
   std::vector<float> speeds;  ///< of motors, rad/s or m/s, by the scene's joints
   std::vector<float> stages;  ///< memory of each stage
+  /// Parts in touch when the tick was last stepped, ascending; empty without WatchTouches.
+  std::vector<PartTouch> touching;
 };
 
 /// Writes or reads a snapshot. World::Load checks it.
@@ -172,6 +175,11 @@ class World {
 
   /// Returns the touches by part, ascending, anchored parts included. Found at every call.
   std::vector<PartTouch> PartTouches() const;
+  /// Finds begun_touches from the next step on; the touches of now count as begun in it.
+  void WatchTouches();
+  /// Returns the pairs of parts that began to touch in the last tick, however briefly, ascending,
+  /// each once; empty without WatchTouches.
+  const std::vector<PartTouch>& begun_touches() const;
 
   /// Returns the bounding box of the body's shapes in its current pose, m: lower and upper corner.
   std::pair<Vec2, Vec2> Bounds(int body) const;

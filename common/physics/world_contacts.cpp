@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -21,6 +22,55 @@ std::pair<int, int> PairOf(const b2Contact* contact) {
 
 bool Touching(const b2Contact* contact) {
   return contact->IsTouching() && contact->GetManifold()->pointCount > 0;
+}
+
+/// Returns the parts that number the two shapes, the lower first, in one word.
+std::uint64_t ShapesOf(const b2Contact& contact) {
+  auto& c = const_cast<b2Contact&>(contact);
+  const std::uint64_t a = PartOf(c.GetFixtureA()), b = PartOf(c.GetFixtureB());
+  return std::min(a, b) << 32 | std::max(a, b);
+}
+
+/// True for shapes of two parts, none of a stage.
+bool OfTwoParts(std::uint64_t shapes) {
+  const std::uint64_t lower = shapes >> 32, higher = shapes & 0xffffffffu;
+  return higher < kStageFixture && lower != higher;
+}
+
+/// True if another contact of the same two parts touches.
+bool TouchesElsewhere(b2Contact* contact) {
+  b2Body* body = contact->GetFixtureA()->GetBody();
+  // An anchored body has far more contacts.
+  if (body->GetType() != b2_dynamicBody) body = contact->GetFixtureB()->GetBody();
+  const std::uint64_t shapes = ShapesOf(*contact);
+  for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+    if (edge->contact == contact || !Touching(edge->contact)) continue;
+    if (ShapesOf(*edge->contact) == shapes) return true;
+  }
+  return false;
+}
+
+/// Returns the part of a touching shape. Of anchored parts merged into one, that at the contact.
+PartId TouchedPart(b2Contact& contact, const b2Fixture* fixture, const Scene& scene,
+                   const BuiltScene& built) {
+  const auto lowest = static_cast<PartId>(PartOf(fixture));
+  const auto merged = built.merged.find(lowest);
+  const bool still = fixture->GetBody()->GetType() == b2_staticBody;
+  if (merged == built.merged.end() || !still) return lowest;
+  b2WorldManifold manifold;
+  contact.GetWorldManifold(&manifold);
+  return NearestPart(scene, merged->second, FromB2(manifold.points[0]).cast<double>());
+}
+
+PartTouch TouchOf(b2Contact& contact, const Scene& scene, const BuiltScene& built) {
+  const PartId a = TouchedPart(contact, contact.GetFixtureA(), scene, built);
+  const PartId b = TouchedPart(contact, contact.GetFixtureB(), scene, built);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+void KeepEachOnce(std::vector<PartTouch>* touches) {
+  std::sort(touches->begin(), touches->end());
+  touches->erase(std::unique(touches->begin(), touches->end()), touches->end());
 }
 
 /// A rope this much shorter than its maximal length still counts as taut, m.
@@ -107,27 +157,52 @@ std::vector<Touch> FindTouches(const b2World& world) {
 
 std::vector<PartTouch> FindPartTouches(const b2World& world, const Scene& scene,
                                        const BuiltScene& built) {
-  const auto part_of = [&](const b2Contact* contact, const b2Fixture* fixture) {
-    const auto lowest = static_cast<PartId>(PartOf(fixture));
-    const auto merged = built.merged.find(lowest);
-    const bool still = fixture->GetBody()->GetType() == b2_staticBody;
-    if (merged == built.merged.end() || !still) return lowest;
-    b2WorldManifold manifold;
-    contact->GetWorldManifold(&manifold);
-    return NearestPart(scene, merged->second, FromB2(manifold.points[0]).cast<double>());
-  };
   std::vector<PartTouch> touches;
   for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext()) {
-    if (!Touching(c)) continue;
-    const auto a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
-    if (a >= kStageFixture || b >= kStageFixture || a == b) continue;
-    const PartId one = part_of(c, c->GetFixtureA()), other = part_of(c, c->GetFixtureB());
-    touches.push_back({std::min(one, other), std::max(one, other)});
+    if (!Touching(c) || !OfTwoParts(ShapesOf(*c))) continue;
+    touches.push_back(TouchOf(*const_cast<b2Contact*>(c), scene, built));
   }
-  std::sort(touches.begin(), touches.end());
-  const auto same = [](const PartTouch& x, const PartTouch& y) { return !(x < y) && !(y < x); };
-  touches.erase(std::unique(touches.begin(), touches.end(), same), touches.end());
+  KeepEachOnce(&touches);
   return touches;
+}
+
+void TouchLog::BeginTick() { begun_ = std::exchange(next_, {}); }
+
+void TouchLog::BeginSubstep(int substep) {
+  substep_ = substep;
+  ended_.clear();
+}
+
+void TouchLog::EndTick(const b2World& world) {
+  substep_ = -1;
+  std::vector<PartTouch> now = FindPartTouches(world, scene_, built_);
+  // No contact begins where a body slides from one merged part to the next.
+  std::set_difference(now.begin(), now.end(), touching_.begin(), touching_.end(),
+                      std::back_inserter(begun_));
+  KeepEachOnce(&begun_);
+  touching_ = std::move(now);
+}
+
+void TouchLog::Rebuilt(const b2World& world, std::vector<PartTouch> before) {
+  touching_ = std::move(before);
+  next_.clear();
+  const std::vector<PartTouch> now = FindPartTouches(world, scene_, built_);
+  std::set_difference(now.begin(), now.end(), touching_.begin(), touching_.end(),
+                      std::back_inserter(next_));
+}
+
+void TouchLog::Begin(b2Contact* contact) {
+  const std::uint64_t shapes = ShapesOf(*contact);
+  if (substep_ < 0 || contact->GetManifold()->pointCount == 0 || !OfTwoParts(shapes)) return;
+  // A chain's next segment takes over, or the contact itself was made anew.
+  if (ended_.count(shapes) > 0 || TouchesElsewhere(contact)) return;
+  const PartTouch touch = TouchOf(*contact, scene_, built_);
+  if (substep_ == 0 && std::binary_search(touching_.begin(), touching_.end(), touch)) return;
+  begun_.push_back(touch);
+}
+
+void TouchLog::End(b2Contact* contact) {
+  if (substep_ >= 0) ended_.insert(ShapesOf(*contact));
 }
 
 std::vector<BlockedDirection> FindBlockedDirections(const b2World& world,

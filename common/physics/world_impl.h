@@ -179,6 +179,7 @@ struct World::Impl {
   const Scene& scene = topology.scene();
   const Composition& composition = topology.composition();
   ImpulseMeter meter;
+  std::optional<TouchLog> touch_log;  // with WatchTouches
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuildMemory memory;
   BuiltScene built;

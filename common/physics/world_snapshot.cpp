@@ -97,6 +97,7 @@ WorldSnapshot World::Impl::Keep() {
   if (exact) out.left = exact->Left();
   for (const auto& stage : stages) stage->Save(&out.stages);
   out.speeds = Speeds();
+  if (touch_log) out.touching = touch_log->touching();
   return out;
 }
 
@@ -268,6 +269,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot,
   }
   SEAM_ASSERT(memory_of_stages.done());
   meter.Clear();
+  if (touch_log) touch_log->Rebuilt(*world, snapshot.touching);
   touches.reset();
   blocked_directions.reset();
   still.reset();

@@ -286,6 +286,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     snapshot.points = kept.points;
     snapshot.joints = kept.joints;
     snapshot.speeds = kept.speeds;
+    snapshot.touching = kept.touching;
     const std::size_t stages = w.stages.size();
     w.FindStages();
     if (w.stages.size() == stages) snapshot.stages = kept.stages;

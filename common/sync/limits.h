@@ -25,6 +25,7 @@ constexpr MessageBytes kReleaseBytes{26, 8};
 constexpr MessageBytes kRestBytes{50, 20};
 constexpr MessageBytes kExactStatesBytes{30, 32};
 constexpr MessageBytes kImpactReportBytes{30, 24};
+constexpr MessageBytes kTouchReportBytes{30, 12};
 constexpr MessageBytes kMetaBytes{34, 10};
 constexpr MessageBytes kInputsBytes{38, 4};
 constexpr MessageBytes kChunkBytes{22, 1};
@@ -53,6 +54,8 @@ static_assert(Largest(kExactStatesBytes, kExactBodiesMax) <= kMessageBytesMax,
               "ExactStates too large");
 static_assert(Largest(kImpactReportBytes, kReportedImpactsMax) <= kMessageBytesMax,
               "ImpactReport too large");
+static_assert(Largest(kTouchReportBytes, kReportedTouchesMax) <= kMessageBytesMax,
+              "TouchReport too large");
 static_assert(Largest(kMetaBytes, kMetaMax) <= kMessageBytesMax, "Meta too large");
 static_assert(Largest(kInputsBytes, kInputsMax) <= kMessageBytesMax, "Inputs too large");
 static_assert(Largest(kChunkBytes, kChunkBytesMax) <= kMessageBytesMax, "Chunk too large");

@@ -33,10 +33,12 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       queue_(config_.policy->MakeEditQueue()),
       proposals_(config_.tick_hz),
       impact_reporter_(world_, roles_),
+      touches_(world_, roles_, kReplayMax * config_.tick_hz),
       pressed_now_(topology.scene().players.size(), 0),
       pressed_missed_(topology.scene().players.size(), 0) {
   replay_.OnReplayedTick([this] {
     impact_reporter_.Note(true);
+    touches_.Note();
     FindEdits();
   });
   FollowRoles();
@@ -74,6 +76,7 @@ void Replica::Step() {
   if (config_.policy->SendsCompleteTicks() && next % config_.send_every() == 0) reach_.Look();
   rest_->AfterStep();
   impact_reporter_.Note();
+  touches_.Note();
   FindEdits();
   ProposeFound();
   queue_->AfterStep(tick());

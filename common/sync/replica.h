@@ -34,6 +34,7 @@
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
+#include "common/sync/rollback/new_touches.h"
 #include "common/sync/rollback/replay.h"
 #include "common/sync/send_scheduler.h"
 #include "common/sync/show/strand_view.h"
@@ -175,6 +176,11 @@ class Replica {
   Impacts MakeImpacts() const;
   /// Returns the impacts since the last call that can hurt bodies under this peer's authority.
   std::vector<ImpactReport> TakeImpactReports() { return impact_reporter_.Take(); }
+  /// Finds the touches of parts from the next step on.
+  void WatchTouches() { world_.WatchTouches(); }
+  /// See NewTouches; both empty without WatchTouches.
+  std::vector<NewTouch> TakeTouches() { return touches_.Take(); }
+  std::vector<TouchReport> TakeTouchReports() { return touches_.TakeReports(); }
 
  private:
   friend struct ReplicaTestAccess;
@@ -229,6 +235,7 @@ class Replica {
   std::unique_ptr<EditQueue> queue_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
+  NewTouches touches_;
   std::vector<int> heard_players_;                   // players with new or future inputs
   std::vector<int> pressed_now_;                     // by player
   std::vector<int> pressed_missed_;                  // by player: presses that came too late for a

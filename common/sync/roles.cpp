@@ -58,11 +58,21 @@ bool Roles::Shares() const {
 bool Roles::Proposes(const Edit& edit) const {
   for (const PartId part : world_.topology().PartsOf(edit)) {
     const int m = MechanismOf(world_, part);
-    if (m < 0) continue;
-    const bool server = config_.policy->SendsCompleteTicks() && table_.at(m).secondaries.Has(0);
-    return server ? self_ == 0 : IsAuthority(m);
+    if (m >= 0) return Finds(m);
   }
   return false;
+}
+
+bool Roles::Tells(const PartTouch& touch) const {
+  const int a = MechanismOf(world_, touch.a);
+  const int m = a >= 0 ? a : MechanismOf(world_, touch.b);
+  return m >= 0 && Finds(m);
+}
+
+bool Roles::Finds(int mechanism) const {
+  const bool server =
+      config_.policy->SendsCompleteTicks() && table_.at(mechanism).secondaries.Has(0);
+  return server ? self_ == 0 : IsAuthority(mechanism);
 }
 
 GrantsApplied Roles::Apply(const Grants& grants) {

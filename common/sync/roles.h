@@ -53,6 +53,8 @@ class Roles {
   /// True if this peer is to propose an edit found by physics: the authority of the first affected
   /// part in a mechanism, or with rollback the server if it follows that mechanism.
   bool Proposes(const Edit& edit) const;
+  /// True if this peer is to tell of a touch of the two parts, by the same rule.
+  bool Tells(const PartTouch& touch) const;
 
   /// Applies a message.
   GrantsApplied Apply(const Grants& grants);
@@ -60,6 +62,9 @@ class Roles {
   void ReleaseAll();
 
  private:
+  /// True if the mechanism's changes are this peer's to find: it has authority, or with rollback it
+  /// is the server and follows the mechanism.
+  bool Finds(int mechanism) const;
   /// By mechanism: true if the own player drives it.
   const std::vector<bool>& Own() const;
 

@@ -84,6 +84,7 @@ int ReportEnd(const Hub& hub) {
     }
     std::fputs(table.c_str(), stderr);
     status = std::max(status, recording.End(room->sink().trouble()));
+    if (room->server().script_stopped()) status = std::max(status, 1);
   }
   return status;
 }

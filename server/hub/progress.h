@@ -16,7 +16,7 @@ bool HasReport(const Hub& hub);
 std::string HubProgress(const Hub& hub);
 
 /// Prints the totals of all rooms to stderr. Returns the program's exit status: 1 if a recording
-/// failed. To be called after Hub::Close.
+/// failed or a script was stopped. To be called after Hub::Close.
 int ReportEnd(const Hub& hub);
 
 }  // namespace seam

@@ -18,21 +18,28 @@ constexpr float kSlack = 1.0f;
 /// Largest distance of the point from the bodies, m, besides their motion in kTicksBefore.
 constexpr float kNear = 0.5f;
 
-/// Returns the distance from the body's root to its farthest point, m.
-float ExtentOf(const World& world, int body) {
-  const Composition& c = world.composition();
+/// Returns the distance from the root of an assembly to its farthest point, m.
+float ExtentOf(const World& world, const Assembly& assembly) {
   const std::vector<Part>& parts = world.scene().parts;
-  const Part& root = parts[static_cast<std::size_t>(world.id(body))];
+  const Part& root = parts[static_cast<std::size_t>(assembly.id)];
   float reach = 0;
-  for (const PartId id :
-       c.assemblies[static_cast<std::size_t>(c.assembly_of_part[static_cast<std::size_t>(root.id)])]
-           .parts) {
+  for (const PartId id : assembly.parts) {
     const Part& part = parts[static_cast<std::size_t>(id)];
     float own = std::max(part.radius, part.kind == ShapeKind::kBox ? part.size.norm() / 2 : 0.0f);
     for (const Vec2& point : part.points) own = std::max(own, point.norm() + part.radius);
     reach = std::max(reach, (part.position - root.position).norm() + own);
   }
   return reach;
+}
+
+const Assembly& AssemblyOf(const World& world, PartId part) {
+  const Composition& c = world.composition();
+  const int index = c.assembly_of_part[static_cast<std::size_t>(part)];
+  return c.assemblies[static_cast<std::size_t>(index)];
+}
+
+float ExtentOf(const World& world, int body) {
+  return ExtentOf(world, AssemblyOf(world, world.id(body)));
 }
 
 float LargestRestitution(const World& world, int body) {
@@ -112,6 +119,29 @@ bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std
   const float ratio = std::max(1.0f, bringing / world.mass(blow.body));
   const float speed = RelativeSpeed(struck, reach, striker, reach_by);
   return blow.dv <= (1 + restitution) * speed * ratio + kSlack;
+}
+
+bool MayTouch(const World& world, const StateTrail& trail, const PartTouch& touch,
+              std::int64_t tick) {
+  if (HasMovers(world)) return true;
+  struct Side {
+    float extent = 0;
+    Trail places;
+  };
+  const auto side = [&](PartId part) {
+    const Assembly& its = AssemblyOf(world, part);
+    const int index = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
+    Side found{ExtentOf(world, its), {}};
+    if (!its.anchored) {
+      found.places = trail.Between(world.BodyOfId(its.id), tick - kTicksBefore, tick);
+    }
+    if (found.places.empty()) found.places.push_back({tick, world.ReadAssembly(index)});
+    return found;
+  };
+  const Side a = side(touch.a), b = side(touch.b);
+  return std::any_of(a.places.begin(), a.places.end(), [&](const StateTrail::Seen& seen) {
+    return IsNear(b.places, seen.state.position, tick, a.extent + b.extent, world.dt());
+  });
 }
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// Plausibility of impacts, by the states that the authorities of both bodies reported.
+/// Plausibility of impacts and touches, by the states that the authorities of both bodies reported.
 
 #include <cstdint>
 
@@ -14,5 +14,10 @@ namespace seam {
 /// mechanism (for anchored parts, of its own) at their relative speed just before. False also if
 /// nothing is known of one of the bodies yet.
 bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std::int64_t tick);
+
+/// True if the bodies of two parts, which exist, may have touched around a tick. Each counts as a
+/// disc about its root.
+bool MayTouch(const World& world, const StateTrail& trail, const PartTouch& touch,
+              std::int64_t tick);
 
 }  // namespace seam

@@ -32,6 +32,8 @@ class RuleSource {
   virtual void MarkProcessed() = 0;
   /// Returns the impacts on bodies since the last call, each once.
   virtual std::vector<Blow> TakeImpacts() = 0;
+  /// Returns the touches of parts that began since the last call, each once.
+  virtual std::vector<PartTouch> TakeTouches() = 0;
 };
 
 /// Returns the impacts of the world's last tick: one Blow for each moving body of an impact.
@@ -48,6 +50,7 @@ class WorldSource : public RuleSource {
   std::int64_t TickOf(int, std::int64_t tick) const override { return tick; }
   void MarkProcessed() override {}
   std::vector<Blow> TakeImpacts() override { return ImpactsOf(world_); }
+  std::vector<PartTouch> TakeTouches() override { return world_.begun_touches(); }
 
  private:
   const World& world_;

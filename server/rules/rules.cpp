@@ -62,6 +62,7 @@ void Rules::AfterTick() {
   RunDeaths();
   happened_.clear();
   player_events_.clear();
+  seat_events_.clear();
   struck_by_.clear();
   violence_ = Violence{};
 }

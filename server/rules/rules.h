@@ -35,6 +35,7 @@ class RoomCommands {
   virtual void Push(PartId part, const Vec2& impulse) = 0;
   /// Makes the part's active character limp for `seconds`; below 0 ends that.
   virtual void Limp(PartId part, float seconds) = 0;
+  virtual void LeaveSeat(int seat) = 0;  ///< index into Scene::seats
   virtual void Blast(const Vec2& centre, float radius, float speed, float impulse) = 0;
   /// `text`: [[part]] and [[joint]] as in a scene file.
   virtual void Insert(const std::string& text) = 0;
@@ -44,6 +45,9 @@ class RoomCommands {
   virtual bool Present(int player) const = 0;
   virtual Input ReadInput(int player) const = 0;
 };
+
+/// News of a player and a seat.
+enum class SeatNews { kGotIn, kGotOut, kTooFar, kTaken };
 
 class Rules {
  public:
@@ -63,6 +67,13 @@ class Rules {
   /// A player became ready, or left: scripts hear of it with the next tick.
   void OnJoin(int player);
   void OnLeave(int player);
+  /// A player asked for a seat in vain: scripts hear of it likewise.
+  void OnSeat(int player, int seat, SeatNews news) { seat_events_.push_back({player, seat, news}); }
+
+  /// True if a script was stopped, and that has been told.
+  bool stopped() const { return !stopped_reported_.empty(); }
+  /// True if a script has a callback for touches. Their world has to watch them then.
+  bool WantTouches() const;
 
   /// Saves or loads all of it. Reading starts the scripts anew, with their tables `room`.
   void Persist(StateArchive& a);
@@ -77,6 +88,10 @@ class Rules {
   struct PlayerEvent {
     int player = -1;
     bool joins = true;
+  };
+  struct SeatEvent {
+    int player = -1, seat = -1;
+    SeatNews news = SeatNews::kGotIn;
   };
 
   // rules.cpp
@@ -100,6 +115,7 @@ class Rules {
   void Die(PartId part);
   void BreakJoints(const std::vector<int>& joints);
   // rules_scripts.cpp
+  void NoteSeats();
   void RunScripts();
   void ReportStopped(Script& script);
   // rules_persist.cpp
@@ -134,10 +150,11 @@ class Rules {
   std::map<std::pair<int, PartId>, Stay> stays_;  // in hazards; by trigger, part
   std::vector<std::int64_t> charge_due_;          // by charge: tick at which it detonates
   std::vector<PlayerEvent> player_events_;
+  std::vector<SeatEvent> seat_events_;
+  std::vector<int> seated_;           // by seat: player after the last tick, -1: none
   std::unique_ptr<ScriptRoom> room_;  // host of the scripts
   std::vector<std::unique_ptr<Script>> scripts_;
   std::set<std::string> stopped_reported_;
-  std::vector<PartTouch> touching_;  // after the last tick
 };
 
 }  // namespace seam

@@ -38,10 +38,14 @@ void Rules::Persist(StateArchive& a) {
     a.Int(&event->player, 0, players - 1);
     a.Flag(&event->joins);
   });
-  a.List(&touching_, StateArchive::kListMost, [&](PartTouch* touch) {
-    part(&touch->a);
-    part(&touch->b);
+  a.List(&seat_events_, StateArchive::kListMost, [&](SeatEvent* event) {
+    a.Int(&event->player, 0, players - 1);
+    a.Int(&event->seat, 0, static_cast<std::int64_t>(scene().seats.size()) - 1);
+    auto news = static_cast<int>(event->news);
+    a.Int(&news, 0, static_cast<int>(SeatNews::kTaken));
+    event->news = static_cast<SeatNews>(news);
   });
+  a.List(&seated_, scene().seats.size(), [&](int* player) { a.Int(player, -1, players - 1); });
   PersistScripts(a);
 }
 

@@ -1,23 +1,47 @@
 /// Rules: calls the scripts after each tick with the tick's events.
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "server/script/script.h"
 
 namespace seam {
+namespace {
+
+const char* NameOf(SeatNews news) {
+  switch (news) {
+    case SeatNews::kGotIn: return "in";
+    case SeatNews::kGotOut: return "out";
+    case SeatNews::kTooFar: return "far";
+    case SeatNews::kTaken: break;
+  }
+  return "taken";
+}
+
+}  // namespace
+
+bool Rules::WantTouches() const {
+  return std::any_of(scripts_.begin(), scripts_.end(),
+                     [](const auto& script) { return script->Defines("on_touch"); });
+}
+
+/// Finds the players that have got into seats or out of them in this tick.
+void Rules::NoteSeats() {
+  const std::vector<Seat>& seats = scene().seats;
+  seated_.resize(seats.size(), -1);
+  for (std::size_t s = 0; s < seats.size(); ++s) {
+    const int before = std::exchange(seated_[s], seats[s].player);
+    if (before == seats[s].player) continue;
+    if (before >= 0) OnSeat(before, static_cast<int>(s), SeatNews::kGotOut);
+    if (seats[s].player >= 0) OnSeat(seats[s].player, static_cast<int>(s), SeatNews::kGotIn);
+  }
+}
 
 void Rules::RunScripts() {
-  const bool wanted = std::any_of(scripts_.begin(), scripts_.end(),
-                                  [](const auto& script) { return script->Defines("on_touch"); });
-  std::vector<PartTouch> now;
-  if (wanted) now = world_.PartTouches();
-  std::vector<PartTouch> begun;
-  std::set_difference(now.begin(), now.end(), touching_.begin(), touching_.end(),
-                      std::back_inserter(begun));
-  touching_ = std::move(now);
+  NoteSeats();
+  const std::vector<PartTouch> begun = source_.TakeTouches();
   const auto name = [this](PartId part) -> const std::string& {
     return scene().parts[static_cast<std::size_t>(part)].name;
   };
@@ -28,6 +52,10 @@ void Rules::RunScripts() {
       for (const PlayerEvent& event : player_events_) {
         const std::string player = PlayerName(event.player);
         event.joins ? script->OnJoin(player) : script->OnLeave(player);
+      }
+      for (const SeatEvent& event : seat_events_) {
+        const Seat& seat = scene().seats[static_cast<std::size_t>(event.seat)];
+        script->OnSeat(PlayerName(event.player), seat.name, NameOf(event.news));
       }
       for (const PartTouch& touch : begun) script->OnTouch(name(touch.a), name(touch.b));
       for (const TriggerEvent& event : happened_) {

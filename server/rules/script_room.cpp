@@ -55,6 +55,24 @@ Input ScriptRoom::ReadInput(const std::string& player) const {
   return rules_.commands_.ReadInput(NeedPlayer(player));
 }
 
+int ScriptRoom::FindSeat(int player) const {
+  const std::vector<Seat>& seats = rules_.scene().seats;
+  const auto found = std::find_if(seats.begin(), seats.end(),
+                                  [player](const Seat& seat) { return seat.player == player; });
+  return found == seats.end() ? -1 : static_cast<int>(found - seats.begin());
+}
+
+const std::string& ScriptRoom::SeatOf(const std::string& player) const {
+  const int seat = FindSeat(NeedPlayer(player));
+  return seat < 0 ? none_ : rules_.scene().seats[static_cast<std::size_t>(seat)].name;
+}
+
+void ScriptRoom::Unseat(const std::string& player) {
+  const int seat = FindSeat(NeedPlayer(player));
+  if (seat < 0) throw ScriptRefusal("'" + Printable(player) + "' sits in no seat");
+  rules_.commands_.LeaveSeat(seat);
+}
+
 void ScriptRoom::Push(const std::string& part, const Vec2& impulse, const std::string& /*why*/) {
   const PartId id = NeedPart(part);
   const int mechanism = MechanismOf(rules_.world_, id);

@@ -26,6 +26,8 @@ class ScriptRoom : public ScriptHost {
   }
   bool Present(const std::string& player) const override;
   Input ReadInput(const std::string& player) const override;
+  const std::string& SeatOf(const std::string& player) const override;
+  void Unseat(const std::string& player) override;
   void Push(const std::string& part, const Vec2& impulse, const std::string& why) override;
   void Limp(const std::string& character, float seconds) override;
   void Blast(const Vec2& centre, float radius, float speed, float impulse) override;
@@ -44,9 +46,11 @@ class ScriptRoom : public ScriptHost {
   PartId FindPart(const std::string& name) const;
   PartId NeedPart(const std::string& name) const;
   int NeedPlayer(const std::string& name) const;
+  int FindSeat(int player) const;  ///< -1: it sits in none
   MetaKey KeyOf(const std::string& subject, const std::string& key) const;
 
   Rules& rules_;
+  const std::string none_;
   // Names found so far; parts are only ever appended.
   mutable std::map<std::string, PartId> part_of_name_;
   mutable std::size_t parts_known_ = 0;

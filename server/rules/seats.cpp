@@ -33,6 +33,13 @@ bool PlayerSits(const World& world, int player) {
   return false;
 }
 
+/// Returns the distance of a part from its place in a seat, m.
+float DistanceTo(const World& world, const Seat& seat, PartId own) {
+  const BodyState vehicle = PartPose(world, seat.part);
+  const Vec2 place = vehicle.position + Turned(seat.at, vehicle.angle);
+  return (PartPose(world, own).position - place).norm();
+}
+
 /// Returns false and adds no edit if the player cannot get in.
 bool GetIn(const World& world, int player, int index, std::vector<Edit>* edits) {
   const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
@@ -44,24 +51,9 @@ bool GetIn(const World& world, int player, int index, std::vector<Edit>* edits) 
     return true;
   }
   if (world.scene().parts[static_cast<std::size_t>(own)].gone) return false;
-  const BodyState vehicle = PartPose(world, seat.part);
-  const Vec2 place = vehicle.position + Turned(seat.at, vehicle.angle);
-  if ((PartPose(world, own).position - place).norm() > seat.reach) return false;
+  if (DistanceTo(world, seat, own) > seat.reach) return false;
   edits->push_back(sit);
   return true;
-}
-
-void GetOut(const World& world, int index, std::vector<Edit>* edits) {
-  const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
-  const PartId own = world.scene().players[static_cast<std::size_t>(seat.player)].vehicle;
-  for (std::size_t j = 0; own >= 0 && j < world.scene().joints.size(); ++j) {
-    const Joint& joint = world.scene().joints[j];
-    if (joint.gone || joint.kind != JointKind::kGlue || joint.a != seat.part || joint.b != own) {
-      continue;
-    }
-    edits->emplace_back(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside);
-  }
-  edits->emplace_back(SeatEdit{index, -1}, EditCause::kOutside);
 }
 
 /// True if a player's part is where the seat will hold it.
@@ -74,6 +66,42 @@ bool IsThere(const World& world, const Seat& seat, PartId own) {
 
 }  // namespace
 
+std::vector<Edit> LeaveSeat(const World& world, int index) {
+  std::vector<Edit> edits;
+  const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
+  if (seat.player < 0) return edits;
+  const PartId own = world.scene().players[static_cast<std::size_t>(seat.player)].vehicle;
+  for (std::size_t j = 0; own >= 0 && j < world.scene().joints.size(); ++j) {
+    const Joint& joint = world.scene().joints[j];
+    if (joint.gone || joint.kind != JointKind::kGlue || joint.a != seat.part || joint.b != own) {
+      continue;
+    }
+    edits.emplace_back(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside);
+  }
+  edits.emplace_back(SeatEdit{index, -1}, EditCause::kOutside);
+  return edits;
+}
+
+SeatRefusal RefusedSeat(const World& world, int player, int pressed, const std::set<int>& taken) {
+  SeatRefusal nearest;
+  const Scene& scene = world.scene();
+  const PartId own = scene.players[static_cast<std::size_t>(player)].vehicle;
+  const auto gone = [&scene](PartId part) {
+    return scene.parts[static_cast<std::size_t>(part)].gone;
+  };
+  if (own >= 0 && gone(own)) return nearest;
+  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
+    const Seat& seat = scene.seats[s];
+    if (seat.player == player) return {};
+    if (((pressed >> seat.button) & 1) == 0 || gone(seat.part)) continue;
+    if (taken.count(static_cast<int>(s)) > 0) continue;  // of this tick: it is told of that
+    const float away = own >= 0 ? DistanceTo(world, seat, own) : 0.0f;
+    if (nearest.seat >= 0 && away >= nearest.away) continue;
+    nearest = {static_cast<int>(s), away <= seat.reach ? seat.player : -1, away};
+  }
+  return nearest;
+}
+
 std::vector<Edit> SeatEdits(const World& world, int player, int pressed, std::set<int>* taken) {
   std::vector<Edit> edits;
   if (pressed == 0) return edits;
@@ -81,7 +109,7 @@ std::vector<Edit> SeatEdits(const World& world, int player, int pressed, std::se
   for (std::size_t s = 0; s < scene.seats.size(); ++s) {
     const Seat& seat = scene.seats[s];
     if (seat.player != player || ((pressed >> seat.button) & 1) == 0) continue;
-    GetOut(world, static_cast<int>(s), &edits);
+    for (const Edit& edit : LeaveSeat(world, static_cast<int>(s))) edits.push_back(edit);
   }
   if (!edits.empty() || PlayerSits(world, player)) return edits;
   for (std::size_t s = 0; s < scene.seats.size(); ++s) {

@@ -35,6 +35,20 @@ class SeatBonds {
   std::vector<PartId> asked_;  // by seat: part with a requested bond, -1: none
 };
 
+/// Returns the edits by which the player of a taken seat gets out of it.
+std::vector<Edit> LeaveSeat(const World& world, int seat);
+
+/// A seat that a player asked for and did not get.
+struct SeatRefusal {
+  int seat = -1;      ///< index in the scene; -1: none was refused
+  int taken_by = -1;  ///< player in the seat; -1: it is out of reach
+  float away = 0;     ///< m, from the player's own part
+};
+
+/// Returns the seat for which a player has pressed in vain: the nearest one with such a button.
+/// Call if SeatEdits has returned no edits. `taken`: as there.
+SeatRefusal RefusedSeat(const World& world, int player, int pressed, const std::set<int>& taken);
+
 /// Returns the edits that result from the buttons a player has just pressed (a bit field). `taken`:
 /// seats taken by edits that the world has not applied yet; a seat that this player takes is added.
 std::vector<Edit> SeatEdits(const World& world, int player, int pressed, std::set<int>* taken);

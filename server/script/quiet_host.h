@@ -24,12 +24,16 @@ class QuietHost : public ScriptHost {
   }
   bool Present(const std::string& player) const override { return host_.Present(player); }
   Input ReadInput(const std::string& player) const override { return host_.ReadInput(player); }
+  const std::string& SeatOf(const std::string& player) const override {
+    return host_.SeatOf(player);
+  }
   float Get(const std::string& subject, const std::string& key) const override {
     return host_.Get(subject, key);
   }
 
   void Push(const std::string&, const Vec2&, const std::string&) override {}
   void Limp(const std::string&, float) override {}
+  void Unseat(const std::string&) override {}
   void Blast(const Vec2&, float, float, float) override {}
   void AddPart(const TomlNode&) override {}
   void AddJoint(const TomlNode&) override {}

@@ -14,6 +14,10 @@
 
 namespace seam {
 
+/// The callbacks that the server calls.
+inline constexpr const char* kScriptCallbacks[] = {"on_join",  "on_leave",   "on_seat",
+                                                   "on_touch", "on_trigger", "on_tick"};
+
 class Script {
  public:
   /// Compiles the code and runs it once, which defines its callbacks. `scene_file` is the prefix of
@@ -35,6 +39,8 @@ class Script {
   void OnTrigger(const std::string& trigger, const std::string& part, bool entered);
   void OnJoin(const std::string& player);
   void OnLeave(const std::string& player);
+  /// `news`: in, out, far or taken.
+  void OnSeat(const std::string& player, const std::string& seat, const char* news);
   /// True if the script currently has a callback of this name.
   bool Defines(const char* callback) const;
   /// Returns the line of the scene file on which a global function begins; 0: there is no global of
@@ -48,6 +54,8 @@ class Script {
   /// Returns the state for a saved room. Stops the script if its table `room` cannot be saved.
   SavedScript Save();
 
+  /// False if the code is not Lua.
+  bool compiled() const;
   bool stopped() const;
   /// Returns the error as "scene.toml:12: text", once stopped.
   const std::string& error() const;

@@ -35,11 +35,15 @@ class ScriptHost {
   virtual const std::string& PlayerName(std::size_t player) const = 0;
   virtual bool Present(const std::string& player) const = 0;
   virtual Input ReadInput(const std::string& player) const = 0;
+  /// Returns the name of the seat that the player sits in; "": none.
+  virtual const std::string& SeatOf(const std::string& player) const = 0;
 
   /// Pushes the part's assembly at its centre of mass with `impulse`, N s; `why` names the push.
   virtual void Push(const std::string& part, const Vec2& impulse, const std::string& why) = 0;
   /// Makes the active character of this name limp for `seconds`, above 0; below 0 ends that.
   virtual void Limp(const std::string& character, float seconds) = 0;
+  /// Makes the player get out of its seat.
+  virtual void Unseat(const std::string& player) = 0;
   /// Frees the bricks within `radius` m that the blast makes faster than their strength allows, and
   /// throws them outwards with up to `speed` m/s. Pushes parts in view of the blast by up to
   /// `impulse` N s for each metre of silhouette.

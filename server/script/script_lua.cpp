@@ -109,6 +109,7 @@ struct Script::Impl {
     lua_pushcfunction(state, NoteLine);
     const int status = lua_load(state, NextPiece, &reader, chunk.c_str(), "t");
     if (status != LUA_OK) return Fail(status, source.line);
+    compiled = true;
     Call(0, source.line);
   }
 
@@ -222,7 +223,7 @@ struct Script::Impl {
 
   struct Callback {
     const char* name;
-    const char* text[2];
+    const char* text[3];
     int flag;  // -1: none
     const double* number;
   };
@@ -281,6 +282,7 @@ struct Script::Impl {
   const std::string scene_file;
   LuaGuard guard;
   lua_State* state = nullptr;  // null once stopped
+  bool compiled = false;
   std::string error;
 };
 
@@ -304,22 +306,26 @@ void Script::BeginTick() {
   impl_->guard.says = impl_->guard.commands = 0;
 }
 
-void Script::OnTick(double t) { impl_->Run({"on_tick", {nullptr, nullptr}, -1, &t}); }
+void Script::OnTick(double t) { impl_->Run({"on_tick", {nullptr, nullptr, nullptr}, -1, &t}); }
 
 void Script::OnTouch(const std::string& a, const std::string& b) {
-  impl_->Run({"on_touch", {a.c_str(), b.c_str()}, -1, nullptr});
+  impl_->Run({"on_touch", {a.c_str(), b.c_str(), nullptr}, -1, nullptr});
 }
 
 void Script::OnTrigger(const std::string& trigger, const std::string& part, bool entered) {
-  impl_->Run({"on_trigger", {trigger.c_str(), part.c_str()}, entered ? 1 : 0, nullptr});
+  impl_->Run({"on_trigger", {trigger.c_str(), part.c_str(), nullptr}, entered ? 1 : 0, nullptr});
 }
 
 void Script::OnJoin(const std::string& player) {
-  impl_->Run({"on_join", {player.c_str(), nullptr}, -1, nullptr});
+  impl_->Run({"on_join", {player.c_str(), nullptr, nullptr}, -1, nullptr});
 }
 
 void Script::OnLeave(const std::string& player) {
-  impl_->Run({"on_leave", {player.c_str(), nullptr}, -1, nullptr});
+  impl_->Run({"on_leave", {player.c_str(), nullptr, nullptr}, -1, nullptr});
+}
+
+void Script::OnSeat(const std::string& player, const std::string& seat, const char* news) {
+  impl_->Run({"on_seat", {player.c_str(), seat.c_str(), news}, -1, nullptr});
 }
 
 bool Script::Defines(const char* callback) const { return impl_->LineOf(callback) > 0; }
@@ -329,6 +335,7 @@ std::vector<TomlNode> Script::Ask(const char* function, double argument, int res
   return impl_->Ask(function, argument, results);
 }
 
+bool Script::compiled() const { return impl_->compiled; }
 bool Script::stopped() const { return impl_->state == nullptr; }
 const std::string& Script::error() const { return impl_->error; }
 const std::string& Script::name() const { return impl_->source.name; }

@@ -86,6 +86,23 @@ int ReadInput(lua_State* L) {
   return 3;
 }
 
+int SeatOf(lua_State* L) {
+  const char* player = luaL_checkstring(L, 1);
+  LuaCharge(L, 10);
+  const std::string* seat = nullptr;
+  Attempt(L, [&] { seat = &HostOf(L).SeatOf(player); });
+  if (seat->empty()) return 0;
+  lua_pushlstring(L, seat->data(), seat->size());
+  return 1;
+}
+
+int Unseat(lua_State* L) {
+  const char* player = luaL_checkstring(L, 1);
+  LuaCountCommand(L);
+  Attempt(L, [&] { HostOf(L).Unseat(player); });
+  return 0;
+}
+
 int Push(lua_State* L, float scale, const char* why) {
   const char* part = luaL_checkstring(L, 1);
   const float x = LuaNumber(L, 2), y = LuaNumber(L, 3);
@@ -193,11 +210,24 @@ int Print(lua_State* L) {
 }  // namespace
 
 void OpenLuaWorld(lua_State* L) {
-  const luaL_Reg functions[] = {
-      {"tick", Tick},           {"time", Time},       {"part", ReadPart},   {"parts", ListParts},
-      {"players", ListPlayers}, {"input", ReadInput}, {"impulse", Impulse}, {"force", Force},
-      {"blast", Blast},         {"limp", Limp},       {"get", Get},         {"set", Set},
-      {"score", Score},         {"health", Health},   {"say", Say},         {nullptr, nullptr}};
+  const luaL_Reg functions[] = {{"tick", Tick},
+                                {"time", Time},
+                                {"part", ReadPart},
+                                {"parts", ListParts},
+                                {"players", ListPlayers},
+                                {"input", ReadInput},
+                                {"impulse", Impulse},
+                                {"force", Force},
+                                {"seat", SeatOf},
+                                {"unseat", Unseat},
+                                {"blast", Blast},
+                                {"limp", Limp},
+                                {"get", Get},
+                                {"set", Set},
+                                {"score", Score},
+                                {"health", Health},
+                                {"say", Say},
+                                {nullptr, nullptr}};
   lua_newtable(L);
   luaL_setfuncs(L, functions, 0);
   AddLuaMaking(L);

@@ -60,6 +60,12 @@ int PlaceTable::Abandoned(std::int64_t now_us, const std::string& name, std::uin
   return silent && !place.key_known && place.key != key ? own : -1;
 }
 
+bool PlaceTable::IsReserved(std::int64_t now_us, int player) const {
+  return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
+    return !place.name.empty() && place.player == player && IsHeld(place, now_us);
+  });
+}
+
 std::string PlaceTable::FreeNames(std::int64_t now_us) const {
   std::string list;
   int left_out = 0;

@@ -72,6 +72,10 @@ class SessionTable {
   std::int64_t WorstLossPpm() const;
   /// Returns "free are bob, carl": the scene's players that may join now, as many as fit a message.
   std::string FreeNames(std::int64_t now_us) const { return places_.FreeNames(now_us); }
+  /// See PlaceTable::IsReserved.
+  bool IsReserved(std::int64_t now_us, int player) const {
+    return places_.IsReserved(now_us, player);
+  }
   PlaceTable& places() { return places_; }
   /// Reads round trip and loss of all ready sessions into their accounts and the room's sums. Once
   /// a second.

@@ -22,7 +22,7 @@ struct GridPoint {
 struct Grid {
   std::vector<GridPoint> points;  ///< seeds vary fastest, scenes slowest
   bool floor = true;              ///< compute the floor too
-  bool limit = false;             ///< compute the information limit too
+  bool limit = false;             ///< compute the error of held inputs too
 };
 
 /// Returns the key of a run: all that is needed to repeat it. Reads the point's scene and settings.

@@ -9,6 +9,7 @@
 #include "common/base/process.h"
 #include "common/base/progress_count.h"
 #include "common/measure/measure.h"
+#include "common/measure/screen/peers_apart.h"
 #include "common/record/log_file.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/scene_settings.h"
@@ -16,7 +17,11 @@
 namespace seam {
 namespace {
 
-/// The error, and what no method could be expected to beat.
+std::string Metres(const std::optional<double>& metres) {
+  return metres ? fmt::format("{:.3g} m", *metres) : "–";
+}
+
+/// Returns the headline, the error of others' bodies, with the disagreement of the peers beside it.
 std::string Summary(const Recording& recording) {
   try {
     const Oracle plain = ComputeOracle(recording);
@@ -24,9 +29,10 @@ std::string Summary(const Recording& recording) {
     const Measures m = Measure(
         recording, barriers ? ComputeOracle(recording, WithBarriers(recording.room)) : plain);
     return fmt::format(
-        "error {:.3g} m RMS, stutter {:.3g} m/s2; floor {:.3g} m (the oracle "
+        "error of others {} RMS, peers {} apart, stutter {:.3g} m/s2; floor {:.3g} m (the oracle "
         "against itself, one body moved by 1e-6 m)",
-        m.error_rms_m, m.stutter_mps2, ErrorFloor(recording, plain));
+        Metres(m.error_others_m), Metres(PeersApart(recording)), m.stutter_mps2,
+        ErrorFloor(recording, plain));
   } catch (const OperatorError& error) {  // the log is whole all the same
     return std::string("not measured: ") + error.what();
   }
@@ -64,7 +70,10 @@ int RunLog(const RunCommand& command) {
               static_cast<long long>(result.ticks), result.simulated_s, wall_s,
               result.simulated_s / std::max(wall_s, 1e-6));
   if (command.floor) std::printf("%s\n", Summary(recording).c_str());
-  return 0;
+  for (const std::string& warning : result.warnings) {
+    std::fprintf(stderr, "seam-lab: %s\n", warning.c_str());
+  }
+  return result.script_stopped ? 1 : 0;
 }
 
 }  // namespace seam

@@ -57,6 +57,14 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   return config;
 }
 
+void RequireScripts(Server& server) {
+  if (server.script_stopped()) throw OperatorError(server.TakeWarnings().front());
+}
+
+void RequireScripts(const SessionResult& result) {
+  if (result.script_stopped) throw OperatorError(result.warnings.front());
+}
+
 SessionResult RunSession(const ClusterConfig& config, Recording* recording,
                          const TicksDone& progress) {
   Cluster cluster(config);
@@ -69,6 +77,8 @@ SessionResult RunSession(const ClusterConfig& config, Recording* recording,
   SessionResult result;
   result.simulated_s = static_cast<double>(cluster.now_us() - begin_us) * 1e-6;
   result.ticks = cluster.server().tick();
+  result.warnings = cluster.server().TakeWarnings();
+  result.script_stopped = cluster.server().script_stopped();
   if (recording != nullptr && config.keep) *recording = cluster.recording();
   return result;
 }

@@ -45,7 +45,13 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene);
 struct SessionResult {
   double simulated_s = 0;  ///< virtual time, joining included
   std::int64_t ticks = 0;  ///< since tick 0
+  std::vector<std::string> warnings;  ///< of the server: scripts that were stopped, and the like
+  bool script_stopped = false;
 };
+
+/// Throws OperatorError if a script was stopped: figures of such a room are those of another room.
+void RequireScripts(Server& server);
+void RequireScripts(const SessionResult& result);
 
 /// Called now and then: ticks done, and in all.
 using TicksDone = std::function<void(std::int64_t, std::int64_t)>;

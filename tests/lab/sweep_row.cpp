@@ -9,7 +9,7 @@
 
 #include "common/base/bytes.h"
 #include "common/base/process.h"
-#include "common/measure/limit/information_limit.h"
+#include "common/measure/limit/held_inputs.h"
 #include "common/measure/measure.h"
 #include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
@@ -153,7 +153,7 @@ void JudgeRun(const GridPoint& point, const SweepOptions& options, Cluster* clus
     run->floors.wire_m = ErrorFloor(recording, plain, kWireNudge);
     run->floors.barrier_m = OracleDistance(recording, plain, *with_barriers);
   }
-  if (options.limit) run->floors.limit_m = InformationLimit(recording);
+  if (options.limit) run->floors.limit_m = HeldInputsError(recording);
 }
 
 GridPoint BlankPoint() {
@@ -175,6 +175,7 @@ Values SweepValues(const GridPoint& point, const SweepOptions& options) {
   const std::int64_t begin_us = CpuUs();
   Cluster cluster(config);
   cluster.Run();
+  RequireScripts(cluster.server());
   SweptRun run;
   run.cpu_s = static_cast<double>(CpuUs() - begin_us) * 1e-6;
   run.digest = digest.value();

@@ -11,7 +11,7 @@ namespace seam {
 /// Optional parts of a row beside the measures; each costs oracle runs.
 struct SweepOptions {
   bool floor = true;   ///< error by chaos alone
-  bool limit = false;  ///< information limit
+  bool limit = false;  ///< error of held inputs
 };
 
 /// Names of the key's columns (GridKey) and of the values', with commas between.

@@ -1,4 +1,4 @@
-/// The two oracles, and the information limit: the error that no method can avoid without the
+/// The two oracles, and the error of held inputs: exact physics without the
 /// others' inputs.
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/measure/limit/information_limit.h"
+#include "common/measure/limit/held_inputs.h"
 #include "common/measure/measure.h"
 #include "common/scene/expected.h"
 #include "tests/lab/cluster.h"
@@ -129,20 +129,20 @@ TEST(KnownInputs, AreUnknownWithoutTheServersViews) {
   Recording recording = Drive(200, kTickUs);
   recording.views.clear();
   EXPECT_TRUE(FindKnownInputs(recording).empty());
-  EXPECT_FALSE(InformationLimit(recording).has_value());
+  EXPECT_FALSE(HeldInputsError(recording).has_value());
 }
 
-TEST(InformationLimit, IsExactlyZeroIfTheHeldInputsWereRight) {
-  EXPECT_EQ(InformationLimit(Drive(-1, 0)).value(), 0);  // bob never drives, and all is known
+TEST(HeldInputs, IsExactlyZeroIfTheHeldInputsWereRight) {
+  EXPECT_EQ(HeldInputsError(Drive(-1, 0)).value(), 0);  // bob never drives, and all is known
   Recording recording = Drive(200, 6 * kTickUs);
   recording.inputs.erase(0);  // ann does nothing at all, and her inputs are not on record
   recording.inputs[0] = Drive(-1, 6 * kTickUs).inputs[1];
   for (auto& [tick, piece] : recording.inputs[0]) piece.player = 0;
   recording.inputs[1] = Drive(-1, 6 * kTickUs).inputs[1];
-  EXPECT_EQ(InformationLimit(recording).value(), 0);
+  EXPECT_EQ(HeldInputsError(recording).value(), 0);
 }
 
-TEST(InformationLimit, IsTheEffectOfTheInputsWhileTheyAreUnknown) {
+TEST(HeldInputs, IsTheEffectOfTheInputsWhileTheyAreUnknown) {
   // A sled of 1 kg under 10 N that is wrongly assumed to be driven, or not, for n ticks of 1/60 s
   // errs by h^2 10 n(n+1)/2. Both begin unseen; ann assumes bob's to be driven after he let go.
   const auto expected = [](std::int64_t until, std::int64_t age) {
@@ -162,12 +162,12 @@ TEST(InformationLimit, IsTheEffectOfTheInputsWhileTheyAreUnknown) {
     return std::sqrt(sum / count);
   };
   const Recording recording = Drive(95, 6 * kTickUs);
-  EXPECT_NEAR(InformationLimit(recording).value(), expected(95, 12), 2e-3 * expected(95, 12));
-  EXPECT_NEAR(InformationLimit(Drive(95, 12 * kTickUs)).value(), expected(95, 24),
+  EXPECT_NEAR(HeldInputsError(recording).value(), expected(95, 12), 2e-3 * expected(95, 12));
+  EXPECT_NEAR(HeldInputsError(Drive(95, 12 * kTickUs)).value(), expected(95, 24),
               2e-3 * expected(95, 24));
 }
 
-TEST(InformationLimit, FindsASinglePressAtAnyTick) {
+TEST(HeldInputs, FindsASinglePressAtAnyTick) {
   // A press is unknown for twelve ticks: one in ten ticks would see it once or not at all.
   std::string scene = kSleds;
   const std::string bob = "vehicle = \"b\"";
@@ -183,25 +183,25 @@ TEST(InformationLimit, FindsASinglePressAtAnyTick) {
     for (auto& [tick, piece] : recording.inputs[1]) {
       if (tick >= press && tick < press + 6) piece.buttons = {1};
     }
-    limits.push_back(InformationLimit(recording).value());
+    limits.push_back(HeldInputsError(recording).value());
   }
   const auto [least, most] = std::minmax_element(limits.begin(), limits.end());
   EXPECT_GT(*least, 0.02);
   EXPECT_LT(*most, 1.2 * *least);
 }
 
-TEST(InformationLimit, NeedsASecondPlayer) {
+TEST(HeldInputs, NeedsASecondPlayer) {
   Recording recording = Drive(95, 6 * kTickUs);
   recording.inputs.erase(1);
-  EXPECT_FALSE(InformationLimit(recording).has_value());
+  EXPECT_FALSE(HeldInputsError(recording).has_value());
 }
 
-TEST(InformationLimit, IsFarBelowAMethodsErrorsInAScriptedCrash) {
+TEST(HeldInputs, IsFarBelowAMethodsErrorsInAScriptedCrash) {
   ClusterConfig config;
   config.scene = "crossing";
   config.mode = "strict";
   const Recording recording = RunCluster(config);
-  const double limit = InformationLimit(recording).value();
+  const double limit = HeldInputsError(recording).value();
   EXPECT_GT(limit, 0);
   EXPECT_LT(limit, 0.1 * Measure(recording, ComputeOracle(recording)).error_rms_m);
 }

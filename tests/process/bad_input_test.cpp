@@ -243,7 +243,7 @@ TEST(ServerProgram, PrintsTheReasonThatAScriptStopped) {
                "--duration", "0.2", "--lcm-url", "none"},
               folder.path());
   ASSERT_TRUE(run.Wait(30)) << run.Story();
-  EXPECT_EQ(run.status(), 0) << run.Story();
+  EXPECT_EQ(run.status(), 1) << run.Story();
   EXPECT_NE(run.errors().find("seam-server: script bad is stopped: s.toml:6: "), std::string::npos)
       << run.Story();
 }

@@ -32,6 +32,7 @@ class Commands : public RoomCommands {
     if (refuses) throw ScriptRefusal("there are too many parts");
     went.push_back({world_.tick(), centre, radius, speed, impulse});
   }
+  void LeaveSeat(int) override {}
   void Insert(const std::string&) override {}
   void Say(const std::string&) override {}
   void Warn(const std::string& text) override { warned.push_back(text); }

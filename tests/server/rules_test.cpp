@@ -34,6 +34,7 @@ class FakeRoomCommands : public RoomCommands {
   void Blast(const Vec2&, float radius, float, float) override {
     asked.push_back("blast " + std::to_string(radius));
   }
+  void LeaveSeat(int seat) override { asked.push_back("unseat " + std::to_string(seat)); }
   void Insert(const std::string& text) override { asked.push_back(text); }
   void Say(const std::string& text) override { said.push_back(text); }
   void Warn(const std::string& text) override { said.push_back(text); }
@@ -43,7 +44,9 @@ class FakeRoomCommands : public RoomCommands {
 
 struct Game {
   explicit Game(const std::string& text)
-      : world(ParseScene("gravity = [0, 0]\n" + text, "g.toml")), rules(world, 1, commands) {}
+      : world(ParseScene("gravity = [0, 0]\n" + text, "g.toml")), rules(world, 1, commands) {
+    world.WatchTouches();
+  }
   void Step(int ticks = 1) {
     for (int i = 0; i < ticks; ++i) {
       world.Step();

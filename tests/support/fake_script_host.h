@@ -16,6 +16,7 @@ class FakeHost : public ScriptHost {
   std::vector<std::string> parts{"ball", "crate.0", "crate.1"};
   std::map<std::string, BodyState> states{
       {"ball", {{1, 2}, 0.5f, {3, 4}, 5}}, {"crate.0", {}}, {"crate.1", {}}};
+  const std::string seat = "cab", none;
   std::vector<std::string> players{"ann", "bob"};
   std::map<std::string, float> values;
   std::vector<std::string> asked;  ///< in order
@@ -38,6 +39,10 @@ class FakeHost : public ScriptHost {
     if (player != "ann") throw ScriptRefusal("there is no player '" + player + "'");
     return Input{127, -127, 5};
   }
+  const std::string& SeatOf(const std::string& player) const override {
+    return player == "ann" ? seat : none;
+  }
+  void Unseat(const std::string& player) override { asked.push_back("unseat " + player); }
   void Push(const std::string& part, const Vec2& impulse, const std::string& why) override {
     if (states.count(part) == 0) throw ScriptRefusal("there is no part '" + part + "'");
     asked.push_back("push " + part + " " + Text(impulse.x()) + " " + Text(impulse.y()) + " " + why);

@@ -115,6 +115,12 @@ class RandomMessages {
     for (float& dv : m.dv) dv = std::fabs(dv);
   }
   void Fill(ImpactReport& m) { Fill(m, Count(1, kReportedImpactsMax)); }
+  void Fill(TouchReport& m, std::size_t count) {
+    Common(m), m.tick = Tick(), Set(m.revision, 0, INT32_MAX);
+    Vector(m.a, count, 0, kIdsMax / 2 - 1), Vector(m.b, count, kIdsMax / 2, kIdsMax - 1);
+    Vector(m.epoch, count, 0, INT32_MAX);
+  }
+  void Fill(TouchReport& m) { Fill(m, Count(1, kReportedTouchesMax)); }
   void Fill(Grants& m) { Fill(m, Count(0, kGrantsMax)); }
   void Fill(EditOrder& m) {
     Common(m), Sequence(m), Set(m.number, -1, INT32_MAX), m.tick = Tick();

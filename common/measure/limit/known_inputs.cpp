@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/measure/limit/information_limit.h"
+#include "common/measure/limit/held_inputs.h"
 
 namespace seam {
 namespace {

@@ -58,6 +58,10 @@ void Persist(StateArchive& a, WorldSnapshot* snapshot) {
   });
   a.List(&snapshot->speeds, kPointsMost, [&](float* speed) { a.Real(speed, kSavedSpeedMost); });
   a.List(&snapshot->stages, kStageNumbersMost, [&](float* number) { a.Real(number); });
+  a.List(&snapshot->touching, kPointsMost, [&](PartTouch* touch) {
+    a.Int(&touch->a, 0, static_cast<std::int64_t>(kPartsMax) - 1);
+    a.Int(&touch->b, 0, static_cast<std::int64_t>(kPartsMax) - 1);
+  });
 }
 
 Status World::Load(const WorldSnapshot& snapshot) {
@@ -79,6 +83,9 @@ Status World::Load(const WorldSnapshot& snapshot) {
   if (!left) return Status::Error("it names bodies that it has not");
   if (!std::is_sorted(snapshot.points.begin(), snapshot.points.end(), PointsAscend)) {
     return Status::Error("its contact points are not in order");
+  }
+  if (!std::is_sorted(snapshot.touching.begin(), snapshot.touching.end())) {
+    return Status::Error("its touches are not in order");
   }
   StageMemory memory(snapshot.stages);
   if (!snapshot.stages.empty()) {

@@ -12,9 +12,6 @@
 namespace seam {
 namespace {
 
-/// Longest replay, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and the state of
-/// the tick that it completed another 0.4 s later. Less than the history.
-constexpr int kReplayMax = 2;
 /// A peer that is alone rolls back only for edits, which are rare: one barrier in 1/4 s.
 constexpr int kAlonePart = 4;
 /// Budget: ticks of replay per tick in the long run, and the most that may be saved up.

@@ -29,6 +29,10 @@
 
 namespace seam {
 
+/// Longest replay, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and the state of
+/// the tick that it completed another 0.4 s later. Less than the history.
+constexpr int kReplayMax = 2;
+
 /// Does nothing at peers that never roll back (Policy::GoesBack).
 class Replay {
  public:

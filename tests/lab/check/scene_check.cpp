@@ -31,6 +31,7 @@ std::vector<Finding> CheckMeaning(const Scene& scene) {
   FindRegions(scene, &findings);
   FindUnused(scene, &findings);
   FindJointLimits(scene, &findings);
+  FindInScripts(scene, &findings);
   const std::vector<std::string> lines = LinesOf(scene.text);
   const auto meant = [&lines](const Finding& finding) {
     return SaysMeant(lines, finding.line) || SaysMeant(lines, finding.line - 1);

@@ -31,6 +31,8 @@ void FindRegions(const Scene& scene, std::vector<Finding>* findings);
 /// Players without anything to drive, triggers that nothing can enter or that do nothing, seats
 /// that drive nothing.
 void FindUnused(const Scene& scene, std::vector<Finding>* findings);
+/// Scripts that do not compile, are stopped in a dry room, or use names that nothing has.
+void FindInScripts(const Scene& scene, std::vector<Finding>* findings);
 /// Joints that begin outside their limits, or with limits that can never be reached.
 void FindJointLimits(const Scene& scene, std::vector<Finding>* findings);
 

@@ -33,11 +33,13 @@ class JudgedRoom : public ScriptHost {
   }
   bool Present(const std::string& /*player*/) const override { return false; }
   Input ReadInput(const std::string& /*player*/) const override { return {}; }
+  const std::string& SeatOf(const std::string& /*player*/) const override { return none_; }
   float Get(const std::string& /*subject*/, const std::string& /*key*/) const override { return 0; }
   void Say(const std::string& /*text*/) override {}
 
   void Push(const std::string&, const Vec2&, const std::string&) override { Refuse(); }
   void Limp(const std::string&, float) override { Refuse(); }
+  void Unseat(const std::string&) override { Refuse(); }
   void Blast(const Vec2&, float, float, float) override { Refuse(); }
   void AddPart(const TomlNode&) override { Refuse(); }
   void AddJoint(const TomlNode&) override { Refuse(); }
@@ -53,6 +55,7 @@ class JudgedRoom : public ScriptHost {
   const Scene& scene_;
   const World* world_ = nullptr;
   bool loading_ = true;
+  const std::string none_;
   std::map<std::string, PartId> part_of_name_;
 };
 

@@ -166,7 +166,7 @@ FairnessResult RunFairness(const FairnessRun& run) {
                                         seed);
   };
   Recording recording;
-  RunSession(config, &recording);
+  RequireScripts(RunSession(config, &recording));
   return JudgeFairness(recording, run.near);
 }
 

@@ -12,6 +12,7 @@
 #include "tests/lab/relief/bar_rows.h"
 #include "tests/lab/relief/benches.h"
 #include "tests/lab/relief/relief_scene.h"
+#include "tests/lab/session.h"
 
 namespace seam {
 namespace {
@@ -110,6 +111,7 @@ double ErrorOf(const ServerCase& of, bool central, double seconds) {
   config.publish = Publish::kAll;
   Cluster cluster(config);
   cluster.Run();
+  RequireScripts(cluster.server());
   const Recording& recording = cluster.recording();
   return Measure(recording, ComputeOracle(recording)).error_others_m.value_or(NAN);
 }

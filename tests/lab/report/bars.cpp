@@ -79,7 +79,7 @@ const ReportCase* CaseFor(const Bar& bar, const std::vector<ReportCase>& cases) 
 }
 
 /// What no method is expected to beat, from any sweep that has it. A floor is the scene's and its
-/// drive's; the information limit also depends on the network.
+/// drive's; the error of held inputs also depends on the network.
 std::optional<double> Unbeaten(const Bar& bar, const std::vector<ReportCase>& cases,
                                const std::string& column) {
   for (const ReportCase& found : cases) {
@@ -108,7 +108,7 @@ std::string BarText(const Bar& bar, double limit) {
 }
 
 std::string Named(const Bar& bar, const ReportCase& at) {
-  if (bar.by_limit) return at.Name() + ", smoother off: × information limit";
+  if (bar.by_limit) return at.Name() + ", smoother off: × inputs held";
   if (bar.column == std::string(kOthers)) return at.Name();
   return at.Name() + ": " + bar.column;
 }
@@ -160,14 +160,15 @@ TextTable BarTable(const std::vector<ReportCase>& cases, const Before* before) {
         Verdict(Holds(bar, limit, own), rms_held, Holds(bar, bar.of_central, central));
     held += verdict == "held" ? 1 : 0;
     const auto known = Unbeaten(bar, cases, "info_limit_m");
-    if (verdict != "held" && others && known && *known > limit) verdict += "; no method can";
+    if (verdict != "held" && others && known && *known > limit)
+      verdict += "; inputs held miss it too";
     const auto was = [&](const char* column) {
       return before == nullptr || bar.by_limit ? std::nullopt
                                                : before->Find(*at, "retrospect", column);
     };
     std::string bar_text = BarText(bar, limit);
     if (others && floor) bar_text += " (floor_wire_m " + Digits(*floor) + ")";
-    if (others && known) bar_text += " (information limit " + Digits(*known) + ")";
+    if (others && known) bar_text += " (inputs held " + Digits(*known) + ")";
     table.rows.push_back({Named(bar, *at), text(was(bar.column)),
                           others ? text(was("error_rms_m")) : "–",
                           CellOf(at->Find(kDefaultMethod), own), others ? text(rms) : "–",
@@ -180,7 +181,8 @@ TextTable BarTable(const std::vector<ReportCase>& cases, const Before* before) {
   table.note = fmt::format(
       "{} of {} bars held. error_others_m in m unless said otherwise, medians over seeds, demo "
       "network unless said; default: {}, central: {}. The default's error_rms_m may exceed its bar "
-      "by 20 %. No method can: the information limit is above the default's bar. Before: "
+      "by 20 %. Inputs held miss it too: exact physics with the others' inputs held is above the "
+      "default's bar. Before: "
       "retrospect, the default of commit f0a5095, its recordings measured with "
       "the present measure (tests/lab/sweeps/before.csv).",
       held, table.rows.size(), kDefaultMethod, kCentralMethod);

@@ -1,4 +1,4 @@
-/// What no method can be expected to beat, scene by scene, and where chaos leaves nothing to tell.
+/// The floors of each scene and the error of held inputs; where chaos leaves nothing to tell.
 
 #include <fmt/format.h>
 
@@ -63,7 +63,7 @@ std::string NotToldApart(const SceneFloors& floors) {
 TextTable FloorTable(const std::vector<Sweep>& sweeps) {
   TextTable table;
   table.name = "floors";
-  table.title = "What no method can be expected to beat";
+  table.title = "Floors of chaos, of the wire, of barriers, and of held inputs";
   table.header = {"scene",
                   "oracle_row_m",
                   "floor_m",

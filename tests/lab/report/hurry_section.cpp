@@ -202,7 +202,7 @@ TextTable WhichTable(const std::vector<Sweep>& sweeps) {
                   "cheapest within a quarter of it",
                   std::string("default (") + kDefaultMethod + ")",
                   kCentralMethod,
-                  "information limit (m)"};
+                  "inputs held (m)"};
   for (const Sweep& sweep : sweeps) {
     if (sweep.view.axis.key != "one_way_ms") continue;
     bool any = false;
@@ -231,8 +231,8 @@ TextTable WhichTable(const std::vector<Sweep>& sweeps) {
   }
   table.note =
       "Each: error_others_m (m), CPU of server and clients (ms per s), traffic of a client (kB/s); "
-      "medians over seeds. The limit: exact physics from exact states of the recorded age, the "
-      "others' inputs held; where it is not 0, no method can know more.";
+      "medians over seeds. Inputs held: exact physics from exact states of the recorded age, "
+      "the others' inputs held. That is a guess and not a bound.";
   table.open = true;
   return table;
 }
@@ -245,7 +245,8 @@ Section HurrySection(const std::vector<Sweep>& sweeps, const std::vector<ReportC
   section.intro =
       "error_others_m is the headline: RMS of the largest displacement of a point of a body, as "
       "clients see the bodies of others. First which method is most exact where, and what that "
-      "costs; then every method scene by scene; what no method can do; and which of the project's "
+      "costs; then every method scene by scene; the floors of chaos and of held inputs; and which "
+      "of the project's "
       "own bars are held.";
   std::vector<TextTable> tables = {WhichTable(sweeps),        MethodsTable(cases),
                                    GlanceTable(cases),        FloorTable(sweeps),

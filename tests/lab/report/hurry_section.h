@@ -1,6 +1,6 @@
 #pragma once
 /// The first page of the report, for a reader in a hurry: which method for which latency and scene,
-/// at what cost, and what no method can do.
+/// at what cost, and the floors.
 
 #include <vector>
 

@@ -60,13 +60,13 @@ const std::vector<SweepMeasure>& FloorMeasures() {
       Column("floor", "floor", "m", true, "floor_m"),
       Column("floor-wire", "floor of the wire", "m", true, "floor_wire_m"),
       Column("floor-barrier", "what barriers change", "m", true, "floor_barrier_m"),
-      Column("info-limit", "information limit", "m", true, "info_limit_m")};
+      Column("info-limit", "inputs held", "m", true, "info_limit_m")};
   return floors;
 }
 
 const SweepMeasure& LimitMeasure() {
   static const SweepMeasure limit = {
-      "limit", "error of others' bodies, by the information limit", "1 is the limit", true,
+      "limit", "error of others' bodies, by that of held inputs", "1: as held inputs", true,
       [](const CsvTable& table, std::size_t row) -> std::optional<double> {
         const std::optional<double> limit_m = table.Number(row, "info_limit_m");
         std::optional<double> error_m = table.Number(row, "error_others_m");

@@ -57,10 +57,10 @@ PlotPanel MeasurePanel(const Sweep& sweep, const SweepGroup& group, const SweepM
   return panel;
 }
 
-/// What no method can know depends on the network, so it is a curve and not a level.
+/// Draws the error of held inputs as a curve, because it depends on the network.
 void AddLimit(const Sweep& sweep, const SweepGroup& group, PlotPanel* panel) {
   PlotCurve curve;
-  curve.name = "information limit";
+  curve.name = "inputs held";
   curve.look = {"#000000", "(1,2)", 2.2, 0, 0};
   for (const double x : group.xs) {
     std::vector<std::size_t> rows;

@@ -39,7 +39,7 @@ std::vector<MethodTrial> Trials(const Sweep& sweep, const SweepGroup& group,
 /// Which methods are on which front, over all sweeps along a setting of ours: a row for each front,
 /// a column for each method. Without such sweeps it has no rows.
 TextTable FrontTable(const std::vector<Sweep>& sweeps);
-/// A row for each scene and drive: its floors and the information limit, medians over all sweeps,
+/// A row for each scene and drive: its floors and held inputs, medians over all sweeps,
 /// and which methods chaos leaves nothing to tell apart. Without floors it has no rows.
 TextTable FloorTable(const std::vector<Sweep>& sweeps);
 /// Seconds simulated per second of CPU, by method and scene, over all sweeps.

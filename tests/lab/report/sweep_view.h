@@ -50,9 +50,9 @@ const std::vector<SweepMeasure>& SweepMeasures();
 /// CPU time of server and clients, ms per second of the session.
 const SweepMeasure& CpuMeasure();
 /// Limits that no method is expected to beat: the scene's own sensitivity, to a micrometre, to the
-/// wire's resolution and to barriers, and the information limit.
+/// wire's resolution and to barriers, and the error of held inputs.
 const std::vector<SweepMeasure>& FloorMeasures();
-/// Error of others' bodies on clients' screens as a multiple of the information limit.
+/// Error of others' bodies on clients' screens as a multiple of that of held inputs.
 const SweepMeasure& LimitMeasure();
 /// Overlap in the oracle itself.
 const SweepMeasure& OraclesPenetration();

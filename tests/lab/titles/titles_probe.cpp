@@ -15,7 +15,7 @@ Values TitleValues(const std::string& sentence, const std::string& missed) {
 Values MeasureTitle(const ProbeRun& run) {
   const Title& title = TitleOf(run.key.at("scene"));
   Recording recording;
-  RunSession(Configure(run.settings), &recording);
+  RequireScripts(RunSession(Configure(run.settings), &recording));
   return TitleValues(title.sentence, MissedBy(title, recording));
 }
 

@@ -1,4 +1,4 @@
-/// The report's table of floors, and errors as multiples of the information limit.
+/// The report's table of floors, and errors as multiples of the error of held inputs.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(FloorTable, WithoutFloorsHasNoRows) {
   EXPECT_TRUE(FloorTable({}).rows.empty());
 }
 
-TEST(InformationLimit, IsATableOfMultiplesIfASweepHasIt) {
+TEST(HeldInputs, IsATableOfMultiplesIfASweepHasIt) {
   const Sweep sweep = SweepOf(kRows);
   EXPECT_DOUBLE_EQ(LimitMeasure().value(sweep.table, 0).value(), 0.3 / 0.25);
   EXPECT_DOUBLE_EQ(LimitMeasure().value(sweep.table, 2).value(), 20);

@@ -1,4 +1,4 @@
-#include "common/measure/limit/information_limit.h"
+#include "common/measure/limit/held_inputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +161,7 @@ class Guesser {
 
 }  // namespace
 
-std::optional<double> InformationLimit(const Recording& recording, int every) {
+std::optional<double> HeldInputsError(const Recording& recording, int every) {
   SEAM_ASSERT(every >= 1);
   if (PolicyOf(recording.room).IsOracle()) return std::nullopt;
   Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
