@@ -68,7 +68,7 @@ std::vector<std::string> Values(const MeasuredRun& run) {
                                      Number(m.rebound.value_or(0), m.rebound.has_value()),
                                      Number(m.bytes_per_s, m.bytes_per_s > 0),
                                      Number(m.cpu_us_per_s, m.cpu_us_per_s > 0),
-                                     run.valid};
+                                     run.valid.empty() ? run.lacks : run.valid};
   // A session that is not valid has only its identity and the reason.
   for (std::size_t i = kIdentityColumns; !run.valid.empty() && i + 1 < values.size(); ++i) {
     values[i].clear();
