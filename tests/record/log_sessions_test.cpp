@@ -9,6 +9,7 @@
 #include "common/record/log_file.h"
 #include "common/record/loss_timeline.h"
 #include "common/record/recording.h"
+#include "common/record/time_range.h"
 #include "tests/support/temporary_file.h"
 
 namespace seam {
@@ -180,6 +181,22 @@ TEST_F(LogSessions, OlderLogsAreReadIfTheyHoldOneSessionAndRefusedIfMore) {
     log.Flush();
     EXPECT_NE(Refusal(file_.path()).find(why), std::string::npos) << second;
   }
+}
+
+TEST(KeepRange, CutsTheLoadsOfTheServerToo) {
+  Recording recording;
+  recording.room.tick_hz = 60;
+  for (int tick = 0; tick <= 600; tick += 60) {
+    recording.loads.emplace_back().tick = tick;
+    recording.views[0][tick].tick = tick;
+  }
+  TimeRange range;
+  range.from_s = 2;
+  range.to_s = 4;
+  KeepRange(range, &recording);
+  ASSERT_EQ(recording.loads.size(), 3u);
+  EXPECT_EQ(recording.loads.front().tick, 120);
+  EXPECT_EQ(recording.loads.back().tick, 240);
 }
 
 }  // namespace log_sessions_test
