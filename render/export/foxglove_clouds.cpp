@@ -18,13 +18,13 @@ class CloudPoints {
 
   /// Leaves out points farther than this from all places of bodies, m: a viewer fits all points.
   void StayNear(const Recording& recording) {
-    constexpr float kNear_m = 5;
+    constexpr float kNearBodies_m = 5;
     least_ = Vec2(1e9f, 1e9f);
     most_ = -least_;
     for (const auto& [peer, views] : recording.views) {
       for (const auto& [tick, view] : views) {
         for (std::size_t i = 0; i < view.id.size(); ++i) {
-          const Vec2 place(view.x[i], view.y[i]), margin(kNear_m, kNear_m);
+          const Vec2 place(view.x[i], view.y[i]), margin(kNearBodies_m, kNearBodies_m);
           least_ = least_.cwiseMin(place - margin);
           most_ = most_.cwiseMax(place + margin);
         }
