@@ -14,7 +14,7 @@ namespace {
 
 /// Poses are rounded to these parts of a metre and of a quaternion. States travel in parts of 512,
 /// so nothing is lost that was known, and files compress better.
-constexpr double kPosePartsPerM = 16384, kTurnParts = 65536;
+constexpr double kPosePartsPerM = 4096, kTurnParts = 32768;
 
 double Rounded(double value, double parts) { return std::round(value * parts) / parts; }
 

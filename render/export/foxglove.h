@@ -29,7 +29,7 @@ std::string ExportViewName(const ExportSession& session, int peer);
 
 /// Returns the time of a tick, ns from the session's tick 0; 0 for earlier ones.
 std::uint64_t TimeNs(const ExportSession& session, std::int64_t tick);
-/// foxglove.FrameTransforms: the pose of each body of the rows, rounded to 1/16384 m and 1/65536 of
+/// foxglove.FrameTransforms: the pose of each body of the rows, rounded to 1/4096 m and 1/32768 of
 /// a quaternion. Frames are "VIEW/BODY".
 std::string FramesOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows);

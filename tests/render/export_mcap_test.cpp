@@ -55,9 +55,9 @@ TEST_F(ExportMcap, TheContainerHoldsTheRecordingsPosesAndItsOwnChecksums) {
       const std::vector<FrameRead> frames = FramesIn(message->second);
       ASSERT_EQ(frames.size(), view.id.size());
       for (std::size_t i = 0; i < frames.size(); ++i) {
-        EXPECT_NEAR(frames[i].x, double{view.x[i]}, 0.5 / 16384);
-        EXPECT_NEAR(frames[i].y, double{view.y[i]}, 0.5 / 16384);
-        EXPECT_NEAR(std::remainder(frames[i].angle - double{view.angle[i]}, 2 * kPi), 0, 3e-5);
+        EXPECT_NEAR(frames[i].x, double{view.x[i]}, 0.5 / 4096);
+        EXPECT_NEAR(frames[i].y, double{view.y[i]}, 0.5 / 4096);
+        EXPECT_NEAR(std::remainder(frames[i].angle - double{view.angle[i]}, 2 * kPi), 0, 1e-4);
       }
       ++message;
     }
@@ -82,8 +82,8 @@ TEST_F(ExportMcap, TheOracleIsASecondScene) {
       const auto state = oracle.At(tick, view.id[i]);
       ASSERT_TRUE(state.has_value());
       EXPECT_EQ(frames[i].name.rfind("oracle/", 0), 0u);
-      EXPECT_NEAR(frames[i].x, double{state->position.x()}, 0.5 / 16384);
-      EXPECT_NEAR(frames[i].y, double{state->position.y()}, 0.5 / 16384);
+      EXPECT_NEAR(frames[i].x, double{state->position.x()}, 0.5 / 4096);
+      EXPECT_NEAR(frames[i].y, double{state->position.y()}, 0.5 / 4096);
     }
   }
   EXPECT_EQ(file.messages.at("/oracle/shapes").size(), 1u);
