@@ -44,13 +44,13 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
 LIBS := -llcm -lbox2d -lfmt -lsodium -pthread
-RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz -ltinyxml2
+RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz -lzstd -ltinyxml2
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
 DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
-	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core \
-	libgtest-dev libsodium-dev nlohmann-json3-dev libtinyxml2-dev iproute2 util-linux
+	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libzstd-dev libfreetype-dev \
+	fonts-dejavu-core libgtest-dev libsodium-dev nlohmann-json3-dev libtinyxml2-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_test := python3
 # For the tests that open a review page; without it they are skipped. It is 2 minutes, so CI alone installs it.
@@ -220,9 +220,9 @@ $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
-	$(LINK) $(LIBS) -o $@
+	$(LINK) $(LIBS) -lzstd -o $@
 $(OUT)/seam-import: $(OUT)/render/import_main.o $(IMPORT) $(OUT)/libseam-common.a
-	$(LINK) $(LIBS) -ltinyxml2 -o $@
+	$(LINK) $(LIBS) -lzstd -ltinyxml2 -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.

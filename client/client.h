@@ -37,6 +37,7 @@ enum class Drive { kNone, kScript, kBot, kLive };
 struct ClientConfig {
   Address server;
   std::string name = "guest";
+  bool numbers_name = false;  ///< takes "guest-2", "guest-3" ... while the name is in use
   std::string room;  ///< a room of the server; "": its first
   Drive drive = Drive::kNone;
   std::string script_of;  ///< kScript: the scene's player with the script to play
@@ -73,6 +74,8 @@ class Client {
   }
   bool running() const { return replica_ != nullptr && started_; }
   int peer() const { return peer_; }
+  /// Returns the name under which it joins or has joined.
+  const std::string& name() const { return config_.name; }
   /// Returns the secret key of our place, which gives it back to us in a new session. 0: none yet.
   std::int64_t key() const { return key_; }
   /// Returns our vehicle's part (a character's torso); -1: none, or not known yet.
@@ -169,6 +172,7 @@ class Client {
   std::int64_t LeadTarget() const;
 
   ClientConfig config_;
+  int name_number_ = 1;  // of config_.name, if the client numbers it
   Net& net_;
   Recorder& recorder_;
   Entropy& entropy_;

@@ -104,6 +104,10 @@ bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
 
 void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
   const std::string other = OtherProtocol(reason);
+  if (config_.numbers_name && reason.rfind("the name " + config_.name + " is in use", 0) == 0) {
+    config_.name = "guest-" + std::to_string(++name_number_);
+    return;
+  }
   // Our own earlier session may still hold the name: retry for a while.
   if (refused_us_ < 0) refused_us_ = now_us;
   if (!other.empty()) {

@@ -263,7 +263,8 @@ void Client::Build(std::int64_t now_us) {
     fatal_ = "cannot use the server's scene: " + std::string(e.what());
     return;
   }
-  if (publisher_ == nullptr) publisher_ = std::make_unique<Publisher>(recorder_, room_.room);
+  if (publisher_ != nullptr && publisher_->session() == room_.session) return;
+  publisher_ = std::make_unique<Publisher>(recorder_, room_.room, room_.session);
 }
 
 }  // namespace seam

@@ -69,7 +69,7 @@ void Define(Command& app, Flags& f) {
              "keep the secret of our place in this file (mode 0600): after a restart the "
              "place, with its car, is ours again at once");
   app.Option("--record", f.record, "write an LCM log of the bus to this file");
-  app.Switch("--force", f.force, "overwrite the --record file");
+  app.Switch("--force", f.force, "replace the --record file");
   app.Option("--room", f.room, "the room to join (default: the server's first)");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.Option("--publish", f.publish,
@@ -100,6 +100,7 @@ ClientConfig Configure(const Flags& f) {
     throw OperatorError("address \"" + f.server + "\": no server has port 0");
   }
   config.name = f.name.empty() ? "guest" : f.name;
+  config.numbers_name = f.name.empty();
   config.watch = f.watch;
   config.room = f.room;
   config.smooth_rate = ParseSmoothRate(f.smooth);
@@ -130,14 +131,14 @@ std::string Seconds(double seconds) {
 }
 
 /// Returns "ann: 12 s, peer 1, round trip 100 ms, loss 1.0 %, 12 corrections, 0 rejoin(s)".
-std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
+std::string Progress(const Client& client, double elapsed_s) {
   char line[160];
   std::snprintf(
       line, sizeof line,
       "%s: %.0f s, peer %d, round trip %.0f ms, loss %.1f %%, %lld corrections, %lld rejoin(s)",
-      f.name.empty() ? "guest" : f.name.c_str(), elapsed_s, client.peer(),
-      std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
-      static_cast<long long>(client.corrections()), static_cast<long long>(client.rejoins()));
+      client.name().c_str(), elapsed_s, client.peer(), std::max(0, client.stats().rtt_us) / 1000.0,
+      client.stats().loss_ppm / 10000.0, static_cast<long long>(client.corrections()),
+      static_cast<long long>(client.rejoins()));
   if (client.speed_ppm() == kFullSpeedPpm) return line;
   return line + (", the room runs at " + std::to_string(client.speed_ppm() / 10000) +
                  " % of its speed: its server is overloaded");
@@ -199,11 +200,10 @@ int Play(const Flags& f) {
     }
     if (view != nullptr && client.running() && view->Due(now)) {
       const std::string keys = keyboard != nullptr ? kKeys : "Ctrl-C stops";
-      view->Show(now, client, Progress(f, client, elapsed_s),
-                 now < notice_until_us ? notice : keys);
+      view->Show(now, client, Progress(client, elapsed_s), now < notice_until_us ? notice : keys);
     }
     if (view == nullptr && client.running() && line.Due(now)) {
-      line.Show(now, Progress(f, client, elapsed_s) + "; Ctrl-C stops");
+      line.Show(now, Progress(client, elapsed_s) + "; Ctrl-C stops");
     }
     const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);

@@ -134,7 +134,7 @@ void RenderSequence(const RenderOptions& options) {
   const OutputFolder folder(options.out, options.force);
   if (!options.video.empty()) {
     RequireFfmpeg();
-    CheckOutputFile(options.video, VideoEnding(options.video), options.force);
+    CheckOutputFile(options.video, VideoEnding(options.video), options.force, {});
   }
   const std::vector<Playback> playbacks = LoadPlaybacks(options);
   const Font font(ScaleOf(options.width_px, options.height_px), TextsOf(playbacks), options.fonts);
@@ -150,7 +150,7 @@ void RenderSequence(const RenderOptions& options) {
 }
 
 void RenderSheet(const RenderOptions& options) {
-  CheckOutputFile(options.out, ".png", true);
+  CheckOutputFile(options.out, ".png", options.force, ReadBy(options));
   const std::vector<Playback> playbacks = LoadPlaybacks(options);
   const Page page = PageOf(options, playbacks);
   const Font font(ScaleOf(options.width_px, options.height_px), TextsOf(playbacks), options.fonts);
@@ -168,7 +168,7 @@ void RenderSheet(const RenderOptions& options) {
 }
 
 void RenderStrobe(const RenderOptions& options) {
-  CheckOutputFile(options.out, ".png", true);
+  CheckOutputFile(options.out, ".png", options.force, ReadBy(options));
   const std::vector<Playback> playbacks = LoadPlaybacks(options);
   StrobeOptions strobe;
   strobe.from_s = options.from_s;
@@ -203,8 +203,8 @@ int RenderMain(int argc, const char* const* argv) {
       [&] {
         CheckRenderOptions(&options);
         if (options.list) {
-          for (const std::string& path : options.logs) {
-            std::fputs(FormatContents(path, ReadRecording(path, options.room)).c_str(), stdout);
+          for (std::size_t i = 0; i < options.logs.size(); ++i) {
+            std::fputs(FormatContents(options.logs[i], ReadLog(options, i)).c_str(), stdout);
           }
         } else if (options.live) {
           RenderLive(options);

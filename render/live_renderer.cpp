@@ -53,17 +53,25 @@ bool LiveRenderer::IsStray(std::int64_t tick) {
   ++dropped_;
   if (++strays_ < kStraysMax) return true;
   builder_ = RecordingBuilder(options_.room);  // its room is repeated every second
+  Restart();
+  return true;
+}
+
+void LiveRenderer::Restart() {
   playback_.reset();
   newest_tick_ = -1;
   strays_ = 0;
-  return true;
 }
 
 bool LiveRenderer::Add(const std::string& channel, ByteView message) {
   const AnyMessage any = Decode(message);
   const View* const view = std::get_if<View>(&any);
-  if (view != nullptr && builder_.has_room() && IsStray(view->tick)) return true;
-  return builder_.Add(channel, message);
+  const std::optional<std::int64_t> session = builder_.session();
+  const bool of_shown = view != nullptr && builder_.has_room() && view->session == session;
+  if (of_shown && IsStray(view->tick)) return true;
+  const bool added = builder_.Add(channel, message);
+  if (builder_.session() != session) Restart();
+  return added;
 }
 
 void LiveRenderer::DrawDue() {

@@ -25,7 +25,8 @@ class LiveRenderer {
   explicit LiveRenderer(const RenderOptions& options);
 
   /// Adds a message of the bus; returns false when it does not belong to the session. A view with a
-  /// tick far from the newest is dropped as damaged; many in a row mean that the session restarted.
+  /// tick far from the newest is dropped as damaged; many in a row mean that the session restarted,
+  /// as does the Room of another session.
   bool Add(const std::string& channel, ByteView message);
 
   /// Draws every frame for which the displayed peer's view has arrived. Skips frames that are too
@@ -40,6 +41,8 @@ class LiveRenderer {
 
  private:
   bool IsStray(std::int64_t tick);
+  /// Forgets what was shown of a session that has ended.
+  void Restart();
   void Begin();
   void DrawFrame();
 

@@ -2,14 +2,29 @@
 
 #include "common/base/check.h"
 #include "common/base/nearest.h"
+#include "common/base/process.h"
 #include "common/base/progress_count.h"
 #include "common/sync/method.h"
 #include "render/scene_recording.h"
 
 namespace seam {
 
-LoadedLog LoadLog(const std::string& path, const RenderOptions& options) {
-  Recording recording = ReadRecording(path, options.room);
+std::vector<std::string> ReadBy(const RenderOptions& options) {
+  std::vector<std::string> read = options.logs;
+  if (!options.oracle.empty()) read.push_back(options.oracle);
+  return read;
+}
+
+Recording ReadLog(const RenderOptions& options, std::size_t i) {
+  return ReadRecording(options.logs[i], options.room,
+                       options.sessions.empty() ? "" : options.sessions[i]);
+}
+
+LoadedLog LoadLog(const RenderOptions& options, std::size_t i) {
+  const std::string& path = options.logs[i];
+  Recording recording = ReadLog(options, i);
+  const std::string sessions = ChosenSession(recording);
+  if (!sessions.empty()) PrintError("seam-render", "note: " + path + ": " + sessions);
   if (recording.views.empty() || recording.last_tick < recording.first_tick)
     throw OperatorError(path + ": the recording has no views, so there is nothing to draw");
   if (recording.room.tick_hz < 1) throw OperatorError(path + ": the room's tick rate is missing");
@@ -29,13 +44,14 @@ LoadedLog LoadLog(const std::string& path, const RenderOptions& options) {
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
   std::vector<Playback> playbacks;
   ProgressCount count("reading", "recordings", static_cast<std::int64_t>(options.logs.size()));
-  for (const std::string& path : options.logs) {
-    count(static_cast<std::int64_t>(playbacks.size()));
+  for (std::size_t i = 0; i < options.logs.size(); ++i) {
+    const std::string& path = options.logs[i];
+    count(static_cast<std::int64_t>(i));
     if (IsSceneFile(path)) {
       playbacks.emplace_back(RecordingOfScene(path), std::nullopt);
       continue;
     }
-    LoadedLog log = LoadLog(path, options);
+    LoadedLog log = LoadLog(options, i);
     playbacks.emplace_back(std::move(log.recording), std::move(log.oracle));
   }
   return playbacks;

@@ -18,7 +18,13 @@ struct LoadedLog {
   Recording recording;
   std::optional<Oracle> oracle;
 };
-LoadedLog LoadLog(const std::string& path, const RenderOptions& options);
+LoadedLog LoadLog(const RenderOptions& options, std::size_t i);
+
+/// Returns the files that are read, which no output may replace.
+std::vector<std::string> ReadBy(const RenderOptions& options);
+
+/// Reads the recording of options.logs[i], without an oracle.
+Recording ReadLog(const RenderOptions& options, std::size_t i);
 
 /// An oracle made of a log of mode oracle, with the log's room.
 struct GivenOracle {

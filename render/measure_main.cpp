@@ -29,6 +29,7 @@ struct Options {
   std::string oracle;
   std::string csv;
   bool append = false;
+  bool force = false;
   bool more = false;
   bool floor = false;
   bool limit = false;
@@ -36,6 +37,7 @@ struct Options {
   std::string losses_csv;
   bool list = false;
   std::vector<std::string> names;
+  std::vector<std::string> sessions;
   TimeRange range;
 };
 
@@ -49,13 +51,18 @@ std::string BaseName(const std::string& path) {
 }
 
 /// Reads a log, and reports its damage on stderr.
-Recording Read(const std::string& path) {
-  Recording recording = ReadRecording(path);
+Recording Read(const std::string& path, const std::string& session) {
+  Recording recording = ReadRecording(path, "", session);
   const std::string damage = DamageOf(recording);
   if (!damage.empty()) {
     std::fprintf(stderr, "seam-measure: warning: %s: %s\n", path.c_str(), damage.c_str());
   }
   return recording;
+}
+
+/// Reads the log of this index.
+Recording ReadLog(const Options& options, std::size_t i) {
+  return Read(options.logs[i], options.sessions.empty() ? "" : options.sessions[i]);
 }
 
 /// Returns the oracle given by --oracle. Throws OperatorError unless it fits `recording`.
@@ -65,19 +72,25 @@ Oracle GivenOracle(const Recording& truth, const Recording& recording, const Opt
   return OracleFromRecording(truth);
 }
 
-MeasuredRun MeasureLog(const std::string& path, const std::string& name, const Options& options,
+MeasuredRun MeasureLog(std::size_t i, const Options& options,
                        const std::optional<Recording>& truth) {
-  Recording recording = Read(path);
+  const std::string& path = options.logs[i];
+  Recording recording = ReadLog(options, i);
+  const std::string sessions = ChosenSession(recording);
+  if (!sessions.empty()) {
+    std::fprintf(stderr, "seam-measure: note: %s: %s\n", path.c_str(), sessions.c_str());
+  }
   RequireRange(options.range, recording, path);
   const Oracle oracle = truth ? GivenOracle(*truth, recording, options, path)
                               : ComputeOracle(recording, JudgeOf(recording.room));
   KeepRange(options.range, &recording);  // the oracle needs the whole of it
   MeasuredRun run;
-  run.run = name;
+  run.run = options.names.empty() ? BaseName(path) + SessionSuffix(recording) : options.names[i];
   run.room = recording.room;
   run.measures = Measure(recording, oracle);
   MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &run.measures);
   run.valid = WhyNotValid(recording, oracle, run.measures);
+  run.lacks = LackOf(recording);
   run.gaps = recording.bus_gaps;
   run.skipped_bytes = recording.skipped_bytes;
   const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
@@ -105,14 +118,19 @@ std::string FirstLine(const std::string& path) {
   return line;
 }
 
-/// Checks the file of --csv: `seam-measure --csv a.lcm b.lcm` lacks a file name, and must not
-/// overwrite a recording with a table.
-void CheckCsv(const Options& options) {
+/// Checks the files to write: `seam-measure --csv a.lcm b.lcm` lacks a file name, and must not
+/// overwrite a recording with a table, not even with --force.
+void CheckTables(const Options& options) {
+  std::vector<std::string> read = options.logs;
+  if (!options.oracle.empty()) read.push_back(options.oracle);
+  if (!options.losses_csv.empty()) RequireOutput(options.losses_csv, options.force, read);
+  if (options.csv.empty()) return;
   const std::string existing = FirstLine(options.csv);
   if (!existing.empty() && existing != CsvHeader()) {
     throw OperatorError(options.csv + (options.append ? ": has other columns, cannot append to it"
                                                       : ": exists and is no table of measures"));
   }
+  RequireOutput(options.csv, options.force || options.append, read);
 }
 
 void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
@@ -146,8 +164,7 @@ void PrintFloor(const Recording& recording) {
       recording.room.scene_name.c_str(), ErrorFloor(recording, ComputeOracle(recording)));
 }
 
-void PrintHandOvers(const std::string& path, const std::string& name, const TimeRange& range) {
-  Recording recording = Read(path);
+void PrintHandOvers(Recording recording, const std::string& name, const TimeRange& range) {
   KeepRange(range, &recording);
   const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   const RevisionHistory revisions(scene, recording);
@@ -156,17 +173,18 @@ void PrintHandOvers(const std::string& path, const std::string& name, const Time
 }
 
 /// Reports when and on which channel each log lost messages; of several logs with their names.
-void ReportLosses(const std::vector<std::string>& logs, const Options& options) {
+void ReportLosses(const Options& options) {
   std::string csv;
-  for (const std::string& path : logs) {
-    const std::vector<Loss> losses = Within(FindLosses(path, Read(path)), options.range);
+  for (std::size_t i = 0; i < options.logs.size(); ++i) {
+    const std::string& path = options.logs[i];
+    const std::vector<Loss> losses = Within(FindLosses(path, ReadLog(options, i)), options.range);
     if (options.losses) {
       std::printf("\nlosses of %s\n%s", BaseName(path).c_str(), FormatLosses(losses).c_str());
     }
     csv += LossesCsv(losses);
   }
   if (options.losses_csv.empty()) return;
-  if (logs.size() > 1) throw OperatorError("--losses-csv is of one log");
+  if (options.logs.size() > 1) throw OperatorError("--losses-csv is of one log");
   std::FILE* file = OpenPlainFile(options.losses_csv, FileUse::kReplace);
   if (file == nullptr) throw OperatorError(options.losses_csv + ": cannot be written");
   const bool written = std::fwrite(csv.data(), 1, csv.size(), file) == csv.size();
@@ -181,26 +199,24 @@ void Run(const Options& options) {
   if (options.range.given() && (options.floor || options.limit)) {
     throw OperatorError("--floor and --limit are of whole sessions: not with --from and --to");
   }
-  if (!options.csv.empty()) CheckCsv(options);
+  CheckTables(options);
   std::optional<Recording> truth;
-  if (!options.oracle.empty()) truth = Read(options.oracle);
+  if (!options.oracle.empty()) truth = Read(options.oracle, "");
   std::vector<MeasuredRun> runs;
   ProgressCount progress("measuring", "logs", static_cast<std::int64_t>(options.logs.size()));
   for (std::size_t i = 0; i < options.logs.size(); ++i) {
     progress(static_cast<std::int64_t>(i));
-    const std::string& path = options.logs[i];
-    const std::string name = options.names.empty() ? BaseName(path) : options.names[i];
-    runs.push_back(MeasureLog(path, name, options, truth));
+    runs.push_back(MeasureLog(i, options, truth));
   }
   progress.End();
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
   for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
-    PrintHandOvers(options.logs[i], runs[i].run, options.range);
+    PrintHandOvers(ReadLog(options, i), runs[i].run, options.range);
   }
-  if (options.losses || !options.losses_csv.empty()) ReportLosses(options.logs, options);
-  if (options.floor) PrintFloor(Read(options.logs.front()));
-  if (options.limit) PrintLimit(Read(options.logs.front()));
+  if (options.losses || !options.losses_csv.empty()) ReportLosses(options);
+  if (options.floor) PrintFloor(ReadLog(options, 0));
+  if (options.limit) PrintLimit(ReadLog(options, 0));
 }
 
 void Define(Command& app, Options& options) {
@@ -211,9 +227,14 @@ void Define(Command& app, Options& options) {
              "a recording made with --mode oracle; without it the oracle is computed");
   app.Option("--csv", options.csv, "write the table as CSV to this file too");
   app.Switch("--append", options.append, "add to the CSV file instead of replacing it");
+  app.Switch("--force", options.force, "replace the tables if they are there");
   app.Option("--names", options.names, "what to call the runs, in the order of the logs")
       .CommaSeparated()
       .OneValueEach();  // the logs may follow it
+  app.Option("--session", options.sessions,
+             "which session of each log, if it has several: its number, or its id (the last)")
+      .CommaSeparated()
+      .OneValueEach();
   app.Switch("--floor", options.floor, "also print what chaos alone does to the first log");
   app.Switch("--limit", options.limit,
              "also print what nobody could show better over the first log's network");
@@ -240,9 +261,10 @@ int main(int argc, char** argv) {
           throw OperatorError("which log? for example: seam-measure session.lcm");
         }
         if (options.append && options.csv.empty()) throw OperatorError("--append needs --csv");
+        CheckSessions(options.sessions, options.logs.size());
         if (options.list) {
-          for (const std::string& path : options.logs) {
-            std::fputs(FormatContents(path, ReadRecording(path)).c_str(), stdout);
+          for (std::size_t i = 0; i < options.logs.size(); ++i) {
+            std::fputs(FormatContents(options.logs[i], ReadLog(options, i)).c_str(), stdout);
           }
         } else {
           Run(options);

@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/command_line.h"
+#include "common/record/log_sessions.h"
 #include "render/canvas/font.h"
 #include "render/frame.h"
 #include "render/scene_recording.h"
@@ -118,6 +119,7 @@ void CheckShots(const RenderOptions& o) {
 }
 
 void Check(const RenderOptions& o) {
+  CheckSessions(o.sessions, o.logs.size());
   if (o.list) {
     if (o.logs.empty()) throw OperatorError("--list: no log given");
     return;
@@ -187,7 +189,7 @@ void DefineRenderOptions(Command* app, RenderOptions* options) {
   app->Switch("--page", o.page, "one HTML file of all views, to look through in a browser");
   app->Switch("--list", o.list, "say what is in the logs, and draw nothing");
   app->Switch("--live", o.live, "draw what the LCM bus brings");
-  app->Switch("--force", o.force, "write even where other files are");
+  app->Switch("--force", o.force, "replace the file, or frames in a folder that holds files");
   app->Option("--fps", o.fps, "frames per second of the session (30)");
   app->Option("--size", o.size_text, "WIDTHxHEIGHT in pixels (1280x720)");
   app->Option("--from", o.from_s, "first moment, s");
@@ -208,6 +210,10 @@ void DefineRenderOptions(Command* app, RenderOptions* options) {
   app->Option("--every", o.every_ticks, "--strobe: ticks between exposures");
   app->Option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
   app->Option("--room", o.room, "which room, if there are several");
+  app->Option("--session", o.sessions,
+              "which session of each log, if it has several: its number, or its id (the last)")
+      .CommaSeparated()
+      .OneValueEach();
   app->Option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
   app->Option("--video", o.video, "also make this .mp4, .webm or .gif of the frames, by ffmpeg");
   app->Option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");

@@ -31,6 +31,7 @@ struct RenderOptions {
   int threads = 0;        ///< 0: as many as there are cores
   int every_ticks = 0;
   std::string lcm_url, room;
+  std::vector<std::string> sessions;  ///< of each log, by number or id; empty: the last ones
   double seconds = 0;  ///< live: greatest duration; 0: until no messages come
   std::string video;
   int sheet = 0;       ///< number of moments in one picture; 0: a sequence

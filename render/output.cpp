@@ -42,10 +42,9 @@ OutputFolder::OutputFolder(const std::string& path, bool force) : path_(path) {
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) throw OperatorError(path_ + " is not a folder");
   for (const auto& entry : fs::directory_iterator(path_, error)) {
-    const std::string name = entry.path().filename().string();
-    if (force || IsFrameName(name) || name == kManifestName) continue;
-    throw OperatorError(path_ + " holds other files (" + name +
-                        "): choose another folder or give --force");
+    if (force) break;
+    throw OperatorError(path_ + ": holds files (" + entry.path().filename().string() +
+                        "); choose another folder, or --force replaces the frames in it");
   }
   if (error) throw OperatorError(path_ + ": " + error.message());
 }
@@ -65,15 +64,14 @@ std::string OutputFolder::FramePath(int frame) const {
   return fmt::format("{}/frame_{:05d}.png", path_, frame);
 }
 
-void CheckOutputFile(const std::string& path, const std::string& ending, bool force) {
+void CheckOutputFile(const std::string& path, const std::string& ending, bool force,
+                     const std::vector<std::string>& read) {
   const fs::path file(path);
   if (file.extension() != ending) throw OperatorError(path + ": must end in " + ending);
   std::error_code error;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error)) throw OperatorError(folder.string() + ": no such folder");
-  RequirePlainFile(path);
-  if (fs::exists(file, error) && !force)
-    throw OperatorError(path + " exists: choose another name or give --force");
+  RequireOutput(path, force, read);
 }
 
 void RequireFfmpeg() {

@@ -2,6 +2,7 @@
 /// The output folder of a sequence. Never mixes frames with unrelated files.
 
 #include <string>
+#include <vector>
 
 namespace seam {
 
@@ -12,7 +13,7 @@ constexpr const char* kManifestName = "manifest.json";
 class OutputFolder {
  public:
   /// Writes nothing. Throws OperatorError when `path` is no folder, or when the folder holds
-  /// anything but frames of an earlier run and `force` is false.
+  /// anything, frames of an earlier run included, and `force` is false.
   OutputFolder(const std::string& path, bool force);
   /// Creates the folder, and removes earlier frames. Throws OperatorError on failure.
   void Prepare() const;
@@ -23,9 +24,9 @@ class OutputFolder {
   std::string path_;
 };
 
-/// Throws OperatorError unless `path` ends in `ending`, its folder exists, and there is no such
-/// file yet (or `force`, or the file may be replaced: an earlier picture).
-void CheckOutputFile(const std::string& path, const std::string& ending, bool force);
+/// Throws OperatorError unless `path` ends in `ending` and its folder exists, or as RequireOutput.
+void CheckOutputFile(const std::string& path, const std::string& ending, bool force,
+                     const std::vector<std::string>& read);
 
 /// Returns the path's ending: ".mp4", ".webm" or ".gif". Throws OperatorError for any other.
 std::string VideoEnding(const std::string& path);

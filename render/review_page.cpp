@@ -34,15 +34,18 @@ void WriteText(const std::string& path, const std::string& text) {
 }  // namespace
 
 void RenderReviewPage(const RenderOptions& options) {
-  CheckOutputFile(options.out, ".html", true);
+  CheckOutputFile(options.out, ".html", options.force, ReadBy(options));
   const std::int64_t begin_us = SteadyClockUs();
   std::vector<std::unique_ptr<PageLog>> logs;
   std::vector<PageRun> runs;
   ProgressCount count("page", "recordings", static_cast<std::int64_t>(options.logs.size()));
-  for (const std::string& path : options.logs) {
-    count(static_cast<std::int64_t>(logs.size()));
-    logs.push_back(std::make_unique<PageLog>(LoadLog(path, options)));
-    runs.push_back({std::filesystem::path(path).stem().string(), &logs.back()->playback, path});
+  for (std::size_t i = 0; i < options.logs.size(); ++i) {
+    const std::string& path = options.logs[i];
+    count(static_cast<std::int64_t>(i));
+    logs.push_back(std::make_unique<PageLog>(LoadLog(options, i)));
+    const std::string name =
+        std::filesystem::path(path).stem().string() + SessionSuffix(logs.back()->recording);
+    runs.push_back({name, &logs.back()->playback, path});
   }
   const std::string html = PageHtml(runs);
   WriteText(options.out, html);

@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "render/frame.h"
+#include "render/playback/camera.h"
 #include "render/playback/moments.h"
 #include "render/strobe.h"
 #include "render/strobe_layout.h"
@@ -18,30 +19,16 @@ constexpr int kExposures = 8;                            ///< default number
 constexpr double kExposuresMax = 200;
 constexpr float kStill_m = 0.3f;  ///< bodies that move less are not fitted
 
-struct Box {
-  Vec2 min{1e9f, 1e9f}, max{-1e9f, -1e9f};
-  bool empty() const { return min.x() > max.x(); }
-  void Add(const Vec2& p, float radius) {
-    min = min.cwiseMin(p - Vec2(radius, radius));
-    max = max.cwiseMax(p + Vec2(radius, radius));
-  }
-  void Add(const BodyShapes& body, const Pose& pose) {
-    const Frame2 frame(pose);
-    for (const Outline& outline : body.outlines)
-      for (const Vec2& p : outline.points) Add(frame(p), outline.radius);
-  }
-};
-
 /// Returns the box of all bodies that move in the window, in the oracle and in all displayed views.
-Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
-  Box box;
+WorldBox MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
+  WorldBox box;
   for (const Playback& playback : playbacks) {
     const std::set<PartId> struck = StruckBodies(playback);
     const Moment middle = playback.MomentAt(playback.PeerOr(plan.peers.front()),
                                             playback.TickAt((plan.from_s + plan.to_s) / 2));
     const auto revision = playback.RevisionOf(middle);
     for (const BodyShapes& body : revision->moving) {
-      Box path, extent;
+      WorldBox path, extent;
       for (double s = plan.from_s; s <= plan.to_s + 1e-9; s += plan.step_s) {
         const double tick = playback.TickAt(s);
         const auto add = [&](const Pose& pose) {
@@ -57,16 +44,20 @@ Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
       if (path.empty()) continue;
       const bool still = (path.max - path.min).norm() < kStill_m;
       if (still && struck.count(body.id) == 0) continue;
-      box.Add(extent.min, 0);
-      box.Add(extent.max, 0);
+      box.Add(extent);
     }
   }
   return box;
 }
 
 void ChooseBox(const std::vector<Playback>& playbacks, StrobePlan* plan) {
-  const auto& camera = playbacks.front().scene().camera;
-  Box box = MovingBox(playbacks, *plan);
+  std::vector<CameraView> views;
+  for (const Playback& playback : playbacks) {
+    for (const int peer : plan->peers) views.push_back({&playback, playback.PeerOr(peer)});
+  }
+  const PartId followed = playbacks.front().scene().camera.follow;
+  const WorldBox camera = ActionArea(views, plan->from_s, plan->to_s);
+  WorldBox box = MovingBox(playbacks, *plan);
   if (box.empty()) {
     box.min = camera.min;
     box.max = camera.max;
@@ -74,7 +65,7 @@ void ChooseBox(const std::vector<Playback>& playbacks, StrobePlan* plan) {
   // A body flung far away must not make the rest of the picture tiny.
   const Vec2 margin = 0.06f * (box.max - box.min) + Vec2(0.3f, 0.5f);
   Vec2 min = box.min - margin, max = box.max + margin;
-  if (camera.follow < 0) {
+  if (followed < 0) {
     min = min.cwiseMax(camera.min);
     max = max.cwiseMin(camera.max);
   }

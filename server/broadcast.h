@@ -23,9 +23,9 @@ namespace seam {
 class Broadcast {
  public:
   /// All must outlive this object.
-  Broadcast(Recorder& recorder, const std::string& room, bool views, const SyncConfig& config,
+  Broadcast(Recorder& recorder, const Room& room, bool views, const SyncConfig& config,
             const Scene& scene, const Replica& replica, SessionTable& sessions)
-      : publisher_(recorder, room),
+      : publisher_(recorder, room.room, room.session),
         views_(views),
         config_(config),
         replica_(replica),

@@ -10,6 +10,7 @@
 #include "common/base/find_scene.h"
 #include "common/base/limits.h"
 #include "common/base/names.h"
+#include "common/base/plain_file.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
@@ -113,7 +114,7 @@ void Define(Command& app, Flags& f) {
       .Range(0.0, 1e6);
   app.Option("--record", f.record,
              "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
-  app.Switch("--force", f.force, "overwrite the --record file");
+  app.Switch("--force", f.force, "replace the --record file");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.Option("--publish", f.publish,
              "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
@@ -201,6 +202,7 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   plan.lcm_url = on_bus ? f.lcm_url : "none";
   plan.record = LogOf(f.record, config.room, rooms);
   plan.force = f.force;
+  if (!plan.record.empty()) RequireOutput(plan.record, plan.force, {FindScene(scene_name)});
   plan.alone = rooms == 1;
   plan.news = !f.quiet;
   return plan;

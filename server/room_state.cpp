@@ -88,7 +88,9 @@ std::vector<Meta> RoomState::Metadata(std::int64_t now_us) const {
 Bytes RoomState::Save(std::int64_t now_us) {
   StateArchive head;
   head.Section("room");
-  Bytes room = Encode(parts_.room);
+  Room settings = parts_.room;
+  settings.session = 0;  // the server that loads the room begins a session of its own
+  Bytes room = Encode(settings);
   PersistBytes(head, &room);
   std::vector<Snapshot> edits = Edits(0);
   head.List(&edits, StateArchive::kListMost, [&](Snapshot* part) {

@@ -18,8 +18,9 @@ constexpr int kStepsMax = 2;
 /// Radius of the blast that lets hanging bricks fall, m.
 constexpr float kLetFallRadius = 0.5f;
 
-Room MakeRoom(const Scene& scene, const ServerConfig& config) {
+Room MakeRoom(const Scene& scene, const ServerConfig& config, Entropy& entropy) {
   Room room;
+  while (room.session == 0) room.session = static_cast<std::int64_t>(entropy.Next());
   room.room = config.room;
   room.scene_name = scene.name;
   room.scene_text = scene.text;
@@ -62,7 +63,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
                Recorder& recorder, Entropy& entropy)
     : scene_(scene),
       config_(config),
-      room_(MakeRoom(scene_, config_)),
+      room_(MakeRoom(scene_, config_, entropy)),
       net_(net),
       replica_(topology, OwnSync(config, recorder), 0, -1),
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
@@ -71,8 +72,8 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
       edits_(MakeEditLog(*config.sync.policy, replica_.world(), authority_, config.sync.tick_hz)),
       bounds_(replica_),
       filter_(scene_, replica_, authority_, *edits_, stats_.counters),
-      broadcast_(recorder, config.room, config.publish != Publish::kNone, config.sync, scene_,
-                 replica_, sessions_),
+      broadcast_(recorder, room_, config.publish != Publish::kNone, config.sync, scene_, replica_,
+                 sessions_),
       clock_(config.sync.tick_hz) {
   replica_.OnCorrected([this](int body, const BodyState& by) { NoteCorrected(body, by); });
   if (!Rules::Needed(scene_)) return;

@@ -77,6 +77,8 @@ class Server {
   /// Says goodbye to everyone. Tick must not be called afterwards.
   void Shutdown(std::int64_t now_us, const std::string& reason);
 
+  /// Returns the room's description, with the number of this session.
+  const Room& room() const { return room_; }
   bool started() const { return clock_.started(); }
   std::int64_t tick() const { return replica_.tick(); }
   int client_count() const { return sessions_.count(); }

@@ -150,18 +150,18 @@ done
 
 echo "demo: drawing"
 size=${SIZE:-960x540}
-"$bin/seam-render" "$out/swarm-world.lcm" -o "$out/regions.png" --sheet 4 --from 1.5 --to 6 \
+"$bin/seam-render" --force "$out/swarm-world.lcm" -o "$out/regions.png" --sheet 4 --from 1.5 --to 6 \
   --view server --size 1280x720
 for scene in $scenes; do
   for run in $runs; do
-    "$bin/seam-render" "$out/$scene-$run.lcm" -o "$out/frames/$scene-$run" --fps 15 --size "$size"
-    "$bin/seam-render" --strobe "$out/$scene-$run.lcm" -o "$out/$scene-$run-strobe.png"
+    "$bin/seam-render" --force "$out/$scene-$run.lcm" -o "$out/frames/$scene-$run" --fps 15 --size "$size"
+    "$bin/seam-render" --force --strobe "$out/$scene-$run.lcm" -o "$out/$scene-$run-strobe.png"
   done
-  "$bin/seam-render" --compare "$out/$scene"-{strict,interleave,retrospect,rollback}.lcm \
+  "$bin/seam-render" --force --compare "$out/$scene"-{strict,interleave,retrospect,rollback}.lcm \
     -o "$out/frames/$scene-compare" --fps 15 --size 1280x720
 done
 if [ -f "$out/crossing-oracle.lcm" ]; then
-  "$bin/seam-render" --strobe --compare \
+  "$bin/seam-render" --force --strobe --compare \
     "$out"/crossing-{oracle,strict,interleave,retrospect,rollback}.lcm \
     --oracle "$out/crossing-oracle.lcm" -o "$out/summary.png"
 fi
@@ -183,14 +183,14 @@ for scene in $worlds; do
           stutter, seam
           print (lost == "" ? "" : ", bodies lost or too many " lost) }' "$out/$scene-world.txt"
   middle=$(awk '/^duration *=/ { print $3 / 2 }' "scenes/$scene.toml")
-  timeout 40 "$bin/seam-render" "$log" -o "$out/frames/$scene-world" --view all --fps 1 \
+  timeout 40 "$bin/seam-render" --force "$log" -o "$out/frames/$scene-world" --view all --fps 1 \
     --from "$middle" --to "$middle" >/dev/null 2>&1 || continue
   mv "$out/frames/$scene-world"/*.png "$out/$scene-world.png"
-  timeout 40 "$bin/seam-render" --strobe "$log" -o "$out/$scene-world-strobe.png" >/dev/null 2>&1 ||
+  timeout 40 "$bin/seam-render" --force --strobe "$log" -o "$out/$scene-world-strobe.png" >/dev/null 2>&1 ||
     echo "demo: no strobe of $scene" >&2
 done
 if [ -f "$out/crossing-rollback.lcm" ]; then
-  "$bin/seam-render" --page "$out"/crossing-{rollback,interleave,strict}.lcm -o "$out/review.html"
+  "$bin/seam-render" --force --page "$out"/crossing-{rollback,interleave,strict}.lcm -o "$out/review.html"
   entrance="  look here file://$(cd "$out" && pwd)/review.html"
 fi
 echo "demo: $((SECONDS - began)) s in all"

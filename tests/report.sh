@@ -72,7 +72,7 @@ try "$bin/seam-lab" physics --grid "$grid" -o "$data/physics.csv" "${jobs[@]}" >
 impair=delay=100ms,loss=1%,jitter=10ms
 for scene in crossing wall cradle stack; do
   step "drawing $scene"
-  strobe="$bin/seam-render --strobe --compare" frames="$bin/seam-render --compare"
+  strobe="$bin/seam-render --force --strobe --compare" frames="$bin/seam-render --force --compare"
   commands=
   for method in oracle strict central fade rollback; do
     case $method in

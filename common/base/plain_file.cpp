@@ -41,6 +41,13 @@ const char* ModeOf(FileUse use) {
   return use == FileUse::kRead ? "rb" : use == FileUse::kAppend ? "ab" : "wb";
 }
 
+bool SameFile(const std::string& a, const std::string& b) {
+  struct stat one {
+  }, other{};
+  return stat(a.c_str(), &one) == 0 && stat(b.c_str(), &other) == 0 && one.st_dev == other.st_dev &&
+         one.st_ino == other.st_ino;
+}
+
 /// Owns a file descriptor; set fd to -1 to release it. Keeps errno.
 struct Descriptor {
   explicit Descriptor(int number) : fd(number) {}
@@ -59,6 +66,16 @@ struct Descriptor {
 void RequirePlainFile(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) RequirePlain(path, status.st_mode);
+}
+
+void RequireOutput(const std::string& path, bool force, const std::vector<std::string>& read) {
+  for (const std::string& source : read) {
+    if (SameFile(path, source)) throw OperatorError(path + ": is read, it cannot be written");
+  }
+  if (!force && access(path.c_str(), F_OK) == 0) {
+    throw OperatorError(path + ": exists (--force replaces it)");
+  }
+  RequirePlainFile(path);
 }
 
 std::FILE* OpenPlainFile(const std::string& path, FileUse use) {

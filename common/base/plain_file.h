@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace seam {
 
@@ -19,6 +20,11 @@ enum class FileUse {
 /// Throws OperatorError "PATH: is a FIFO, not a regular file" if `path` exists but is no regular
 /// file. Does not open it. A path that does not exist or cannot be queried passes.
 void RequirePlainFile(const std::string& path);
+
+/// Checks the name of an output before anything is computed. Throws OperatorError "PATH: is read,
+/// it cannot be written" if `path` names one of the files `read`, "PATH: exists (--force replaces
+/// it)" if it exists and `force` is false, or like RequirePlainFile.
+void RequireOutput(const std::string& path, bool force, const std::vector<std::string>& read);
 
 /// Opens a regular file without ever blocking; the caller closes it. Returns nullptr with errno set
 /// on failure. Throws OperatorError like RequirePlainFile if it is no regular file.

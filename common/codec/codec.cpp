@@ -67,6 +67,48 @@ auto SetTotal(const Message& message, Generated& wire, int) -> decltype(wire.tot
 template <class Message, class Generated>
 void SetTotal(const Message&, Generated&, long) {}
 
+/// Type hash of a message of the bus without its field `session`; 0: it has no such form, because
+/// it is of the edge alone, or is newer than protocol 12 and of the bus alone.
+template <class Message>
+constexpr std::uint64_t kHashWithoutSession = 0;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Room> = 0x3b1556dd65c2c546;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Inputs> = 0x61098e4e073aa192;
+template <>
+constexpr std::uint64_t kHashWithoutSession<States> = 0x1f0a57888e9a756c;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Grants> = 0x67581669edb00607;
+template <>
+constexpr std::uint64_t kHashWithoutSession<EditOrder> = 0xb5af6cfe14504027;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Meta> = 0x37a03ee57e14fe0e;
+template <>
+constexpr std::uint64_t kHashWithoutSession<View> = 0xc90a36171e1d6168;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Impacts> = 0x84c369572c4b9199;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Strands> = 0x4c2098e274343524;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Stats> = 0x60f5b0e4b0054c75;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Load> = 0xbe88264f7026f53b;
+template <>
+constexpr std::uint64_t kHashWithoutSession<Event> = 0x501798193aa2f237;
+
+/// Place and size of `session` in an encoded message: after the type hash and utime.
+constexpr std::ptrdiff_t kSessionFieldAt = 16, kSessionFieldBytes = 8;
+
+std::uint64_t ReadUint64(const std::uint8_t* from) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < 8; ++i) value = value << 8 | from[i];
+  return value;
+}
+
+void WriteUint64(std::uint64_t value, std::uint8_t* to) {
+  for (int i = 7; i >= 0; --i, value >>= 8) to[i] = static_cast<std::uint8_t>(value);
+}
+
 template <class Message>
 Bytes EncodeAs(const Message& message) {
   SEAM_ASSERT(Valid(message));
@@ -78,6 +120,13 @@ Bytes EncodeAs(const Message& message) {
   SEAM_ASSERT(size > 0 && static_cast<std::size_t>(size) <= kBusMessageBytesMax);
   Bytes bytes(static_cast<std::size_t>(size));
   SEAM_ASSERT(wire.encode(bytes.data(), 0, size) == size);
+  if constexpr (kHashWithoutSession<Message> != 0) {
+    if (message.session == 0) {
+      bytes.erase(bytes.begin() + kSessionFieldAt,
+                  bytes.begin() + kSessionFieldAt + kSessionFieldBytes);
+      WriteUint64(kHashWithoutSession<Message>, bytes.data());
+    }
+  }
   return bytes;
 }
 
@@ -106,21 +155,56 @@ std::uint64_t WireHash() {
   return static_cast<std::uint64_t>(Wire<Message>::Type::getHash());
 }
 
-/// Returns the type hash, the first 8 bytes. Requires at least 8.
-std::uint64_t HashOf(ByteView bytes) {
-  std::uint64_t hash = 0;
-  for (std::size_t i = 0; i < 8; ++i) hash = hash << 8 | bytes.data[i];
-  return hash;
+/// Decodes a message that lacks the field `session`: puts a 0 there.
+template <class Message>
+AnyMessage DecodeWithoutSession(ByteView bytes) {
+  if (bytes.size < static_cast<std::size_t>(kSessionFieldAt)) return {};
+  thread_local Bytes whole;  // reuses memory
+  whole.assign(bytes.data, bytes.data + bytes.size);
+  whole.insert(whole.begin() + kSessionFieldAt, kSessionFieldBytes, 0);
+  WriteUint64(WireHash<Message>(), whole.data());
+  return DecodeAs<Message>(whole);
 }
 
-using Decoder = AnyMessage (*)(ByteView);
+/// Decodes a message with the field `session`, which is never 0: no message has two encodings.
+template <class Message>
+AnyMessage DecodeWithSession(ByteView bytes) {
+  if (bytes.size < kSessionFieldAt + kSessionFieldBytes ||
+      ReadUint64(bytes.data + kSessionFieldAt) == 0)
+    return {};
+  return DecodeAs<Message>(bytes);
+}
 
-const std::unordered_map<std::uint64_t, Decoder>& Decoders() {
-#define SEAM_MESSAGE_DECODER(Struct, ...) {WireHash<Struct>(), DecodeAs<Struct>},
-  static const std::unordered_map<std::uint64_t, Decoder> decoders = {
-      SEAM_MESSAGES(SEAM_MESSAGE_DECODER)};
+struct Decoder {
+  AnyMessage (*decode)(ByteView);
+  bool on_bus, has_session;
+};
+
+using Decoders = std::unordered_map<std::uint64_t, Decoder>;
+
+template <class Message>
+void AddDecoders(Decoders* decoders) {
+  constexpr bool on_bus = MessageTraits<Message>::kTravels != Travels::kEdge;
+  if constexpr (kHashWithoutSession<Message> != 0) {
+    (*decoders)[WireHash<Message>()] = {DecodeWithSession<Message>, on_bus, true};
+    (*decoders)[kHashWithoutSession<Message>] = {DecodeWithoutSession<Message>, on_bus, false};
+  } else {
+    (*decoders)[WireHash<Message>()] = {DecodeAs<Message>, on_bus, on_bus};
+  }
+}
+
+/// Finds the decoder for the type hash, the first 8 bytes; null for none.
+const Decoder* FindDecoder(ByteView bytes) {
+  static const Decoders decoders = [] {
+    Decoders all;
+#define SEAM_MESSAGE_DECODER(Struct, ...) AddDecoders<Struct>(&all);
+    SEAM_MESSAGES(SEAM_MESSAGE_DECODER)
 #undef SEAM_MESSAGE_DECODER
-  return decoders;
+    return all;
+  }();
+  if (bytes.size < 8) return nullptr;
+  const auto found = decoders.find(ReadUint64(bytes.data));
+  return found == decoders.end() ? nullptr : &found->second;
 }
 
 }  // namespace
@@ -131,14 +215,20 @@ SEAM_MESSAGES(SEAM_MESSAGE_ENCODE)
 #undef SEAM_MESSAGE_ENCODE
 
 AnyMessage Decode(ByteView bytes) {
-  if (bytes.size < 8 || bytes.size > kBusMessageBytesMax) return {};
-  const auto decoder = Decoders().find(HashOf(bytes));
-  if (decoder == Decoders().end()) return {};
+  const Decoder* const decoder = FindDecoder(bytes);
+  if (decoder == nullptr || bytes.size > kBusMessageBytesMax) return {};
   try {
-    return decoder->second(bytes);
+    return decoder->decode(bytes);
   } catch (...) {  // nothing is known to throw, but hostile bytes must not end the process
     return {};
   }
+}
+
+std::optional<std::int64_t> SessionOf(ByteView bytes) {
+  const Decoder* const decoder = FindDecoder(bytes);
+  if (decoder == nullptr || !decoder->on_bus) return std::nullopt;
+  if (!decoder->has_session || bytes.size < kSessionFieldAt + kSessionFieldBytes) return 0;
+  return static_cast<std::int64_t>(ReadUint64(bytes.data + kSessionFieldAt));
 }
 
 const std::vector<MessageType>& MessageTypes() {
@@ -152,7 +242,7 @@ std::int32_t OldRoomProtocol(ByteView bytes) {
   // Type hash (8 bytes), utime (8), sequence (4 in protocols 1 and 2, then 8), protocol (4).
   constexpr std::uint64_t kRoomHashBefore3 = 0xfc29582c30d1354e;
   constexpr std::uint64_t kRoomHashOf3 = 0xc7e41b86538767b7;
-  const std::uint64_t hash = bytes.size < 8 ? 0 : HashOf(bytes);
+  const std::uint64_t hash = bytes.size < 8 ? 0 : ReadUint64(bytes.data);
   if (hash != kRoomHashBefore3 && hash != kRoomHashOf3) return 0;
   const std::size_t at = hash == kRoomHashOf3 ? 24 : 20;
   if (bytes.size < at + 4) return 0;

@@ -1,6 +1,7 @@
 #pragma once
 /// Encodes messages as LCM bytes and decodes them; validates every byte it reads.
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,7 +18,9 @@ using AnyMessage = std::variant<std::monostate SEAM_MESSAGES(SEAM_MESSAGE_TYPE)>
 #undef SEAM_MESSAGE_TYPE
 
 /// Encodes as LCM does: 8 bytes of type hash, then big-endian fields. Requires vectors of equal
-/// length within the bounds of messages.h (asserted: a violation is our bug).
+/// length within the bounds of messages.h (asserted: a violation is our bug). A message whose
+/// `session` is 0 is encoded without this field, under the hash of the type without it: so it is on
+/// the edge, and so protocols 8 to 12 recorded it.
 #define SEAM_MESSAGE_ENCODE(Struct, ...) Bytes Encode(const Struct&);
 SEAM_MESSAGES(SEAM_MESSAGE_ENCODE)
 #undef SEAM_MESSAGE_ENCODE
@@ -27,6 +30,10 @@ SEAM_MESSAGES(SEAM_MESSAGE_ENCODE)
 /// finite, ids ascend where messages.h says so, and strings are printable UTF-8 without control
 /// characters (scene_text may have newlines and tabs).
 AnyMessage Decode(ByteView bytes);
+
+/// Returns the session of an encoded message of the bus without decoding it, 0 if it says none;
+/// nullopt for other bytes.
+std::optional<std::int64_t> SessionOf(ByteView bytes);
 
 /// A message's LCM type: its name ("hello_t") and the hash at the start of its bytes.
 struct MessageType {

@@ -13,7 +13,7 @@ namespace seam {
 /// Counters run since the room was opened; times cover the ticks of the last second.
 struct Load {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int64_t tick = 0;
   std::int32_t speed_ppm = kFullSpeedPpm;  ///< speed of the room's clock, per million of real time
   std::int32_t ticks = 0;                  ///< in the last second

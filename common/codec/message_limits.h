@@ -17,9 +17,9 @@ constexpr std::int32_t kIdsMax = 1 << 18;
 /// Most bodies in one States message: 58 + 21 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kStatesBodiesMax = 48;
 static_assert(58 + 21 * kStatesBodiesMax <= kMessageBytesMax);
-/// Most bodies in one View message: 50 + 31 bytes each within kBusMessageBytesMax.
+/// Most bodies in one View message: 58 + 31 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kViewBodiesMax = 1900;
-static_assert(50 + 31 * kViewBodiesMax <= kBusMessageBytesMax);
+static_assert(58 + 31 * kViewBodiesMax <= kBusMessageBytesMax);
 
 /// Most parts of a view: 65 535 bodies in messages of kViewBodiesMax need 35.
 constexpr std::int32_t kViewPartsMax = 40;
@@ -41,9 +41,9 @@ static_assert(50 + 20 * kRestBodiesMax <= kMessageBytesMax);
 /// Most values in one Meta message: 34 + 10 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kMetaMax = 110;
 static_assert(34 + 10 * kMetaMax <= kMessageBytesMax);
-/// Most impacts in one Impacts message: 38 + 20 bytes each within kBusMessageBytesMax.
+/// Most impacts in one Impacts message: 46 + 20 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kImpactsMax = 2900;
-static_assert(38 + 20 * kImpactsMax < kBusMessageBytesMax);
+static_assert(46 + 20 * kImpactsMax < kBusMessageBytesMax);
 /// Most points in one Strands message: 10 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kStrandPointsMax = 3000;
 static_assert(10 * kStrandPointsMax < kBusMessageBytesMax);

@@ -15,58 +15,59 @@
 ///   kBusRoom    on the bus too, channel SEAM.<room>.<kind>
 ///   kBusPeer    on the bus too, channel SEAM.<room>.<kind>.<peer>
 ///   kBusPlayer  on the bus too, channel SEAM.<room>.<kind>.<player>
-#define SEAM_MESSAGES(X)                                                                          \
-  X(Hello, hello_t, kEdge, "", m.utime, m.protocol, m.name)                                       \
-  X(Challenge, challenge_t, kEdge, "", m.utime, m.token)                                          \
-  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.key, m.name, m.room)                 \
-  X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key)                \
-  X(Chunk, chunk_t, kEdge, "", m.utime, m.offset_bytes, m.data)                                   \
-  X(Ready, ready_t, kEdge, "", m.utime)                                                           \
-  X(Room, room_t, kBusRoom, "scene", m.utime, m.sequence, m.protocol, m.room, m.scene_name,       \
-    m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz, m.send_hz,         \
-    m.input_delay_ticks)                                                                          \
-  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest, m.rest_blocks,           \
-    m.rest_block, m.rest_part, m.load)                                                            \
-  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest, m.rest_blocks,             \
-    m.rest_block, m.rest_own, m.speed_ppm)                                                        \
-  X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.sequence, m.player, m.first_tick, m.drive, \
-    m.lift, m.buttons)                                                                            \
-  X(States, states_t, kBusPeer, "states", m.utime, m.sequence, m.peer, m.tick, m.revision,        \
-    m.composition, m.origin_x, m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, \
-    m.spin)                                                                                       \
-  X(Rest, rest_t, kEdge, "", m.utime, m.peer, m.number, m.tick, m.revision, m.composition, m.id,  \
-    m.epoch, m.x, m.y, m.angle)                                                                   \
-  X(Grants, grants_t, kBusRoom, "grants", m.utime, m.sequence, m.tick, m.mechanism, m.authority,  \
-    m.epoch, m.followers, m.follower)                                                             \
-  X(Release, release_t, kEdge, "", m.utime, m.tick, m.mechanism, m.epoch)                         \
-  X(ExactStates, exact_states_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.x, m.y, \
-    m.angle, m.vx, m.vy, m.spin)                                                                  \
-  X(ImpactReport, impact_report_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.by,   \
-    m.x, m.y, m.dv)                                                                               \
-  X(TouchReport, touch_report_t, kEdge, "", m.utime, m.tick, m.revision, m.a, m.b, m.epoch)       \
-  X(EditOrder, edit_t, kBusRoom, "edit", m.utime, m.sequence, m.number, m.tick, m.kind, m.cause,  \
-    m.a, m.b, m.joint, m.player, m.text, m.value)                                                 \
-  X(Snapshot, snapshot_t, kEdge, "", m.utime, m.number, m.part, m.parts, m.text, m.kind, m.joint, \
-    m.a, m.b, m.value)                                                                            \
-  X(Meta, meta_t, kBusRoom, "meta", m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value)    \
-  X(View, view_t, kBusPeer, "view", m.utime, m.sequence, m.peer, m.tick, m.revision, m.part,      \
-    m.parts, m.id, m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin)                    \
-  X(Impacts, impacts_t, kBusPeer, "impacts", m.utime, m.sequence, m.peer, m.tick, m.id_a, m.id_b, \
-    m.x, m.y, m.dv)                                                                               \
-  X(Strands, strands_t, kBusPeer, "strands", m.utime, m.sequence, m.peer, m.tick, m.strand, m.x,  \
-    m.y)                                                                                          \
-  X(Stats, stats_t, kBusPeer, "stats", m.utime, m.sequence, m.peer, m.tick, m.bytes_out,          \
-    m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,            \
-    m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us, m.jitter_us,    \
-    m.loss_ppm, m.tick_late_us, m.clock_offset_us)                                                \
-  X(Load, load_t, kBusRoom, "load", m.utime, m.sequence, m.tick, m.speed_ppm, m.ticks,            \
-    m.tick_p50_us, m.tick_p99_us, m.tick_max_us, m.late_p50_us, m.late_p99_us, m.late_max_us,     \
-    m.cpu_us, m.clients, m.players, m.bodies, m.moving, m.moving_held, m.islands, m.hand_overs,   \
-    m.jumps, m.dropped_malformed, m.dropped_stale, m.dropped_right, m.dropped_implausible,        \
-    m.dropped_budget, m.kind, m.bytes_out, m.bytes_in)                                            \
-  X(Event, event_t, kBusPeer, "event", m.utime, m.sequence, m.peer, m.tick, m.text)               \
-  X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                     \
-  X(PackedStates, packed_states_t, kEdge, "", m.data)                                             \
+#define SEAM_MESSAGES(X)                                                                           \
+  X(Hello, hello_t, kEdge, "", m.utime, m.protocol, m.name)                                        \
+  X(Challenge, challenge_t, kEdge, "", m.utime, m.token)                                           \
+  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.key, m.name, m.room)                  \
+  X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key)                 \
+  X(Chunk, chunk_t, kEdge, "", m.utime, m.offset_bytes, m.data)                                    \
+  X(Ready, ready_t, kEdge, "", m.utime)                                                            \
+  X(Room, room_t, kBusRoom, "scene", m.utime, m.session, m.sequence, m.protocol, m.room,           \
+    m.scene_name, m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz,       \
+    m.send_hz, m.input_delay_ticks)                                                                \
+  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest, m.rest_blocks,            \
+    m.rest_block, m.rest_part, m.load)                                                             \
+  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest, m.rest_blocks,              \
+    m.rest_block, m.rest_own, m.speed_ppm)                                                         \
+  X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.session, m.sequence, m.player,              \
+    m.first_tick, m.drive, m.lift, m.buttons)                                                      \
+  X(States, states_t, kBusPeer, "states", m.utime, m.session, m.sequence, m.peer, m.tick,          \
+    m.revision, m.composition, m.origin_x, m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle,  \
+    m.vx, m.vy, m.spin)                                                                            \
+  X(Rest, rest_t, kEdge, "", m.utime, m.peer, m.number, m.tick, m.revision, m.composition, m.id,   \
+    m.epoch, m.x, m.y, m.angle)                                                                    \
+  X(Grants, grants_t, kBusRoom, "grants", m.utime, m.session, m.sequence, m.tick, m.mechanism,     \
+    m.authority, m.epoch, m.followers, m.follower)                                                 \
+  X(Release, release_t, kEdge, "", m.utime, m.tick, m.mechanism, m.epoch)                          \
+  X(ExactStates, exact_states_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.x, m.y,  \
+    m.angle, m.vx, m.vy, m.spin)                                                                   \
+  X(ImpactReport, impact_report_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.by,    \
+    m.x, m.y, m.dv)                                                                                \
+  X(TouchReport, touch_report_t, kEdge, "", m.utime, m.tick, m.revision, m.a, m.b, m.epoch)        \
+  X(EditOrder, edit_t, kBusRoom, "edit", m.utime, m.session, m.sequence, m.number, m.tick, m.kind, \
+    m.cause, m.a, m.b, m.joint, m.player, m.text, m.value)                                         \
+  X(Snapshot, snapshot_t, kEdge, "", m.utime, m.number, m.part, m.parts, m.text, m.kind, m.joint,  \
+    m.a, m.b, m.value)                                                                             \
+  X(Meta, meta_t, kBusRoom, "meta", m.utime, m.session, m.sequence, m.tick, m.kind, m.id, m.key,   \
+    m.value)                                                                                       \
+  X(View, view_t, kBusPeer, "view", m.utime, m.session, m.sequence, m.peer, m.tick, m.revision,    \
+    m.part, m.parts, m.id, m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin)             \
+  X(Impacts, impacts_t, kBusPeer, "impacts", m.utime, m.session, m.sequence, m.peer, m.tick,       \
+    m.id_a, m.id_b, m.x, m.y, m.dv)                                                                \
+  X(Strands, strands_t, kBusPeer, "strands", m.utime, m.session, m.sequence, m.peer, m.tick,       \
+    m.strand, m.x, m.y)                                                                            \
+  X(Stats, stats_t, kBusPeer, "stats", m.utime, m.session, m.sequence, m.peer, m.tick,             \
+    m.bytes_out, m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed,                 \
+    m.dropped_stale, m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us, \
+    m.jitter_us, m.loss_ppm, m.tick_late_us, m.clock_offset_us)                                    \
+  X(Load, load_t, kBusRoom, "load", m.utime, m.session, m.sequence, m.tick, m.speed_ppm, m.ticks,  \
+    m.tick_p50_us, m.tick_p99_us, m.tick_max_us, m.late_p50_us, m.late_p99_us, m.late_max_us,      \
+    m.cpu_us, m.clients, m.players, m.bodies, m.moving, m.moving_held, m.islands, m.hand_overs,    \
+    m.jumps, m.dropped_malformed, m.dropped_stale, m.dropped_right, m.dropped_implausible,         \
+    m.dropped_budget, m.kind, m.bytes_out, m.bytes_in)                                             \
+  X(Event, event_t, kBusPeer, "event", m.utime, m.session, m.sequence, m.peer, m.tick, m.text)     \
+  X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                      \
+  X(PackedStates, packed_states_t, kEdge, "", m.data)                                              \
   X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)
 
 namespace seam {

@@ -1,7 +1,9 @@
 #pragma once
-/// Every message of the edge (UDP) and of the bus (LCM), as plain structs.
-/// The .lcm files in lcmtypes/ have the same fields in the same order and document the bytes;
-/// only common/codec/codec*.cpp knows both. Units are last in a name; SI without a suffix.
+/// Every message of the edge (UDP) and of the bus (LCM), as plain structs. `session` of a message
+/// of the bus is the number that the room's server drew at random when it was made; 0: unknown, as
+/// on the edge, where the connection tells the session (only Room brings it to the client). The
+/// .lcm files in lcmtypes/ have the same fields in the same order and document the bytes; only
+/// common/codec/codec*.cpp knows both. Units are last in a name; SI without a suffix.
 
 #include <cstddef>
 #include <cstdint>
@@ -68,7 +70,7 @@ struct Chunk {
 /// second.
 struct Room {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t protocol = kProtocolVersion;
   std::string room;        ///< room name as in the channel
   std::string scene_name;  ///< file name of the scene without folder and ".toml"
@@ -110,7 +112,7 @@ struct Pong {
 /// A player's inputs for successive ticks.
 struct Inputs {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t player = 0;
   std::int64_t first_tick = 0;        ///< tick *in* which element 0 acts: the state after shows it
   std::vector<std::int8_t> drive;     ///< -127..127: throttle, backwards to forwards
@@ -122,7 +124,7 @@ struct Inputs {
 /// position 1/512 m about the origin, angle 2*pi/65536 rad, velocity 1/256 m/s, spin 1/256 rad/s.
 struct States {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t peer = 0;  ///< the authority
   std::int64_t tick = 0;
   std::int32_t revision = 0;         ///< edits that the sender had applied
@@ -159,7 +161,7 @@ struct Rest {
 /// Server -> everyone, reliable and ordered: the authority of mechanisms from `tick` on.
 struct Grants {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int64_t tick = 0;
   std::vector<std::int32_t> mechanism;  ///< mechanism ids
   std::vector<std::int16_t> authority;  ///< peer
@@ -216,6 +218,7 @@ struct TouchReport {
 /// kind. From a client, a proposal of the authority; from the server, an order for everyone.
 struct EditOrder {
   std::int64_t utime = 0;
+  std::int64_t session = 0;
   /// On the bus, a message counter. In a proposal, the edits that the sender had applied, so that
   /// its joint index is never taken for another joint that has that index now.
   std::int64_t sequence = 0;
@@ -256,7 +259,7 @@ constexpr std::size_t kSnapshotBytes = 37, kSnapshotEntryBytes = 13, kSnapshotVa
 /// and so on). Only the server decides it.
 struct Meta {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int64_t tick = 0;
   std::vector<std::int8_t> kind;  ///< kMetaPart | kMetaPlayer
   std::vector<std::int32_t> id;   ///< part id, or the player's index in the scene
@@ -275,7 +278,7 @@ constexpr std::int8_t kMetaKeyMax = kMetaScripts + 9;
 /// Bus only: the poses that a peer displays at a tick. Measures and drawings use them.
 struct View {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::int32_t revision = 0;  ///< edits that the peer had applied
@@ -294,7 +297,7 @@ constexpr std::int8_t kRoleAuthority = 2;
 /// Bus only: the strands that a peer displays at a tick. Never compared between peers.
 struct Strands {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;             ///< tick of the View
   std::vector<std::int16_t> strand;  ///< index of the point's [[strand]]; points are in order
@@ -304,7 +307,7 @@ struct Strands {
 /// Bus only: major impacts in a peer's world in a tick.
 struct Impacts {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::vector<std::int32_t> id_a, id_b;  ///< assembly ids; -1 for anchored ground
@@ -315,7 +318,7 @@ struct Impacts {
 /// On the bus once a second from every peer: counters since the peer started.
 struct Stats {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::int64_t bytes_out = 0, bytes_in = 0;  ///< UDP payload
@@ -336,7 +339,7 @@ struct Stats {
 /// Bus only: an event for people to read (joined, left, hand-over, repaired).
 struct Event {
   std::int64_t utime = 0;
-  std::int64_t sequence = 0;
+  std::int64_t session = 0, sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::string text;

@@ -1,5 +1,8 @@
 #include "common/measure/preconditions.h"
 
+#include <string>
+#include <utility>
+
 #include "common/scene/expected.h"
 #include "common/sync/method.h"
 
@@ -19,6 +22,18 @@ std::string WhyNotValid(const Recording& recording, const Oracle& oracle,
     return "no hand-over";
   if (expected.edit && oracle.edits.empty()) return "no edit";
   return "";
+}
+
+std::string LackOf(const Recording& recording) {
+  const std::pair<std::int64_t, const char*> lacks[] = {
+      {recording.bus_gaps, "messages missing"},
+      {recording.undecodable, "undecodable messages"},
+      {recording.skipped_bytes, "damaged bytes"}};
+  std::string text;
+  for (const auto& [count, what] : lacks) {
+    if (count > 0) text += (text.empty() ? "" : " and ") + std::to_string(count) + " " + what;
+  }
+  return text;
 }
 
 }  // namespace seam

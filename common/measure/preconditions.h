@@ -13,4 +13,9 @@ namespace seam {
 /// no line end. Throws OperatorError when the recorded scene does not parse.
 std::string WhyNotValid(const Recording& recording, const Oracle& oracle, const Measures& measures);
 
+/// Returns the parts of a session that its recording is known to lack, with reasons: "50 messages
+/// missing", "12 damaged bytes and 3 undecodable messages"; "" if none. The figures are then those
+/// of the rest. The text has no comma and no line end.
+std::string LackOf(const Recording& recording);
+
 }  // namespace seam

@@ -72,7 +72,7 @@ std::vector<std::string> Values(const MeasuredRun& run) {
                                      Number(m.cpu_us_per_s, m.cpu_us_per_s > 0),
                                      m.inputs_late ? std::to_string(*m.inputs_late) : "",
                                      Number(m.error_served_m),
-                                     run.valid};
+                                     run.valid.empty() ? run.lacks : run.valid};
   // A session that is not valid has only its identity and the reason.
   for (std::size_t i = kIdentityColumns; !run.valid.empty() && i + 1 < values.size(); ++i) {
     values[i].clear();

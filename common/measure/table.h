@@ -13,6 +13,7 @@ struct MeasuredRun {
   std::string run;  ///< its name in the table
   Room room;        ///< the recording's
   Measures measures;
+  std::string lacks;               ///< LackOf the recording: its figures are of the rest
   std::string valid;               ///< empty, or the reason for omitting the figures (WhyNotValid)
   std::int64_t gaps = 0;           ///< messages missing by their sequence numbers
   std::int64_t skipped_bytes = 0;  ///< damaged bytes of the log

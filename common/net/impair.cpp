@@ -44,7 +44,7 @@ class Direction {
     Path& path = Find(peer);
     const Fate fate = path.impair.Next(now_us, data.size);
     ++traffic_.offered;
-    traffic_.lost += fate.count == 0 ? 1 : 0;
+    bool entered = false;
     for (int i = 0; i < fate.count; ++i) {
       if (path.bytes + data.size > ImpairedNet::kPathBytesMax) continue;
       if (bytes_ + data.size > ImpairedNet::kQueueBytesMax) continue;
@@ -59,7 +59,9 @@ class Direction {
       bytes_ += data.size;
       heap_.push_back(std::move(waiting));
       std::push_heap(heap_.begin(), heap_.end(), Later());
+      entered = true;
     }
+    traffic_.lost += entered ? 0 : 1;
   }
 
   /// Takes the first due datagram; false if none is due.

@@ -44,7 +44,8 @@ double MeanLoss(const ImpairProfile& profile);
 /// Returns the standard deviation of the number lost of `count` datagrams, by the same model.
 double LossDeviation(const ImpairProfile& profile, std::int64_t count);
 
-/// Datagrams offered to an impaired network, and datagrams lost to its profile.
+/// Datagrams offered to an impaired network, and those of them that it did not take: lost to its
+/// profile (loss, outages, rate limit), or for lack of memory.
 struct ImpairedTraffic {
   std::int64_t offered = 0, lost = 0;
 };

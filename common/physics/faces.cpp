@@ -22,15 +22,9 @@ constexpr double kSame = 1e-3;
 using Kind = std::tuple<float, float, float, int, int, int, float, int, int>;
 
 Kind KindOf(const Part& part) {
-  return {part.angle,
-          part.material.friction,
-          part.material.restitution,
-          part.filter.group,
-          part.filter.category,
-          part.filter.mask,
-          part.conveyor->speed,
-          part.conveyor->player,
-          static_cast<int>(part.conveyor->axis)};
+  return {part.angle,           part.material.friction, part.material.restitution,
+          part.filter.group,    part.filter.category,   part.filter.mask,
+          part.conveyor->speed, part.conveyor->player,  static_cast<int>(part.conveyor->axis)};
 }
 
 /// A rectangle in the frame of its kind's first box.

@@ -20,7 +20,7 @@ std::uint8_t* PutBigEndian(std::uint8_t* to, T value) {
 }
 
 [[noreturn]] void ThrowExists(const std::string& path) {
-  throw OperatorError(path + ": exists; choose another name, remove it, or give --force");
+  throw OperatorError(path + ": exists (--force replaces it)");
 }
 
 [[noreturn]] void ThrowNotCreated(const std::string& path, int error) {

@@ -14,11 +14,6 @@
 namespace seam {
 namespace {
 
-std::string RoomName(const std::string& channel) {
-  const std::size_t end = channel.find('.', 5);
-  return end == std::string::npos ? "" : channel.substr(5, end - 5);
-}
-
 /// The sequence number of a message on the bus, and the tick of a view; -1: none.
 struct Numbered {
   std::int64_t sequence = -1, view_tick = -1;
@@ -40,16 +35,18 @@ Numbered NumbersOf(const Bytes& data) {
   return numbers;
 }
 
-void FindBusLosses(const std::string& path, double tick_hz, std::vector<Loss>* losses) {
+void FindBusLosses(const std::string& path, const Room& room, std::vector<Loss>* losses) {
   struct Last {
     std::int64_t sequence = -1;
     double at_s = 0;
   };
   std::map<std::string, Last> channels;
+  const double tick_hz = std::max(1, room.tick_hz);
   double now_s = 0;
   LogReader reader(path);
   for (LogEvent event; reader.Next(&event);) {
-    if (RoomName(event.channel).empty()) continue;
+    if (RoomOfChannel(event.channel) != room.room) continue;
+    if (SessionOf(event.data) != room.session) continue;
     const Numbered numbers = NumbersOf(event.data);
     if (numbers.sequence < 0) continue;
     if (numbers.view_tick >= 0) now_s = static_cast<double>(numbers.view_tick) / tick_hz;
@@ -128,7 +125,7 @@ std::vector<Loss> OfRecording(const Recording& recording) {
 
 std::vector<Loss> FindLosses(const std::string& path, const Recording& recording) {
   std::vector<Loss> losses = OfRecording(recording);
-  FindBusLosses(path, std::max(1, recording.room.tick_hz), &losses);
+  FindBusLosses(path, recording.room, &losses);
   return Sorted(std::move(losses));
 }
 

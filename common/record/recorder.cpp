@@ -16,4 +16,10 @@ std::string ChannelName(const std::string& room, const std::string& kind, int pe
   return name;
 }
 
+std::string RoomOfChannel(const std::string& channel) {
+  if (channel.compare(0, 5, "SEAM.") != 0) return "";
+  const std::size_t end = channel.find('.', 5);
+  return end == std::string::npos ? "" : channel.substr(5, end - 5);
+}
+
 }  // namespace seam

@@ -26,5 +26,7 @@ class Recorder {
 /// scene, inputs, states, grants, edit, meta, view, impacts, stats, event ... (docs/recordings.md).
 /// Throws OperatorError when `room` is not a name (1..32 characters of [A-Za-z0-9_-]).
 std::string ChannelName(const std::string& room, const std::string& kind, int peer = -1);
+/// Returns the room of such a name; "" if the channel is not one of ours.
+std::string RoomOfChannel(const std::string& channel);
 
 }  // namespace seam

@@ -20,13 +20,6 @@ constexpr std::size_t kPartialMax = 256;
 /// limit, one damaged tick number would make a session of thousands of years.
 constexpr std::int64_t kTickPauseMax = 100000;
 
-/// Returns the room in "SEAM.<room>.<kind>..."; "" if the channel is not one of ours.
-std::string RoomOf(const std::string& channel) {
-  if (channel.compare(0, 5, "SEAM.") != 0) return "";
-  const std::size_t end = channel.find('.', 5);
-  return end == std::string::npos ? "" : channel.substr(5, end - 5);
-}
-
 bool SameSession(const Room& a, const Room& b) {
   const auto tie = [](const Room& r) {
     return std::tie(r.protocol, r.scene_name, r.scene_text, r.mode, r.reconcile, r.predict,
@@ -57,8 +50,9 @@ bool AppendByTick(std::vector<T>* to, T& message) {
 bool RecordingBuilder::Add(const std::string& channel, ByteView message, std::int64_t heard_us) {
   heard_us_ = heard_us;
   ++recording_.events_read;
-  const std::string room = RoomOf(channel);
-  if (room.empty() || (!wanted_room_.empty() && room != wanted_room_)) {
+  const std::string room = RoomOfChannel(channel);
+  const bool other_room = room.empty() || (!wanted_room_.empty() && room != wanted_room_);
+  if (other_room || (!follows_newest_ && SessionOf(message).value_or(*session_) != *session_)) {
     ++recording_.foreign;
     return false;
   }
@@ -76,10 +70,35 @@ bool RecordingBuilder::Add(const std::string& channel, ByteView message, std::in
           return false;
         } else {
           if (wanted_room_.empty()) wanted_room_ = room;
+          if (!IsOfSession(m)) {
+            ++recording_.foreign;
+            return false;
+          }
           return !IsDuplicate(channel, m.sequence, message) && Keep(m);
         }
       },
       any);
+}
+
+/// Follows the newest session, if asked to: a session begins with its Room.
+template <class Message>
+bool RecordingBuilder::IsOfSession(const Message& message) {
+  if (!session_) session_ = message.session;
+  if (message.session == *session_) return true;
+  constexpr bool begins = std::is_same_v<Message, Room>;
+  if (!begins || !follows_newest_ || ended_.count(message.session) != 0) return false;
+  ended_.insert(*session_);
+  session_ = message.session;
+  Recording next;
+  next.events_read = recording_.events_read;
+  next.foreign = recording_.foreign;
+  next.undecodable = recording_.undecodable;
+  recording_ = std::move(next);
+  has_room_ = false;
+  sorted_ = true;
+  heard_.clear();
+  partial_.clear();
+  return true;
 }
 
 void RecordingBuilder::CountGaps(const std::string& channel, std::int64_t more) {
@@ -125,10 +144,15 @@ bool RecordingBuilder::Keep(Room& room) {
     ++recording_.foreign;
     return false;
   }
-  if (has_room_ && !SameSession(room, recording_.room)) {
+  const bool other = has_room_ && !SameSession(room, recording_.room);
+  // Older recordings have no number that tells a server from the one before it.
+  const bool restarted = has_room_ && room.sequence < room_sequence_;
+  if (room.session == 0 && (other || restarted)) recording_.mixed = true;
+  if (other) {
     ++recording_.foreign;
     return false;
   }
+  room_sequence_ = room.sequence;
   if (!has_room_) recording_.room = std::move(room);
   has_room_ = true;
   return true;
@@ -275,9 +299,13 @@ void MemoryRecorder::Publish(const std::string& channel, std::int64_t utime, Byt
   builder.Add(channel, message, utime);
 }
 
-Recording ReadRecording(const std::string& path, const std::string& room) {
+Recording ReadRecording(const std::string& path, const std::string& room,
+                        const std::string& session) {
+  std::vector<LogSession> sessions = ListSessions(path, room);
+  std::optional<std::int64_t> chosen;
+  if (!sessions.empty()) chosen = sessions[ChooseSession(sessions, session, path)].id;
   LogReader reader(path);
-  RecordingBuilder builder(room);
+  RecordingBuilder builder(room, chosen);
   LogEvent event;
   while (reader.Next(&event)) builder.Add(event.channel, event.data, event.timestamp_us);
   if (!builder.has_room()) {
@@ -291,9 +319,32 @@ Recording ReadRecording(const std::string& path, const std::string& room) {
     const std::string which = room.empty() ? "no Seam2D room" : "no room \"" + room + "\"";
     throw OperatorError(path + ": " + which + " in this log (record channels SEAM.*)");
   }
+  if (builder.recording().mixed) {
+    throw OperatorError(path +
+                        ": holds more than one session, recorded before protocol 13, when messages "
+                        "did not say their session: record one session per log");
+  }
   Recording recording = std::move(builder.recording());
   recording.skipped_bytes = reader.skipped_bytes();
+  recording.sessions = std::move(sessions);
   return recording;
+}
+
+std::string SessionSuffix(const Recording& recording) {
+  const std::vector<LogSession>& all = recording.sessions;
+  if (all.size() < 2) return "";
+  const auto chosen = std::find_if(all.begin(), all.end(), [&](const LogSession& session) {
+    return session.id == recording.room.session;
+  });
+  return "#" + std::to_string(chosen - all.begin() + 1);
+}
+
+std::string ChosenSession(const Recording& recording) {
+  const std::string suffix = SessionSuffix(recording);
+  if (suffix.empty()) return "";
+  const bool last = recording.room.session == recording.sessions.back().id;
+  return SessionsText(recording.sessions) + "; this is " + suffix.substr(1) +
+         (last ? ", the last" : "") + " (--session chooses)";
 }
 
 }  // namespace seam

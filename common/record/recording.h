@@ -4,18 +4,21 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/codec/messages.h"
+#include "common/record/log_sessions.h"
 #include "common/record/recorder.h"
 
 namespace seam {
 
-/// The messages of one room, by kind, and counters of damage.
+/// The messages of one session of a room, by kind, and counters of damage.
 struct Recording {
-  Room room;                                          ///< the first of the log
+  Room room;                                          ///< the session's first
   std::map<int, std::map<std::int64_t, View>> views;  ///< by peer, by tick; complete ones only
   /// Times at which the bus received each view, us on one clock for all peers. By peer, by tick;
   /// empty if unknown.
@@ -31,6 +34,8 @@ struct Recording {
   std::vector<Load> loads;                                 ///< the server's, ascending
   std::vector<Event> events;
 
+  std::vector<LogSession> sessions;          ///< all of the room in the log, this one among them
+  bool mixed = false;                        ///< holds several sessions that have no number
   std::int64_t events_read = 0;              ///< LCM events in the log
   std::int64_t foreign = 0;                  ///< events of other channels, rooms or sessions
   std::int32_t foreign_protocol = 0;         ///< protocol of an unreadable room; 0: none
@@ -42,22 +47,36 @@ struct Recording {
   std::int64_t first_tick = 0, last_tick = -1;  ///< over all views
 };
 
-/// Reads a log. `room` selects one of several rooms ("": the first). Throws OperatorError when
-/// there is no such file or no room in it; damage is counted, not fatal.
-Recording ReadRecording(const std::string& path, const std::string& room = "");
+/// Reads one session of a log. `room` selects one of several rooms ("": the first), `session` one
+/// of several sessions of the room, as for ChooseSession. Throws OperatorError when there is no
+/// such file, room or session, or when sessions of before protocol 13 cannot be told apart; damage
+/// is counted, not fatal.
+Recording ReadRecording(const std::string& path, const std::string& room = "",
+                        const std::string& session = "");
+
+/// Returns "#2" for the second session of its log, "" for the only one.
+std::string SessionSuffix(const Recording& recording);
+/// Returns a line for the operator if the log has several sessions: "2 sessions: ...; this is 2,
+/// the last (--session chooses)"; else "".
+std::string ChosenSession(const Recording& recording);
 
 /// Builds a recording message by message, from a live bus or a log. Accepts a late start,
 /// duplicates, and messages out of order; a hostile log costs memory in proportion to its size.
 class RecordingBuilder {
  public:
-  /// `room` "": the room of the first message that decodes.
-  explicit RecordingBuilder(std::string room = "") : wanted_room_(std::move(room)) {}
+  /// `room` "": the room of the first message that decodes. Without a `session` the builder follows
+  /// the newest: the Room of one that it has not heard before empties the recording.
+  explicit RecordingBuilder(std::string room = "",
+                            std::optional<std::int64_t> session = std::nullopt)
+      : wanted_room_(std::move(room)), session_(session), follows_newest_(!session) {}
   /// Adds a message. Returns false and counts it if it is foreign, undecodable, or a duplicate.
   /// `heard_us`: time of receipt on the bus's clock; -1: unknown.
   bool Add(const std::string& channel, ByteView message, std::int64_t heard_us = -1);
   /// Returns the recording, sorted by tick. The reference stays valid, but later messages may be
   /// out of order in it until recording() is called again.
   Recording& recording();
+  /// Returns the session that is recorded; nullopt before the first message.
+  std::optional<std::int64_t> session() const { return session_; }
   /// Returns true once a Room was received; without one nothing can be drawn.
   bool has_room() const { return has_room_; }
 
@@ -68,6 +87,8 @@ class RecordingBuilder {
     std::uint64_t mask = 0;                  ///< bit i: highest - i was received
     std::array<std::uint64_t, 64> hashes{};  ///< hash of each message, at sequence % 64
   };
+  template <class Message>
+  bool IsOfSession(const Message& message);
   bool IsDuplicate(const std::string& channel, std::int64_t sequence, ByteView message);
   void CountGaps(const std::string& channel, std::int64_t more);
   bool Keep(Room& room);
@@ -86,6 +107,10 @@ class RecordingBuilder {
   void DropStrayTicks();
 
   std::string wanted_room_;
+  std::optional<std::int64_t> session_;
+  bool follows_newest_;
+  std::set<std::int64_t> ended_;  // sessions before session_
+  std::int64_t room_sequence_ = 0;
   std::int64_t heard_us_ = -1;  // time of receipt of the message being added
   bool has_room_ = false;
   bool sorted_ = true;

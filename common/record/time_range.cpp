@@ -67,6 +67,7 @@ void KeepRange(const TimeRange& range, Recording* recording) {
   KeepTicks(&recording->strands, keep);
   KeepList(&recording->impacts, keep);
   KeepList(&recording->events, keep);
+  KeepList(&recording->loads, keep);
   for (auto& [peer, stats] : recording->stats) KeepList(&stats, keep);
   std::int64_t first = 0, last = -1;
   for (const auto& [peer, views] : recording->views) {

@@ -24,9 +24,9 @@ struct TimeRange {
 /// Throws OperatorError when --from is after --to, or the recording has no view between them.
 void RequireRange(const TimeRange& range, const Recording& recording, const std::string& path);
 
-/// Removes the views, strands, impacts, statistics and events outside the range and sets first_tick
-/// and last_tick. Everything else (scene, edits, grants, inputs ...) stays as context. Compute an
-/// oracle from the whole recording, never from a section. Requires RequireRange.
+/// Removes the views, strands, impacts, statistics, loads and events outside the range and sets
+/// first_tick and last_tick. Everything else (scene, edits, grants, inputs ...) stays as context.
+/// Compute an oracle from the whole recording, never from a section. Requires RequireRange.
 void KeepRange(const TimeRange& range, Recording* recording);
 
 /// Returns "12 damaged bytes skipped, 0 events undecodable, 3 messages missing"; "" for an intact

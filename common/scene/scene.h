@@ -203,6 +203,7 @@ struct WatchCollision {
 };
 
 struct Camera {
+  bool given = false;              ///< the scene says min or max; else pictures fit what moves
   Vec2 min{-20, -2}, max{20, 12};  ///< area that must be visible, m
   PartId follow = -1;
 };

@@ -189,6 +189,7 @@ void ReadCamera(const SceneReader& root, SceneDraft* draft) {
   if (table == nullptr) return;
   const SceneReader r(*table, draft->file, "camera", {"min", "max", "follow"});
   Camera& camera = draft->scene.camera;
+  camera.given = r.Has("min") || r.Has("max");
   camera.min = r.Vector("min", kCoordinate, camera.min);
   camera.max = r.Vector("max", kCoordinate, camera.max);
   if ((camera.max - camera.min).minCoeff() < 0.1f) {

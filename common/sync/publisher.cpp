@@ -22,6 +22,7 @@ void Publisher::Number(Message& message) {
   if constexpr (Traits::kTravels == Travels::kBusPeer) whose = message.peer;
   if constexpr (Traits::kTravels == Travels::kBusPlayer) whose = message.player;
   const std::string channel = ChannelName(room_, Traits::kKind, whose);
+  message.session = session_;
   message.sequence = sequence_[channel]++;
   const Bytes bytes = Encode(message);
   recorder_.Publish(channel, message.utime, bytes);

@@ -1,6 +1,7 @@
 #pragma once
-/// Publishes a peer's messages on the bus, with number and room name.
+/// Publishes a peer's messages on the bus, with session, number and room name.
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -11,10 +12,13 @@ namespace seam {
 
 class Publisher {
  public:
-  Publisher(Recorder& recorder, std::string room) : recorder_(recorder), room_(std::move(room)) {}
+  /// `room` and `session`: as in the room's Room message.
+  Publisher(Recorder& recorder, std::string room, std::int64_t session)
+      : recorder_(recorder), room_(std::move(room)), session_(session) {}
 
   /// False if published messages reach no listener.
   bool listening() const { return recorder_.listening(); }
+  std::int64_t session() const { return session_; }
   /// Requires a message that travels on the bus (message_list.h).
   template <class Message>
   void Publish(Message message);
@@ -27,6 +31,7 @@ class Publisher {
 
   Recorder& recorder_;
   std::string room_;
+  std::int64_t session_;
   std::map<std::string, std::int64_t> sequence_;
 };
 

@@ -17,6 +17,7 @@
 #include "render/draw/draw_rules.h"
 #include "render/draw/draw_scene.h"
 #include "render/draw/draw_strands.h"
+#include "render/playback/camera.h"
 #include "render/playback/marks.h"
 #include "render/playback/peer_colour.h"
 
@@ -249,9 +250,12 @@ void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playbac
 }  // namespace
 
 Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, double tick) {
-  const auto& box = playback.scene().camera;
+  const PartId part = playback.scene().camera.follow;
+  constexpr double kLookBack_s = 2;  // a growing recording is looked through for each frame
+  const double now_s = tick / playback.tick_hz();
+  const double from_s = std::min(now_s, std::max(playback.first_s(), now_s - kLookBack_s));
+  const WorldBox box = ActionArea({{&playback, peer}}, from_s, now_s);
   Viewport viewport = Fit(panel, box.min, box.max);
-  const PartId part = box.follow;
   if (part < 0) return viewport;
   const auto revision = playback.RevisionOf(playback.MomentAt(peer, tick));
   for (const BodyShapes& body : revision->moving) {

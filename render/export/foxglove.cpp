@@ -1,88 +1,105 @@
 #include "render/export/foxglove.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/geometry.h"
 #include "common/measure/mean_square.h"
 #include "render/canvas/shapes.h"
-#include "common/base/json_text.h"
+#include "render/export/foxglove_parts.h"
+#include "render/export/protobuf.h"
 
 namespace seam {
 namespace {
 
-std::string Time(const ExportSession& session, std::int64_t tick) {
-  const std::uint64_t ns = TimeNs(session, tick);
-  return "{\"sec\":" + std::to_string(ns / 1000000000) +
-         ",\"nsec\":" + std::to_string(ns % 1000000000) + "}";
+/// Poses are rounded to these parts of a metre and of a quaternion. States travel in parts of 512,
+/// so nothing is lost that was known, and files compress better.
+constexpr double kPosePartsPerM = 4096, kTurnParts = 32768;
+
+double Rounded(double value, double parts) { return std::round(value * parts) / parts; }
+
+/// Returns the place and the turn of a pose of a view, rounded.
+std::string RoundedPlace(const View& view, std::size_t i) {
+  return ProtoPoint(Rounded(double{view.x[i]}, kPosePartsPerM),
+                    Rounded(double{view.y[i]}, kPosePartsPerM));
+}
+std::string RoundedTurn(const View& view, std::size_t i) {
+  const double half = double{view.angle[i]} / 2;
+  return ProtoTurn(Rounded(std::sin(half), kTurnParts), Rounded(std::cos(half), kTurnParts));
 }
 
-std::string Xyz(double x, double y) {
-  return "{\"x\":" + JsonNumber(x) + ",\"y\":" + JsonNumber(y) + ",\"z\":0}";
-}
-
-/// Returns a rotation about z as a quaternion.
-std::string Turn(double angle) {
-  return "{\"x\":0,\"y\":0,\"z\":" + JsonNumber(std::sin(angle / 2)) +
-         ",\"w\":" + JsonNumber(std::cos(angle / 2)) + "}";
-}
-
-std::string Frame(const ExportSession& session, const View& view, PartId id) {
-  return session.ViewName(view.peer) + "/" + session.of.at(id);
-}
-
-void Append(std::string* list, const std::string& item) {
-  if (!list->empty()) *list += ',';
-  *list += item;
-}
-
-/// Returns a view's colour: hues a little more than a third of the colour circle apart.
-std::string Colour(int peer) {
-  const double hue = 2 * kPi * 0.36 * peer;
-  const auto part = [&](double turn) { return 0.55 + 0.4 * std::cos(hue + turn); };
-  return "{\"r\":" + JsonNumber(part(0)) + ",\"g\":" + JsonNumber(part(-2 * kPi / 3)) +
-         ",\"b\":" + JsonNumber(part(2 * kPi / 3)) + ",\"a\":1}";
-}
-
-/// Sides of the polygon for a circle.
-constexpr int kCircleSides = 24;
-
-std::string PointsOf(const Outline& outline) {
-  std::string points;
+void AddPoints(const Outline& outline, ProtoMessage* line) {
+  constexpr int kLinePointsField = 5;
   if (outline.kind != ShapeKind::kCircle) {
-    for (const Vec2& p : outline.points) Append(&points, Xyz(double{p.x()}, double{p.y()}));
-    return points;
+    for (const Vec2& p : outline.points)
+      line->Bytes(kLinePointsField, ProtoPoint(double{p.x()}, double{p.y()}));
+    return;
   }
   const Eigen::Vector2d centre = outline.points.front().cast<double>();
-  Append(&points, Xyz(centre.x(), centre.y()));  // a spoke, so that it can be seen to turn
+  line->Bytes(kLinePointsField,
+              ProtoPoint(centre.x(), centre.y()));  // a spoke, so that it can be seen to turn
   for (int side = 0; side <= kCircleSides; ++side) {
     const double turn = 2 * kPi * side / kCircleSides;
-    Append(&points, Xyz(centre.x() + double{outline.radius} * std::cos(turn),
-                        centre.y() + double{outline.radius} * std::sin(turn)));
+    line->Bytes(kLinePointsField, ProtoPoint(centre.x() + double{outline.radius} * std::cos(turn),
+                                             centre.y() + double{outline.radius} * std::sin(turn)));
   }
-  return points;
 }
 
-/// foxglove.LinePrimitive: type 0 is a strip, 1 a loop.
-std::string Line(const Outline& outline, const Pose& pose, const std::string& colour) {
+/// foxglove.LinePrimitive.
+std::string Line(const Outline& outline, const Pose& pose, const ExportColour& colour) {
+  constexpr std::uint64_t kStrip = 0, kLoop = 1;
+  constexpr double kThickness_px = 2;
   const bool open = IsLine(outline.kind) || outline.kind == ShapeKind::kCircle;
-  return "{\"type\":" + std::string(open ? "0" : "1") +
-         ",\"pose\":{\"position\":" + Xyz(double{pose.position.x()}, double{pose.position.y()}) +
-         ",\"orientation\":" + Turn(double{pose.angle}) +
-         "},\"thickness\":2,\"scale_invariant\":true,\"points\":[" + PointsOf(outline) +
-         "],\"color\":" + colour + ",\"colors\":[],\"indices\":[]}";
+  ProtoMessage place, paint, line;
+  place.Bytes(1, ProtoPoint(double{pose.position.x()}, double{pose.position.y()}));
+  place.Bytes(2, ProtoTurn(double{pose.angle}));
+  paint.Double(1, colour.r);
+  paint.Double(2, colour.g);
+  paint.Double(3, colour.b);
+  paint.Double(4, colour.a);
+  line.Varint(1, open ? kStrip : kLoop);
+  line.Bytes(2, place.bytes());
+  line.Double(3, kThickness_px);
+  line.Varint(4, 1);  // pixels, at any zoom
+  AddPoints(outline, &line);
+  line.Bytes(6, paint.bytes());
+  return line.bytes();
 }
 
 /// foxglove.SceneEntity, fixed to `frame` for ever.
 std::string Entity(const std::string& time, const std::string& frame, const std::string& id,
-                   const BodyShapes& body, const Pose& pose, const std::string& colour) {
-  std::string lines;
-  for (const Outline& outline : body.outlines) Append(&lines, Line(outline, pose, colour));
-  return "{\"timestamp\":" + time + ",\"frame_id\":" + JsonText(frame) + ",\"id\":" + JsonText(id) +
-         ",\"lifetime\":{\"sec\":0,\"nsec\":0},\"frame_locked\":true,\"metadata\":[],\"lines\":[" +
-         lines + "]}";
+                   const BodyShapes& body, const Pose& pose, const ExportColour& colour) {
+  ProtoMessage entity;
+  entity.Bytes(1, time);
+  entity.Bytes(2, frame);
+  entity.Bytes(3, id);
+  entity.Bytes(4, "");  // a lifetime of 0: for ever
+  entity.Varint(5, 1);
+  for (const Outline& outline : body.outlines) entity.Bytes(11, Line(outline, pose, colour));
+  return entity.bytes();
 }
 
 }  // namespace
+
+std::string ExportViewName(const ExportSession& session, int peer) {
+  return peer == kOraclePeer ? "oracle" : session.ViewName(peer);
+}
+
+View OracleView(const ExportSession& session, const View& view) {
+  View truth;
+  truth.peer = kOraclePeer;
+  truth.tick = view.tick;
+  truth.revision = view.revision;
+  for (const ExportBody& body : session.bodies) {
+    const auto state = session.oracle->At(view.tick, body.id);
+    if (!state) continue;
+    truth.id.push_back(body.id);
+    truth.x.push_back(state->position.x());
+    truth.y.push_back(state->position.y());
+    truth.angle.push_back(state->angle);
+  }
+  return truth;
+}
 
 std::uint64_t TimeNs(const ExportSession& session, std::int64_t tick) {
   if (tick <= 0) return 0;
@@ -93,67 +110,90 @@ std::uint64_t TimeNs(const ExportSession& session, std::int64_t tick) {
 
 std::string FramesOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows) {
-  const std::string time = Time(session, view.tick);
-  std::string frames;
+  const std::string time = ProtoTime(session, view.tick);
+  ProtoMessage frames;
   for (const ExportRow& row : rows) {
     const std::size_t i = row.i;
-    Append(&frames, "{\"timestamp\":" + time + ",\"parent_frame_id\":\"world\"" +
-                        ",\"child_frame_id\":" + JsonText(Frame(session, view, row.id)) +
-                        ",\"translation\":" + Xyz(double{view.x[i]}, double{view.y[i]}) +
-                        ",\"rotation\":" + Turn(double{view.angle[i]}) + "}");
+    ProtoMessage frame;
+    frame.Bytes(1, time);
+    frame.Bytes(2, "world");
+    frame.Bytes(3, BodyFrame(session, view, row.id));
+    frame.Bytes(4, RoundedPlace(view, i));
+    frame.Bytes(5, RoundedTurn(view, i));
+    frames.Bytes(1, frame.bytes());
   }
-  return "{\"transforms\":[" + frames + "]}";
+  return frames.bytes();
 }
 
 std::string SceneUpdateOf(const ExportSession& session, const View& view,
                           const std::vector<ExportRow>& rows) {
-  const std::string time = Time(session, view.tick);
+  constexpr std::uint64_t kDeleteAll = 1;
+  const std::string time = ProtoTime(session, view.tick);
   const auto revision = session.revisions->At(view.revision);
   const DrawnRevision shapes = RevisionOf(revision->scene(), revision->composition());
-  std::string entities;
+  ProtoMessage deletion, update;
+  deletion.Bytes(1, time);
+  deletion.Varint(2, kDeleteAll);
+  update.Bytes(1, deletion.bytes());
   for (const ExportRow& row : rows) {
     for (const BodyShapes& body : shapes.moving) {
       if (body.id != row.id) continue;
-      const std::string frame = Frame(session, view, row.id);
-      Append(&entities, Entity(time, frame, frame, body, Pose(), Colour(view.peer)));
+      const std::string frame = BodyFrame(session, view, row.id);
+      update.Bytes(2, Entity(time, frame, frame, body, Pose(), ViewColour(view.peer)));
     }
   }
-  // A deletion of type 1 deletes all entities.
-  return "{\"deletions\":[{\"timestamp\":" + time + ",\"type\":1,\"id\":\"\"}],\"entities\":[" +
-         entities + "]}";
+  return update.bytes();
 }
 
 std::string GroundOf(const ExportSession& session) {
-  const std::string time = Time(session, session.recording.first_tick);
+  const std::string time = ProtoTime(session, session.recording.first_tick);
   const auto revision = session.revisions->At(0);
-  std::string entities;
+  ProtoMessage update;
   for (const BodyShapes& body : RevisionOf(revision->scene(), revision->composition()).anchored) {
     if (body.imposed >= 0) continue;  // it moves, and no view says where it is
-    Append(&entities, Entity(time, "world", session.PartName(body.id), body, body.start,
-                             "{\"r\":0.5,\"g\":0.5,\"b\":0.5,\"a\":1}"));
+    update.Bytes(
+        2, Entity(time, "world", session.PartName(body.id), body, body.start, {0.5, 0.5, 0.5, 1}));
   }
-  return "{\"deletions\":[],\"entities\":[" + entities + "]}";
+  return update.bytes();
 }
 
 std::string ErrorsOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows) {
   MeanSquare all;
-  std::optional<double> largest;
-  std::string errors;
+  double largest = 0;
+  ProtoMessage errors;
+  errors.Varint(1, static_cast<std::uint64_t>(view.tick));
   for (const ExportRow& row : rows) {
-    Append(&errors, JsonText(session.of.at(row.id)) + ":" + JsonNumber(row.error_m));
     if (!row.error_m) continue;
     all.Add(*row.error_m * *row.error_m);
-    largest = std::max(largest.value_or(0), *row.error_m);
+    largest = std::max(largest, *row.error_m);
+    ProtoMessage body;
+    body.Bytes(1, session.of.at(row.id));
+    body.Float(2, static_cast<float>(*row.error_m));
+    errors.Bytes(4, body.bytes());
   }
-  return "{\"tick\":" + std::to_string(view.tick) + ",\"rms_m\":" + JsonNumber(all.Root()) +
-         ",\"max_m\":" + JsonNumber(largest) + ",\"error_m\":{" + errors + "}}";
+  errors.Float(2, static_cast<float>(all.RootOrZero()));
+  errors.Float(3, static_cast<float>(largest));
+  return errors.bytes();
+}
+
+std::string InputOf(std::int64_t tick, const Inputs& message, std::size_t i) {
+  ProtoMessage input;
+  input.Varint(1, static_cast<std::uint64_t>(tick));
+  input.Float(2, static_cast<float>(message.drive[i]) / 127);
+  input.Float(3, static_cast<float>(message.lift[i]) / 127);
+  input.Varint(4, static_cast<std::uint64_t>(std::int64_t{message.buttons[i]}));
+  return input.bytes();
 }
 
 std::string LogOf(const ExportSession& session, const Event& event) {
-  return "{\"timestamp\":" + Time(session, event.tick) +
-         ",\"level\":2,\"message\":" + JsonText(event.text) +
-         ",\"name\":" + JsonText(session.ViewName(event.peer)) + ",\"file\":\"\",\"line\":0}";
+  constexpr std::uint64_t kInfo = 2;
+  ProtoMessage log;
+  log.Bytes(1, ProtoTime(session, event.tick));
+  log.Varint(2, kInfo);
+  log.Bytes(3, event.text);
+  log.Bytes(4, session.ViewName(event.peer));
+  return log.bytes();
 }
 
 }  // namespace seam

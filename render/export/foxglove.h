@@ -1,6 +1,7 @@
 #pragma once
-/// Messages for Foxglove and Rerun, as JSON, with their schemas: frames (one for each body in each
-/// view, in the frame "world"), shapes fixed to them, log lines; and seam2d's own plain numbers.
+/// Messages for Foxglove and Rerun, as protocol buffers: frames (one for each body in each view, in
+/// the frame "world"), shapes fixed to them (as points too, because Rerun draws no lines), log
+/// lines; and seam2d's own plain numbers. The oracle is one more view, "oracle".
 
 #include <string>
 #include <vector>
@@ -9,31 +10,49 @@
 
 namespace seam {
 
-struct FoxgloveSchema {
-  std::string name;
-  std::string text;  ///< a JSON Schema
-};
+/// Names of the messages in ExportSchemas.
+constexpr const char *kFramesSchema = "foxglove.FrameTransforms",
+                     *kSceneSchema = "foxglove.SceneUpdate", *kCloudSchema = "foxglove.PointCloud",
+                     *kLogSchema = "foxglove.Log", *kErrorsSchema = "seam2d.Errors",
+                     *kInputSchema = "seam2d.Input";
 
-FoxgloveSchema FrameTransformsSchema();
-FoxgloveSchema SceneUpdateSchema();
-FoxgloveSchema LogSchema();
-FoxgloveSchema ErrorsSchema();
-FoxgloveSchema InputSchema();
+/// Returns the google.protobuf.FileDescriptorSet of all messages.
+const std::string& ExportSchemas();
+
+/// The peer of the view that OracleView makes.
+constexpr int kOraclePeer = -1;
+
+/// Returns the selected bodies as the oracle has them at the tick of a view.
+View OracleView(const ExportSession& session, const View& view);
+/// Returns the name of a view: its player's, "server" or "oracle".
+std::string ExportViewName(const ExportSession& session, int peer);
 
 /// Returns the time of a tick, ns from the session's tick 0; 0 for earlier ones.
 std::uint64_t TimeNs(const ExportSession& session, std::int64_t tick);
-/// foxglove.FrameTransforms: the pose of each body of the rows. Frames are "VIEW/BODY".
+/// foxglove.FrameTransforms: the pose of each body of the rows, rounded to 1/4096 m and 1/32768 of
+/// a quaternion. Frames are "VIEW/BODY".
 std::string FramesOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows);
 /// foxglove.SceneUpdate: the outlines of all bodies in the rows, fixed to their frames; replaces
 /// all earlier shapes of the view.
 std::string SceneUpdateOf(const ExportSession& session, const View& view,
                           const std::vector<ExportRow>& rows);
+/// A message of a body, by the body's name.
+struct NamedMessage {
+  std::string name, message;
+};
+/// foxglove.PointCloud of each body of the rows: points along its outlines, fixed to its frame.
+std::vector<NamedMessage> CloudsOf(const ExportSession& session, const View& view,
+                                   const std::vector<ExportRow>& rows);
+/// foxglove.PointCloud of all bodies that never move, in the frame "world", near those that do.
+std::string GroundCloudOf(const ExportSession& session);
 /// foxglove.SceneUpdate: the outlines of bodies that never move, in the frame "world".
 std::string GroundOf(const ExportSession& session);
-/// seam2d.Errors: rms_m, max_m, and error_m by body; null without an oracle.
+/// seam2d.Errors: rms_m, max_m, and error_m by body, of the bodies that the oracle has.
 std::string ErrorsOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows);
+/// seam2d.Input of element `i` of a message.
+std::string InputOf(std::int64_t tick, const Inputs& message, std::size_t i);
 /// foxglove.Log of an event.
 std::string LogOf(const ExportSession& session, const Event& event);
 

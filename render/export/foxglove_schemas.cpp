@@ -1,114 +1,119 @@
-/// The schemas of https://docs.foxglove.dev/docs/sdk/schemas, with the used fields only.
-
-#include <utility>
+/// The schemas of https://docs.foxglove.dev/docs/sdk/schemas as protocol buffers, with the used
+/// fields only, and seam2d's own.
 
 #include "render/export/foxglove.h"
+#include "render/export/protobuf.h"
 
 namespace seam {
 namespace {
 
-using Fields = std::vector<std::pair<const char*, std::string>>;
+constexpr const char* kTime = ".google.protobuf.Timestamp";
+constexpr const char* kVector = ".foxglove.Vector3";
+constexpr const char* kQuaternion = ".foxglove.Quaternion";
+constexpr const char* kColor = ".foxglove.Color";
 
-std::string Type(const char* name) { return std::string("{\"type\":\"") + name + "\"}"; }
-
-std::string Object(const char* title, const Fields& fields) {
-  std::string properties;
-  for (const auto& [name, type] : fields) {
-    properties += (properties.empty() ? "\"" : ",\"") + std::string(name) + "\":" + type;
+ProtoSchema Numbers(const char* name, const std::vector<const char*>& fields) {
+  ProtoSchema schema{name, {}};
+  for (const char* field : fields) {
+    schema.fields.push_back(
+        {field, static_cast<int>(schema.fields.size()) + 1, ProtoType::kDouble});
   }
-  return std::string("{\"title\":\"") + title + "\",\"type\":\"object\",\"properties\":{" +
-         properties + "}}";
+  return schema;
 }
 
-std::string ListOf(const std::string& items) {
-  return "{\"type\":\"array\",\"items\":" + items + "}";
+ProtoSchema SecondsAndNanos(const char* name) {
+  return {name, {{"seconds", 1, ProtoType::kInt64}, {"nanos", 2, ProtoType::kInt32}}};
 }
 
-std::string NumberOrNull() { return "{\"type\":[\"number\",\"null\"]}"; }
-
-std::string Numbers(const char* title, const std::vector<const char*>& names) {
-  Fields fields;
-  for (const char* name : names) fields.emplace_back(name, Type("number"));
-  return Object(title, fields);
+std::vector<ProtoSchema> FoxgloveMessages() {
+  using Type = ProtoType;
+  return {
+      Numbers("Vector3", {"x", "y", "z"}),
+      Numbers("Point3", {"x", "y", "z"}),
+      Numbers("Quaternion", {"x", "y", "z", "w"}),
+      Numbers("Color", {"r", "g", "b", "a"}),
+      {"Pose",
+       {{"position", 1, Type::kMessage, kVector}, {"orientation", 2, Type::kMessage, kQuaternion}}},
+      {"FrameTransform",
+       {{"timestamp", 1, Type::kMessage, kTime},
+        {"parent_frame_id", 2, Type::kString},
+        {"child_frame_id", 3, Type::kString},
+        {"translation", 4, Type::kMessage, kVector},
+        {"rotation", 5, Type::kMessage, kQuaternion}}},
+      {"FrameTransforms", {{"transforms", 1, Type::kMessage, ".foxglove.FrameTransform", true}}},
+      {"LinePrimitive",
+       {{"type", 1, Type::kEnum, ".foxglove.LinePrimitive.Type"},
+        {"pose", 2, Type::kMessage, ".foxglove.Pose"},
+        {"thickness", 3, Type::kDouble},
+        {"scale_invariant", 4, Type::kBool},
+        {"points", 5, Type::kMessage, ".foxglove.Point3", true},
+        {"color", 6, Type::kMessage, kColor}},
+       {{"Type", {"LINE_STRIP", "LINE_LOOP", "LINE_LIST"}}}},
+      {"SceneEntityDeletion",
+       {{"timestamp", 1, Type::kMessage, kTime},
+        {"type", 2, Type::kEnum, ".foxglove.SceneEntityDeletion.Type"},
+        {"id", 3, Type::kString}},
+       {{"Type", {"MATCHING_ID", "ALL"}}}},
+      {"SceneEntity",
+       {{"timestamp", 1, Type::kMessage, kTime},
+        {"frame_id", 2, Type::kString},
+        {"id", 3, Type::kString},
+        {"lifetime", 4, Type::kMessage, ".google.protobuf.Duration"},
+        {"frame_locked", 5, Type::kBool},
+        {"lines", 11, Type::kMessage, ".foxglove.LinePrimitive", true}}},
+      {"SceneUpdate",
+       {{"deletions", 1, Type::kMessage, ".foxglove.SceneEntityDeletion", true},
+        {"entities", 2, Type::kMessage, ".foxglove.SceneEntity", true}}},
+      {"PackedElementField",
+       {{"name", 1, Type::kString},
+        {"offset", 2, Type::kFixed32},
+        {"type", 3, Type::kEnum, ".foxglove.PackedElementField.NumericType"}},
+       {{"NumericType",
+         {"UNKNOWN", "UINT8", "INT8", "UINT16", "INT16", "UINT32", "INT32", "FLOAT32",
+          "FLOAT64"}}}},
+      {"PointCloud",
+       {{"timestamp", 1, Type::kMessage, kTime},
+        {"frame_id", 2, Type::kString},
+        {"pose", 3, Type::kMessage, ".foxglove.Pose"},
+        {"point_stride", 4, Type::kFixed32},
+        {"fields", 5, Type::kMessage, ".foxglove.PackedElementField", true},
+        {"data", 6, Type::kBytes}}},
+      {"Log",
+       {{"timestamp", 1, Type::kMessage, kTime},
+        {"level", 2, Type::kEnum, ".foxglove.Log.Level"},
+        {"message", 3, Type::kString},
+        {"name", 4, Type::kString},
+        {"file", 5, Type::kString},
+        {"line", 6, Type::kFixed32}},
+       {{"Level", {"UNKNOWN", "DEBUG", "INFO", "WARNING", "ERROR", "FATAL"}}}}};
 }
 
-std::string Time(const char* title) {
-  return Object(title, {{"sec", Type("integer")}, {"nsec", Type("integer")}});
-}
-
-std::string Vector() { return Numbers("foxglove.Vector3", {"x", "y", "z"}); }
-std::string Quaternion() { return Numbers("foxglove.Quaternion", {"x", "y", "z", "w"}); }
-std::string Colour() { return Numbers("foxglove.Color", {"r", "g", "b", "a"}); }
-
-std::string Frames() {
-  return Object(
-      "foxglove.FrameTransforms",
-      {{"transforms", ListOf(Object("foxglove.FrameTransform", {{"timestamp", Time("time")},
-                                                                {"parent_frame_id", Type("string")},
-                                                                {"child_frame_id", Type("string")},
-                                                                {"translation", Vector()},
-                                                                {"rotation", Quaternion()}}))}});
-}
-
-std::string Lines() {
-  const std::string point = Numbers("foxglove.Point3", {"x", "y", "z"});
-  return Object(
-      "foxglove.LinePrimitive",
-      {{"type", Type("integer")},
-       {"pose", Object("foxglove.Pose", {{"position", Vector()}, {"orientation", Quaternion()}})},
-       {"thickness", Type("number")},
-       {"scale_invariant", Type("boolean")},
-       {"points", ListOf(point)},
-       {"color", Colour()},
-       {"colors", ListOf(Colour())},
-       {"indices", ListOf(Type("integer"))}});
-}
-
-std::string SceneUpdate() {
-  const std::string pair =
-      Object("foxglove.KeyValuePair", {{"key", Type("string")}, {"value", Type("string")}});
-  return Object(
-      "foxglove.SceneUpdate",
-      {{"deletions", ListOf(Object("foxglove.SceneEntityDeletion", {{"timestamp", Time("time")},
-                                                                    {"type", Type("integer")},
-                                                                    {"id", Type("string")}}))},
-       {"entities", ListOf(Object("foxglove.SceneEntity", {{"timestamp", Time("time")},
-                                                           {"frame_id", Type("string")},
-                                                           {"id", Type("string")},
-                                                           {"lifetime", Time("duration")},
-                                                           {"frame_locked", Type("boolean")},
-                                                           {"metadata", ListOf(pair)},
-                                                           {"lines", ListOf(Lines())}}))}});
+std::vector<ProtoSchema> OwnMessages() {
+  using Type = ProtoType;
+  return {{"BodyError", {{"body", 1, Type::kString}, {"error_m", 2, Type::kFloat}}},
+          {"Errors",
+           {{"tick", 1, Type::kInt64},
+            {"rms_m", 2, Type::kFloat},
+            {"max_m", 3, Type::kFloat},
+            {"bodies", 4, Type::kMessage, ".seam2d.BodyError", true}}},
+          {"Input",
+           {{"tick", 1, Type::kInt64},
+            {"drive", 2, Type::kFloat},
+            {"lift", 3, Type::kFloat},
+            {"buttons", 4, Type::kInt32}}}};
 }
 
 }  // namespace
 
-FoxgloveSchema FrameTransformsSchema() { return {"foxglove.FrameTransforms", Frames()}; }
-FoxgloveSchema SceneUpdateSchema() { return {"foxglove.SceneUpdate", SceneUpdate()}; }
-
-FoxgloveSchema LogSchema() {
-  return {"foxglove.Log", Object("foxglove.Log", {{"timestamp", Time("time")},
-                                                  {"level", Type("integer")},
-                                                  {"message", Type("string")},
-                                                  {"name", Type("string")},
-                                                  {"file", Type("string")},
-                                                  {"line", Type("integer")}})};
-}
-
-FoxgloveSchema ErrorsSchema() {
-  return {"seam2d.Errors",
-          Object("seam2d.Errors", {{"tick", Type("integer")},
-                                   {"rms_m", NumberOrNull()},
-                                   {"max_m", NumberOrNull()},
-                                   {"error_m", "{\"type\":\"object\",\"additionalProperties\":" +
-                                                   NumberOrNull() + "}"}})};
-}
-
-FoxgloveSchema InputSchema() {
-  return {"seam2d.Input", Object("seam2d.Input", {{"tick", Type("integer")},
-                                                  {"drive", Type("number")},
-                                                  {"lift", Type("number")},
-                                                  {"buttons", Type("integer")}})};
+const std::string& ExportSchemas() {
+  constexpr const char *kTimeFile = "google/protobuf/timestamp.proto",
+                       *kDurationFile = "google/protobuf/duration.proto";
+  static const std::string set =
+      DescriptorSet({{kTimeFile, "google.protobuf", {}, {SecondsAndNanos("Timestamp")}},
+                     {kDurationFile, "google.protobuf", {}, {SecondsAndNanos("Duration")}},
+                     {"foxglove.proto", "foxglove", {kTimeFile, kDurationFile}, FoxgloveMessages()},
+                     {"seam2d.proto", "seam2d", {}, OwnMessages()}});
+  return set;
 }
 
 }  // namespace seam

@@ -13,38 +13,36 @@ namespace {
 /// The channels of one view.
 struct ViewChannels {
   std::uint16_t frames = 0, shapes = 0, errors = 0;
+  std::map<std::string, std::uint16_t> clouds;  ///< by the body's name
   int shapes_of = -1;  ///< RevisionHistory::Key of the shapes that were written last
 };
+
+/// Most channels of points, one for each body in each view: beyond it a file has none. Normal 50;
+/// MCAP has 65 535 channels.
+constexpr std::size_t kCloudChannelsMax = 10000;
 
 /// An input or an event, to be written at its tick.
 struct Timed {
   std::int64_t tick = 0;
   std::uint16_t channel = 0;
-  std::string json;
+  std::string message;
 };
 
-std::uint16_t AddSchema(McapWriter* file, const FoxgloveSchema& schema) {
-  return file->AddSchema(schema.name, schema.text);
-}
-
-std::string InputJson(std::int64_t tick, const Inputs& message, std::size_t i) {
-  return "{\"tick\":" + std::to_string(tick) +
-         ",\"drive\":" + std::to_string(message.drive[i] / 127.0) +
-         ",\"lift\":" + std::to_string(message.lift[i] / 127.0) +
-         ",\"buttons\":" + std::to_string(message.buttons[i]) + "}";
+std::uint16_t AddSchema(McapWriter* file, const char* name) {
+  return file->AddSchema(name, ExportSchemas());
 }
 
 std::vector<Timed> InputsOf(const ExportSession& session, McapWriter* file) {
   std::vector<Timed> all;
   if (session.recording.inputs.empty()) return all;
-  const std::uint16_t schema = AddSchema(file, InputSchema());
+  const std::uint16_t schema = AddSchema(file, kInputSchema);
   for (const auto& [player, messages] : session.recording.inputs) {
     const std::uint16_t channel = file->AddChannel(schema, "/inputs/" + session.PlayerName(player));
     for (const auto& [first_tick, message] : messages) {
       for (std::size_t i = 0; i < message.drive.size(); ++i) {
         const std::int64_t tick = first_tick + static_cast<std::int64_t>(i);
         if (!session.range.Holds(tick, session.recording.room.tick_hz)) continue;
-        all.push_back({tick, channel, InputJson(tick, message, i)});
+        all.push_back({tick, channel, InputOf(tick, message, i)});
       }
     }
   }
@@ -53,7 +51,7 @@ std::vector<Timed> InputsOf(const ExportSession& session, McapWriter* file) {
 
 std::vector<Timed> TimedOf(const ExportSession& session, McapWriter* file) {
   std::vector<Timed> all = InputsOf(session, file);
-  const std::uint16_t log = file->AddChannel(AddSchema(file, LogSchema()), "/events");
+  const std::uint16_t log = file->AddChannel(AddSchema(file, kLogSchema), "/events");
   for (const Event& event : session.recording.events) {
     all.push_back({event.tick, log, LogOf(session, event)});
   }
@@ -63,17 +61,28 @@ std::vector<Timed> TimedOf(const ExportSession& session, McapWriter* file) {
 }
 
 std::map<int, ViewChannels> AddViews(const ExportSession& session, McapWriter* file) {
-  const std::uint16_t frames = AddSchema(file, FrameTransformsSchema());
-  const std::uint16_t shapes = AddSchema(file, SceneUpdateSchema());
-  const std::uint16_t errors = AddSchema(file, ErrorsSchema());
-  file->AddMessage(file->AddChannel(shapes, "/ground"),
-                   TimeNs(session, session.recording.first_tick), GroundOf(session));
+  const std::uint16_t frames = AddSchema(file, kFramesSchema);
+  const std::uint16_t shapes = AddSchema(file, kSceneSchema);
+  const std::uint16_t errors = AddSchema(file, kErrorsSchema);
+  const std::uint16_t clouds = AddSchema(file, kCloudSchema);
+  const std::uint64_t begin_ns = TimeNs(session, session.recording.first_tick);
+  file->AddMessage(file->AddChannel(shapes, "/ground"), begin_ns, GroundOf(session));
+  file->AddMessage(file->AddChannel(clouds, "/ground/points"), begin_ns, GroundCloudOf(session));
+  std::vector<int> peers;
+  for (const auto& [peer, views] : session.recording.views) peers.push_back(peer);
+  if (session.oracle && !peers.empty()) peers.push_back(kOraclePeer);
   std::map<int, ViewChannels> channels;
-  for (const auto& [peer, views] : session.recording.views) {
-    const std::string name = "/" + session.ViewName(peer);
+  for (const int peer : peers) {
+    const std::string name = "/" + ExportViewName(session, peer);
     channels[peer].frames = file->AddChannel(frames, name + "/poses");
     channels[peer].shapes = file->AddChannel(shapes, name + "/shapes");
-    if (session.oracle) channels[peer].errors = file->AddChannel(errors, name + "/errors");
+    if (peers.size() * session.bodies.size() <= kCloudChannelsMax) {
+      for (const ExportBody& body : session.bodies) {
+        channels[peer].clouds[body.name] = file->AddChannel(clouds, name + "/points/" + body.name);
+      }
+    }
+    if (!session.oracle || peer == kOraclePeer) continue;
+    channels[peer].errors = file->AddChannel(errors, name + "/errors");
   }
   return channels;
 }
@@ -87,11 +96,10 @@ void WriteMcapExport(const ExportSession& session, OutputFile* out) {
   auto next = timed.begin();
   const auto write_until = [&](std::int64_t tick) {
     for (; next != timed.end() && next->tick <= tick; ++next) {
-      file.AddMessage(next->channel, TimeNs(session, next->tick), next->json);
+      file.AddMessage(next->channel, TimeNs(session, next->tick), next->message);
     }
   };
-  ForEachView(session, [&](const View& view) {
-    write_until(view.tick);
+  const auto write = [&](const View& view) {
     const std::vector<ExportRow> rows = RowsOf(session, view);
     const std::uint64_t time_ns = TimeNs(session, view.tick);
     ViewChannels& its = channels[view.peer];
@@ -99,9 +107,21 @@ void WriteMcapExport(const ExportSession& session, OutputFile* out) {
     if (its.shapes_of != key) {
       its.shapes_of = key;
       file.AddMessage(its.shapes, time_ns, SceneUpdateOf(session, view, rows));
+      if (!its.clouds.empty()) {
+        for (const NamedMessage& cloud : CloudsOf(session, view, rows)) {
+          file.AddMessage(its.clouds.at(cloud.name), time_ns, cloud.message);
+        }
+      }
     }
     file.AddMessage(its.frames, time_ns, FramesOf(session, view, rows));
-    if (session.oracle) file.AddMessage(its.errors, time_ns, ErrorsOf(session, view, rows));
+    if (its.errors != 0) file.AddMessage(its.errors, time_ns, ErrorsOf(session, view, rows));
+  };
+  std::int64_t truth_tick = -1;  // the newest tick of which the oracle was written
+  ForEachView(session, [&](const View& view) {
+    write_until(view.tick);
+    if (session.oracle && view.tick > truth_tick) write(OracleView(session, view));
+    truth_tick = view.tick;
+    write(view);
   });
   write_until(std::numeric_limits<std::int64_t>::max());
   file.Finish();

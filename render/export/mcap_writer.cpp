@@ -1,5 +1,7 @@
 #include "render/export/mcap_writer.h"
 
+#include <zstd.h>
+
 #include <algorithm>
 #include <array>
 
@@ -10,7 +12,9 @@ namespace {
 
 constexpr char kMagic[] = {'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 /// Size beyond which a chunk ends, bytes: readers keep a chunk in memory.
-constexpr std::size_t kMcapChunkBytes = 1 << 20;
+constexpr std::size_t kMcapChunkBytes = 4 << 20;
+/// Level of compression, 1 to 19: higher is smaller and slower.
+constexpr int kZstdLevel = 12;
 
 enum Opcode : std::uint8_t {
   kHeader = 1,
@@ -47,6 +51,15 @@ std::string Record(Opcode opcode, const std::string& content) {
   return static_cast<char>(opcode) + Le(std::uint64_t{content.size()}) + content;
 }
 
+std::string Compressed(const std::string& bytes) {
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
+  SEAM_ASSERT(ZSTD_isError(size) == 0);
+  packed.resize(size);
+  return packed;
+}
+
 std::array<std::uint32_t, 256> CrcTable() {
   std::array<std::uint32_t, 256> table{};
   for (std::uint32_t i = 0; i < 256; ++i) {
@@ -78,9 +91,9 @@ void McapWriter::Write(const std::string& bytes) {
   out_->Write(bytes);
 }
 
-std::uint16_t McapWriter::AddSchema(const std::string& name, const std::string& text) {
+std::uint16_t McapWriter::AddSchema(const std::string& name, const std::string& set) {
   const auto number = static_cast<std::uint16_t>(schemas_.size() + 1);
-  schemas_.push_back(Record(kSchema, Le(number) + Text(name) + Text("jsonschema") + Text(text)));
+  schemas_.push_back(Record(kSchema, Le(number) + Text(name) + Text("protobuf") + Text(set)));
   chunk_ += schemas_.back();
   return number;
 }
@@ -90,18 +103,19 @@ std::uint16_t McapWriter::AddChannel(std::uint16_t schema, const std::string& to
   const std::string metadata = Text("");  // none
   Channel channel;
   channel.record =
-      Record(kChannel, Le(number) + Le(schema) + Text(topic) + Text("json") + metadata);
+      Record(kChannel, Le(number) + Le(schema) + Text(topic) + Text("protobuf") + metadata);
   chunk_ += channel.record;
   channels_.push_back(std::move(channel));
   return number;
 }
 
-void McapWriter::AddMessage(std::uint16_t channel, std::uint64_t time_ns, const std::string& json) {
+void McapWriter::AddMessage(std::uint16_t channel, std::uint64_t time_ns,
+                            const std::string& message) {
   SEAM_ASSERT(channel >= 1 && channel <= channels_.size());
   Channel& its = channels_[channel - 1u];
   its.index += Le(time_ns) + Le(std::uint64_t{chunk_.size()});
   const auto sequence = static_cast<std::uint32_t>(its.messages++);
-  chunk_ += Record(kMessage, Le(channel) + Le(sequence) + Le(time_ns) + Le(time_ns) + json);
+  chunk_ += Record(kMessage, Le(channel) + Le(sequence) + Le(time_ns) + Le(time_ns) + message);
   chunk_first_ns_ = chunk_messages_ == 0 ? time_ns : std::min(chunk_first_ns_, time_ns);
   chunk_last_ns_ = std::max(chunk_last_ns_, time_ns);
   first_ns_ = messages_ == 0 ? time_ns : std::min(first_ns_, time_ns);
@@ -115,8 +129,10 @@ void McapWriter::EndChunk() {
   if (chunk_.empty()) return;
   const std::string span = Le(chunk_first_ns_) + Le(chunk_last_ns_);
   const std::uint64_t size = chunk_.size(), start = out_->bytes();
-  const std::string none = Text("");  // no compression
-  Write(Record(kChunk, span + Le(size) + Le(Crc32(chunk_)) + none + Le(size) + chunk_));
+  const std::string compression = Text("zstd"), packed = Compressed(chunk_);
+  const std::uint64_t packed_size = packed.size();
+  Write(
+      Record(kChunk, span + Le(size) + Le(Crc32(chunk_)) + compression + Le(packed_size) + packed));
   const std::uint64_t chunk_length = out_->bytes() - start;
   std::string offsets;
   const std::uint64_t indexes_start = out_->bytes();
@@ -130,8 +146,8 @@ void McapWriter::EndChunk() {
   }
   const std::uint64_t indexes_length = out_->bytes() - indexes_start;
   chunk_indexes_.push_back(Record(kChunkIndex, span + Le(start) + Le(chunk_length) + Text(offsets) +
-                                                   Le(indexes_length) + none + Le(size) +
-                                                   Le(size)));
+                                                   Le(indexes_length) + compression +
+                                                   Le(packed_size) + Le(size)));
   chunk_.clear();
   chunk_first_ns_ = chunk_last_ns_ = chunk_messages_ = 0;
 }

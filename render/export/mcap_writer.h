@@ -1,6 +1,6 @@
 #pragma once
-/// Writer of MCAP files (version 0 of the format, https://mcap.dev/spec): chunks without
-/// compression, with an index and checksums, so that a reader can seek.
+/// Writer of MCAP files (version 0 of the format, https://mcap.dev/spec) of protocol buffers:
+/// chunks compressed by zstd, with an index and checksums, so that a reader can seek.
 
 #include <cstdint>
 #include <string>
@@ -17,12 +17,13 @@ class McapWriter {
  public:
   /// Begins the file. `library`: name of the writing program.
   McapWriter(OutputFile* out, const std::string& library);
-  /// Returns the schema's number. `text`: a JSON Schema.
-  std::uint16_t AddSchema(const std::string& name, const std::string& text);
-  /// Returns the channel's number; its messages are JSON.
+  /// Returns the schema's number. `name`: full name of a message in `set`, an encoded
+  /// google.protobuf.FileDescriptorSet.
+  std::uint16_t AddSchema(const std::string& name, const std::string& set);
+  /// Returns the channel's number.
   std::uint16_t AddChannel(std::uint16_t schema, const std::string& topic);
-  /// Requires a channel that was added.
-  void AddMessage(std::uint16_t channel, std::uint64_t time_ns, const std::string& json);
+  /// Adds an encoded message. Requires a channel that was added.
+  void AddMessage(std::uint16_t channel, std::uint64_t time_ns, const std::string& message);
   /// Ends the file: index, statistics, footer. Nothing may follow.
   void Finish();
 

@@ -30,6 +30,8 @@ void DefineExportOptions(Command* app, ExportOptions* options) {
       .OneValueEach();
   app->Option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
   app->Option("--room", o.room, "which room, if there are several");
+  app->Option("--session", o.session,
+              "which session, if there are several: its number, or its id (the last)");
 }
 
 void CheckExportOptions(const ExportOptions& o) {

@@ -19,6 +19,7 @@ struct ExportOptions {
   bool force = false;                                           ///< replace a file at `out`
   std::string oracle;               ///< a log made in mode oracle; "": computed
   std::string room;                 ///< "": the first of the log
+  std::string session;              ///< by number or id; "": the last
   TimeRange range;                  ///< exported part of the session
   std::vector<std::string> bodies;  ///< names; empty: all
   std::vector<std::string> views;   ///< names of players, or server; empty: all

@@ -1,6 +1,5 @@
 #include "render/export/output_file.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,16 +10,6 @@
 #include "common/base/process.h"
 
 namespace seam {
-namespace {
-
-bool SameFile(const std::string& a, const std::string& b) {
-  struct stat one {
-  }, other{};
-  return stat(a.c_str(), &one) == 0 && stat(b.c_str(), &other) == 0 && one.st_dev == other.st_dev &&
-         one.st_ino == other.st_ino;
-}
-
-}  // namespace
 
 OutputFile::OutputFile(const std::string& path, bool force, const std::vector<std::string>& read)
     : path_(path == "-" ? "" : path) {
@@ -28,13 +17,7 @@ OutputFile::OutputFile(const std::string& path, bool force, const std::vector<st
     file_ = stdout;
     return;
   }
-  for (const std::string& source : read) {
-    if (SameFile(path_, source)) throw OperatorError(path_ + ": is read, it cannot be written");
-  }
-  RequirePlainFile(path_);
-  if (!force && access(path_.c_str(), F_OK) == 0) {
-    throw OperatorError(path_ + ": exists (--force replaces it)");
-  }
+  RequireOutput(path_, force, read);
   unfinished_ = path_ + ".part-" + std::to_string(getpid());
   file_ = OpenPlainFile(unfinished_, FileUse::kCreate);
   if (file_ == nullptr) {

@@ -106,6 +106,8 @@ std::string AbsentViews(const ExportOptions& options, const ExportSession& sessi
 
 void FindLacking(const ExportOptions& options, ExportSession* session) {
   const Recording& recording = session->recording;
+  const std::string sessions = ChosenSession(recording);
+  if (!sessions.empty()) session->lacking.push_back(sessions);
   const std::string damage = DamageOf(recording);
   if (!damage.empty()) session->lacking.push_back(damage);
   const std::string absent = AbsentViews(options, *session);
@@ -165,7 +167,7 @@ std::string ExportSession::PartName(PartId part) const {
 
 ExportSession LoadExport(const ExportOptions& options) {
   ExportSession session;
-  session.recording = ReadRecording(options.log, options.room);
+  session.recording = ReadRecording(options.log, options.room, options.session);
   session.range = options.range;
   const Room& room = session.recording.room;
   if (room.tick_hz < 1) throw OperatorError(options.log + ": the room's tick rate is missing");

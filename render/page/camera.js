@@ -39,8 +39,9 @@ function fitBox([minX, minY, maxX, maxY], rect) {
   };
 }
 
-// Returns the box of bodies that move in a view within half a second of a tick; null without any.
-function actionBox(view, tick) {
+// Returns the box of bodies that move in a view within half a second of a tick, and of those with
+// the ids `always`; null without any.
+function actionBox(view, tick, always) {
   const span = view.run.hz / 2;
   const from = Math.max(0, Math.floor(tick - span));
   const to = Math.min(view.run.count - 1, Math.ceil(tick + span));
@@ -48,7 +49,9 @@ function actionBox(view, tick) {
   for (const track of view.tracks.bodies.values()) {
     const begin = poseOf(track, from);
     const end = poseOf(track, to);
-    if (!begin || !end || Math.hypot(end[0] - begin[0], end[1] - begin[1]) < 0.2) continue;
+    if (!begin || !end) continue;
+    const still = Math.hypot(end[0] - begin[0], end[1] - begin[1]) < 0.2;
+    if (still && !always.includes(track.id)) continue;
     const body = view.worldAt(tick).byId.get(track.id);
     const reach = body ? body.reach / 1000 : 0.5;
     for (const [x, y] of [begin, end, poseOf(track, tick) || end]) {

@@ -46,7 +46,7 @@ class Page {
     const impacts = this.events().filter((event) => event.kind === 'impact');
     if (impacts.length === 0) return;
     state.tick = impacts.reduce((most, event) => (event.size > most.size ? event : most)).at;
-    const box = actionBox(views[0], state.tick);
+    const box = actionBox(views[0], state.tick, []);
     const rects = this.layout($('world').clientWidth, $('world').clientHeight);
     if (box) state.camera = fitBox(box, rects[0]);
   }
@@ -203,7 +203,8 @@ class Page {
   }
   fitAction() {
     state.follow = null;
-    const box = actionBox(this.views()[0], state.tick);
+    const view = this.views()[0];
+    const box = actionBox(view, state.tick, view.run.vehicles);
     if (box) state.camera = fitBox(box, this.rects[0]);
     this.changed();
   }
@@ -221,7 +222,11 @@ class Page {
                       .map((tracks) => tracks && poseOf(tracks.bodies.get(id), tick))
                       .filter(Boolean);
     const [x, y] = [0, 1].map((k) => poses.map((pose) => pose[k]));
-    const box = [Math.min(...x) - 4, Math.min(...y) - 3, Math.max(...x) + 4, Math.max(...y) + 3];
+    const body = view.worldAt(tick).byId.get(id);
+    const reach = Math.max(3, body ? 1.2 * body.reach / 1000 : 0);
+    const [minX, minY] = [x, y].map((places) => Math.min(...places) - reach);
+    const [maxX, maxY] = [x, y].map((places) => Math.max(...places) + reach);
+    const box = [minX, minY, maxX, maxY];
     if (poses.length > 0) state.camera = fitBox(box, this.rects[0]);
     this.tell(text);
     this.player.go(tick);

@@ -90,6 +90,7 @@ class Run {
     this.oracle = head.truth && readTracks(bytes, head.truth, false);
     const drawn = readJson(bytes, head.world);
     this.camera = drawn.camera.map((mm) => mm / 1000);
+    this.vehicles = drawn.vehicles;  // ids of the bodies of players' vehicles
     this.waters = drawn.waters;
     this.bricks = readBricks(bytes, head.bricks);
     this.regions = drawn.regions;

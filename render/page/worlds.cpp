@@ -6,6 +6,7 @@
 #include "common/scene/water.h"
 #include "common/topology/feather_blast.h"
 #include "render/draw/draw_bricks.h"
+#include "render/playback/camera.h"
 #include "render/playback/held_regions.h"
 
 namespace seam {
@@ -122,12 +123,17 @@ std::string PageWorlds::Json() const {
   for (const BodyShapes& body : playback_.anchored())
     if (body.imposed >= 0) motions.push_back(MotionJson(playback_, body));
   const Scene& scene = playback_.scene();
+  std::vector<CameraView> views;
+  for (const int peer : playback_.peers()) views.push_back({&playback_, peer});
+  const WorldBox area = ActionArea(views, playback_.first_s(), playback_.last_s());
+  std::vector<std::string> vehicles;
+  for (const PartId id : VehicleBodies(playback_)) vehicles.push_back(std::to_string(id));
   return fmt::format(R"({{"bodies":{},"worlds":{},"motions":{},"waters":{},)"
-                     R"("regions":{},"held":{},"camera":[{},{}]}})",
+                     R"("regions":{},"held":{},"vehicles":{},"camera":[{},{}]}})",
                      JsonList(bodies_), JsonList(worlds_), JsonList(motions), WatersJson(scene),
                      RegionsJson(playback_),
                      RegionsAreHeld(playback_) ? Thousandths(double{kHeldMargin}) : 0,
-                     Point(scene.camera.min), Point(scene.camera.max));
+                     JsonList(vehicles), Point(area.min), Point(area.max));
 }
 
 PageBytes EncodeBricks(const Playback& playback) {

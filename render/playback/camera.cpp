@@ -10,34 +10,13 @@
 namespace seam {
 namespace {
 
-constexpr double kSamplesPerSecond = 30;
 constexpr double kSmooth_s = 0.12;  ///< standard deviation of the smoothing in time
 constexpr float kMargin = 0.06f;    ///< of the box, on each side
 constexpr float kLeast_m = 1.5f;    ///< the smallest height and width that are shown
 constexpr float kAlone = 3;         ///< box around a single body, in multiples of its size
-constexpr float kMoved_m = 0.1f;    ///< bodies that move less are not fitted
-constexpr float kTurned_rad = 0.3f;
-
-/// Visits the poses of each body in the oracle and in the view.
-template <class Visit>
-void ForEachPose(const CameraView& view, const std::set<PartId>* only, double s, Visit visit) {
-  const Playback& playback = *view.playback;
-  const double tick = playback.TickAt(s);
-  const Moment moment = playback.MomentAt(playback.PeerOr(view.peer), tick);
-  const auto revision = playback.RevisionOf(moment);
-  for (const BodyShapes& body : revision->moving) {
-    if (only != nullptr && only->count(body.id) == 0) continue;
-    if (const auto truth = playback.Truth(body.id, tick)) visit(body, *truth, 0);
-    if (const auto shown = playback.Find(moment, body.id)) visit(body, shown->pose, 1);
-  }
-}
-
-std::vector<double> Samples(double from_s, double to_s) {
-  std::vector<double> times;
-  const auto count = static_cast<int>(std::ceil((to_s - from_s) * kSamplesPerSecond)) + 1;
-  for (int i = 0; i < count; ++i) times.push_back(from_s + i / kSamplesPerSecond);
-  return times;
-}
+/// A picture without [camera] is at most so many times as large as a typical mechanism, except for
+/// leading bodies. Larger: the mechanisms become specks; smaller: more of what moves is cut off.
+constexpr float kAreaPerMechanism = 40;
 
 /// Smooths boxes by a Gaussian in time, and enlarges a box where smoothing would cut off more than
 /// the margin.
@@ -66,8 +45,6 @@ std::vector<WorldBox> Smoothed(const std::vector<WorldBox>& raw) {
   }
   return smooth;
 }
-
-WorldBox SceneBox(const Scene& scene) { return {scene.camera.min, scene.camera.max}; }
 
 /// Returns the part with a name, or the vehicle of the player with that name.
 PartId PartNamed(const Scene& scene, const std::string& name) {
@@ -110,58 +87,94 @@ void FillHoles(std::vector<WorldBox>* boxes, const WorldBox& otherwise) {
   }
 }
 
-}  // namespace
-
-void WorldBox::Add(const Vec2& p, float radius) {
-  min = min.cwiseMin(p - Vec2(radius, radius));
-  max = max.cwiseMax(p + Vec2(radius, radius));
+/// Returns the median of the mechanisms' longer sides at a moment, m; 0 without any.
+float TypicalMechanism(const CameraView& view, const std::set<PartId>& bodies, double s) {
+  const Playback& playback = *view.playback;
+  const Moment moment = playback.MomentAt(playback.PeerOr(view.peer), playback.TickAt(s));
+  const Composition& made = playback.WorldOf(moment)->composition();
+  std::map<int, WorldBox> boxes;
+  ForEachPose(view, &bodies, s, [&](const BodyShapes& body, const Pose& pose, int) {
+    const int assembly = made.assembly_of_part[static_cast<std::size_t>(body.id)];
+    if (assembly < 0) return;
+    boxes[made.assemblies[static_cast<std::size_t>(assembly)].mechanism].Add(body, pose);
+  });
+  std::vector<float> sides;
+  for (const auto& [mechanism, box] : boxes) sides.push_back(box.size().maxCoeff());
+  if (sides.empty()) return 0;
+  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+  std::nth_element(sides.begin(), middle, sides.end());
+  return *middle;
 }
 
-void WorldBox::Add(const BodyShapes& body, const Pose& pose) {
-  const Frame2 frame(pose);
-  for (const Outline& outline : body.outlines)
-    for (const Vec2& p : outline.points) Add(frame(p), outline.radius);
-}
+/// The bodies of a picture that fits what moves in a scene without [camera], and its limits.
+class FreeFit {
+ public:
+  FreeFit(const std::vector<CameraView>& views, double from_s, double to_s)
+      : views_(views),
+        leading_(LeadingBodies(views, from_s, to_s)),
+        bodies_(MovingBodies(views, from_s, to_s)) {
+    bodies_.insert(leading_.begin(), leading_.end());
+    most_m_ = kAreaPerMechanism * TypicalMechanism(views.front(), bodies_, from_s);
+  }
+  const std::set<PartId>& bodies() const { return bodies_; }
 
-void WorldBox::Add(const WorldBox& other) {
-  min = min.cwiseMin(other.min);
-  max = max.cwiseMax(other.max);
-}
+  /// Returns the box at a moment. It is cut off where it would be larger than kAreaPerMechanism
+  /// around the leading bodies, or around the median body if there are none.
+  WorldBox At(double s) const {
+    WorldBox box = BoxOf(views_, bodies_, s);
+    WorldBox window = BoxOf(views_, leading_, s);
+    if (box.empty()) return box;
+    const Vec2 middle = window.empty() ? MedianPlace(s) : window.centre();
+    window.Add(middle, most_m_ / 2);
+    box.min = box.min.cwiseMax(window.min);
+    box.max = box.max.cwiseMin(window.max);
+    return box;
+  }
 
-std::set<PartId> MovingBodies(const std::vector<CameraView>& views, double from_s, double to_s) {
-  std::set<PartId> moving;
-  for (const CameraView& view : views) {
-    std::map<std::pair<PartId, int>, Pose> first;
-    for (const double s : Samples(from_s, to_s)) {
-      ForEachPose(view, nullptr, s, [&](const BodyShapes& body, const Pose& pose, int which) {
-        const auto [known, fresh] = first.emplace(std::pair(body.id, which), pose);
-        if (fresh) return;
-        const Pose& before = known->second;
-        const bool turned = !body.round && std::abs(pose.angle - before.angle) > kTurned_rad;
-        if (turned || (pose.position - before.position).norm() > kMoved_m) moving.insert(body.id);
+ private:
+  Vec2 MedianPlace(double s) const {
+    std::vector<Vec2> places;
+    for (const CameraView& view : views_) {
+      ForEachPose(view, &bodies_, s, [&](const BodyShapes&, const Pose& pose, int) {
+        places.push_back(pose.position);
       });
     }
+    const auto half = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+    Vec2 median(0, 0);
+    for (int axis = 0; axis < 2; ++axis) {
+      std::nth_element(places.begin(), half, places.end(),
+                       [axis](const Vec2& a, const Vec2& b) { return a[axis] < b[axis]; });
+      median[axis] = (*half)[axis];
+    }
+    return median;
   }
-  return moving;
-}
 
-WorldBox BoxOf(const std::vector<CameraView>& views, const std::set<PartId>& bodies, double s) {
-  WorldBox box;
-  for (const CameraView& view : views) {
-    ForEachPose(view, &bodies, s,
-                [&](const BodyShapes& body, const Pose& pose, int) { box.Add(body, pose); });
-  }
-  return box;
+  const std::vector<CameraView>& views_;
+  const std::set<PartId> leading_;
+  std::set<PartId> bodies_;
+  float most_m_ = 0;
+};
+
+}  // namespace
+
+WorldBox ActionArea(const std::vector<CameraView>& views, double from_s, double to_s) {
+  const Camera& camera = views.front().playback->scene().camera;
+  const WorldBox own{camera.min, camera.max};
+  if (camera.given) return own;
+  const FreeFit fit(views, from_s, to_s);
+  WorldBox area;
+  for (const double s : SampleTimes(from_s, to_s)) area.Add(fit.At(s));
+  return area.empty() ? own : area;
 }
 
 CameraPath::CameraPath(const std::vector<CameraView>& views, const CameraWish& wish, double from_s,
                        double to_s)
     : from_s_(from_s), zoom_(wish.zoom) {
   const Scene& scene = views.front().playback->scene();
-  const WorldBox own = SceneBox(scene);
-  const std::vector<double> times = Samples(from_s, to_s);
+  const WorldBox own{scene.camera.min, scene.camera.max};
+  const std::vector<double> times = SampleTimes(from_s, to_s);
   PartId followed = scene.camera.follow;
-  Vec2 size = own.size();
+  Vec2 size = scene.camera.max - scene.camera.min;
   if (wish.kind == CameraWish::Kind::kFollow) {
     followed = PartNamed(scene, wish.part);
     if (wish.height > 0) size *= wish.height / size.y();
@@ -183,19 +196,25 @@ CameraPath::CameraPath(const std::vector<CameraView>& views, const CameraWish& w
     return;
   }
   if (wish.kind == CameraWish::Kind::kScene) {
-    boxes_ = {own};
+    boxes_ = {ActionArea(views, from_s, to_s)};
     return;
   }
-  const std::set<PartId> bodies =
-      wish.bodies.empty() ? MovingBodies(views, from_s, to_s) : wish.bodies;
-  for (const double s : times) {
-    WorldBox box = BoxOf(views, bodies, s);
-    // A body flung out of the scene's box must not make the rest of the picture tiny.
-    if (!box.empty() && wish.bodies.empty()) {
-      const WorldBox cut{box.min.cwiseMax(own.min), box.max.cwiseMin(own.max)};
-      if (!cut.empty() && cut.min.y() < cut.max.y()) box = cut;
+  std::set<PartId> bodies = wish.bodies;
+  if (bodies.empty() && !scene.camera.given) {
+    const FreeFit fit(views, from_s, to_s);
+    bodies = fit.bodies();
+    for (const double s : times) boxes_.push_back(fit.At(s));
+  } else {
+    if (bodies.empty()) bodies = MovingBodies(views, from_s, to_s);
+    for (const double s : times) {
+      WorldBox box = BoxOf(views, bodies, s);
+      // A body flung out of the scene's box must not make the rest of the picture tiny.
+      if (!box.empty() && wish.bodies.empty()) {
+        const WorldBox cut{box.min.cwiseMax(own.min), box.max.cwiseMin(own.max)};
+        if (!cut.empty() && cut.min.y() < cut.max.y()) box = cut;
+      }
+      boxes_.push_back(box);
     }
-    boxes_.push_back(box);
   }
   FillHoles(&boxes_, own);
   boxes_ = Smoothed(boxes_);

@@ -5,29 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "render/canvas/viewport.h"
 #include "render/playback/moments.h"
+#include "render/playback/moving_box.h"
 
 namespace seam {
-
-/// A box of the world, m.
-struct WorldBox {
-  Vec2 min{1e9f, 1e9f}, max{-1e9f, -1e9f};
-
-  bool empty() const { return min.x() > max.x(); }
-  Vec2 size() const { return max - min; }
-  Vec2 centre() const { return (min + max) / 2; }
-  void Add(const Vec2& p, float radius);
-  /// Adds a body's outlines at a pose.
-  void Add(const BodyShapes& body, const Pose& pose);
-  void Add(const WorldBox& other);
-};
 
 /// Requested camera.
 struct CameraWish {
   enum class Kind {
     kFit,     ///< moving bodies, as large as the panel allows
-    kScene,   ///< the scene's own box, or one about the part that its camera follows
+    kScene,   ///< the area of the action, or a box about the part that the scene's camera follows
     kFixed,   ///< a place and a height
     kFollow,  ///< a part, with a box of `height` around it
   };
@@ -38,12 +25,6 @@ struct CameraWish {
   float zoom = 1;     ///< magnification, for all kinds
   /// kFit: bodies to fit (assembly ids); empty: all moving ones.
   std::set<PartId> bodies;
-};
-
-/// One world of the page.
-struct CameraView {
-  const Playback* playback = nullptr;
-  int peer = 0;
 };
 
 /// The camera over time.
@@ -63,10 +44,8 @@ class CameraPath {
   float zoom_ = 1;
 };
 
-/// Returns the bodies that move noticeably in from_s..to_s, in the oracle or in one of the views.
-std::set<PartId> MovingBodies(const std::vector<CameraView>& views, double from_s, double to_s);
-
-/// Returns the box of `bodies` at a moment, in the oracle and in all views. Empty without any.
-WorldBox BoxOf(const std::vector<CameraView>& views, const std::set<PartId>& bodies, double s);
+/// Returns the area that a picture of the whole action shows: the scene's [camera], or without one
+/// all that a camera that fits what moves shows in from_s..to_s.
+WorldBox ActionArea(const std::vector<CameraView>& views, double from_s, double to_s);
 
 }  // namespace seam

@@ -111,13 +111,15 @@ std::optional<ShownMoment> WorstMoment(const std::vector<Playback>& playbacks) {
   double most = 0;
   for (const Playback& playback : playbacks) {
     const std::vector<double>& errors = playback.ErrorByTick(-1);
+    bool here = false;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       if (!(errors[i] > most)) continue;  // also skips NaN
       most = errors[i];
       const std::int64_t tick = playback.ErrorFirstTick() + static_cast<std::int64_t>(i);
       worst = ShownMoment{Seconds(playback, tick), {}};
+      here = true;
     }
-    if (worst) worst->bodies = WorstBody(playback, worst->s * playback.tick_hz());
+    if (here) worst->bodies = WorstBody(playback, worst->s * playback.tick_hz());
   }
   return worst;
 }

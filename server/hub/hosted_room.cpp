@@ -25,8 +25,8 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
       net_(finder, index, out),
       impaired_(net_, plan.profile, plan.profile, static_cast<std::uint64_t>(plan.config.seed)),
       sink_(plan.lcm_url, plan.record, plan.force, plan.config.room),
-      publisher_(sink_, plan.config.room),
-      server_(plan_.scene, plan_.config, Through(plan.profile, net_, impaired_), sink_, entropy_) {
+      server_(plan_.scene, plan_.config, Through(plan.profile, net_, impaired_), sink_, entropy_),
+      publisher_(sink_, plan.config.room, server_.room().session) {
   newest_.room = plan.config.room;
 }
 

@@ -79,8 +79,8 @@ class HostedRoom : public Runnable {
   ImpairedNet impaired_;
   Sink sink_;
   OsEntropy entropy_;
-  Publisher publisher_;  // for its Loads
   Server server_;
+  Publisher publisher_;  // for its Loads
   LoadWatch watch_;
   std::int64_t ran_us_ = 0;
   bool trouble_reported_ = false;

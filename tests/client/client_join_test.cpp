@@ -2,9 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "client/client.h"
 #include "common/net/datagram.h"
 #include "common/net/memory.h"
+#include "common/sync/method.h"
+#include "server/server.h"
 
 namespace seam {
 namespace client_join_test {
@@ -146,6 +153,46 @@ TEST_F(ClientJoin, ARefusalThatComesAfterTheWelcomeIsTooLate) {
   EXPECT_FALSE(client_.closed());
   EXPECT_EQ(client_.peer(), 1);
   EXPECT_EQ(client_.stats().dropped_malformed, 0);
+}
+
+TEST(ClientJoinWatch, WatchersWithoutANameAreNumbered) {
+  MemoryNetwork network;
+  const std::unique_ptr<Net> net = network.Attach({1, 7777});
+  struct Silence : Recorder {
+    void Publish(const std::string&, std::int64_t, ByteView) override {}
+  } silence;
+  const Scene scene = ParseScene(
+      "[[player]]\nname = \"ann\"\n[[part]]\nname = \"ground\"\nchain = [[-9, 0], [9, 0]]\n",
+      "watched.toml");
+  SeededEntropy entropy(5);
+  ServerConfig settings;
+  settings.sync = MakeSyncConfig(MethodNames{"buffer", "", ""});
+  settings.sync.tick_hz = scene.solver.tick_hz;
+  Server server(scene, settings, *net, silence, entropy);
+  std::vector<std::unique_ptr<Net>> nets;
+  std::vector<std::unique_ptr<Client>> clients;
+  for (std::uint16_t i = 0; i < 4; ++i) {
+    ClientConfig config;
+    config.server = {1, 7777};
+    config.watch = true;
+    config.numbers_name = i < 3;  // the last one insists on the name
+    nets.push_back(network.Attach({2, static_cast<std::uint16_t>(i + 1)}));
+    clients.push_back(std::make_unique<Client>(config, *nets.back(), silence, entropy));
+  }
+  for (std::int64_t now_us = 1000000; now_us < 12000000; now_us += 5000) {
+    server.Tick(now_us, 0);
+    for (const auto& client : clients) client->Tick(now_us, 0);
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(clients[i]->fatal(), "");
+    EXPECT_GE(clients[i]->peer(), 1);
+    names.push_back(clients[i]->name());
+  }
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 3u);
+  for (const std::string& name : names) EXPECT_EQ(name.rfind("guest", 0), 0u) << name;
+  const bool refused = clients[3]->fatal().find("the name guest is in use") != std::string::npos;
+  EXPECT_TRUE(refused || clients[3]->peer() >= 1) << clients[3]->fatal();
 }
 
 }  // namespace client_join_test

@@ -1,5 +1,6 @@
 #include "tests/lab/cluster.h"
 
+#include <fmt/format.h>
 #include <time.h>
 
 #include <algorithm>
@@ -22,6 +23,17 @@ double CpuNowUs() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) * 1e6 + static_cast<double>(t.tv_nsec) * 1e-3;
+}
+
+/// Returns a seed of the server's random numbers, the session's among them: equal configurations
+/// give the same, so that a run repeats, and different ones give different sessions.
+std::uint64_t ServerSeed(const ClusterConfig& config, const Scene& scene) {
+  const std::string text = fmt::format(
+      "{}\n{}\n{}\n{}\n{}\n{} {} {} {} {} {} {} {} {}", scene.text, config.mode, config.reconcile,
+      config.predict, config.impair, config.seed, config.duration_s, config.spectators,
+      static_cast<int>(config.drive), static_cast<int>(config.publish), config.players,
+      config.send_hz, config.smooth_rate, config.client_bytes_per_s);
+  return Fnv1a(text.data(), text.size());
 }
 
 }  // namespace
@@ -55,7 +67,7 @@ Cluster::Cluster(const ClusterConfig& config)
   std::size_t players = scene_.players.size();
   if (config.players > 0) players = std::min(players, static_cast<std::size_t>(config.players));
   server.wait_players = static_cast<int>(players);
-  server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));
+  server_entropy_ = std::make_unique<SeededEntropy>(ServerSeed(config, scene_));
   server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
   clients_.resize(players + static_cast<std::size_t>(config.spectators));
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);

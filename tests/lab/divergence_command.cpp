@@ -12,6 +12,10 @@ namespace {
 
 Recording ReadWhole(const std::string& path) {
   Recording recording = ReadRecording(path);
+  const std::string sessions = ChosenSession(recording);
+  if (!sessions.empty()) {
+    std::fprintf(stderr, "seam-lab: note: %s: %s\n", path.c_str(), sessions.c_str());
+  }
   if (recording.skipped_bytes > 0 || recording.undecodable > 0 || recording.bus_gaps > 0) {
     std::fprintf(stderr,
                  "seam-lab: warning: %s: %lld damaged bytes, %lld events undecodable, "

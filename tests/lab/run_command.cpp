@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "common/base/find_scene.h"
+#include "common/base/plain_file.h"
 #include "common/base/process.h"
 #include "common/base/progress_count.h"
 #include "common/measure/measure.h"
@@ -51,6 +52,7 @@ int RunLog(const RunCommand& command) {
   }
   settings.set = SplitSettings(JoinSettings(settings.set));
   ClusterConfig config = Configure(settings);
+  RequireOutput(command.log, command.force, {settings.scene});
   LogWriter log(command.log, command.force);
   config.recorder = &log;
   config.keep = command.floor;

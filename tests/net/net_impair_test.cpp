@@ -232,6 +232,9 @@ TEST(Impair, AFloodIsBoundedInMemory) {
   std::size_t count = 0;
   while (b->Receive(&from, &data)) ++count;
   EXPECT_EQ(count, ImpairedNet::kPathBytesMax / 1000);
+  const ImpairedTraffic traffic = impaired.traffic();
+  EXPECT_EQ(traffic.offered, 20'000);
+  EXPECT_GE(traffic.lost, 10'000 - static_cast<std::int64_t>(count)) << "of one path alone";
 }
 
 }  // namespace net_impair_test

@@ -46,7 +46,8 @@ TEST(InterruptedRender, LeavesWholePicturesAndTheNextRunGoesIntoTheSameFolder) {
   EXPECT_EQ(render.status(), 128 + SIGINT) << render.Story();
   EXPECT_GE(WholePictures(frames), 1);
   std::ofstream(frames + "/frame_00099.png.tmp") << "half of one";
-  Program again({BuiltProgram("seam-render"), log, "-o", frames, "--size", "320x240", "--to", "0"});
+  Program again({BuiltProgram("seam-render"), log, "-o", frames, "--size", "320x240", "--to", "0",
+                 "--force"});
   ASSERT_TRUE(again.Wait(60));
   EXPECT_EQ(again.status(), 0) << again.Story();
   EXPECT_EQ(WholePictures(frames), 1);
@@ -60,7 +61,7 @@ TEST(InterruptedRender, AFullDiskLeavesTheOldPictureAndNothingElse) {
   // GCOV_PREFIX: under coverage its counters go elsewhere, not half into everybody's files.
   Program render({"env", "GCOV_PREFIX=" + folder.path(), "sh", "-c",
                   "trap '' XFSZ; ulimit -f 1; exec \"$@\"", "sh", BuiltProgram("seam-render"),
-                  "--strobe", log, "-o", folder / "old.png"});
+                  "--strobe", log, "-o", folder / "old.png", "--force"});
   ASSERT_TRUE(render.Wait(60));
   EXPECT_EQ(render.status(), 2) << render.Story();
   std::ifstream old(folder / "old.png");

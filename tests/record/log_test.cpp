@@ -98,6 +98,7 @@ TEST(Log, BytesDependOnTheArgumentsAlone) {
 TEST(Log, WritesTheExampleOfTheDocumentation) {
   Event event;
   event.utime = 5;
+  event.session = 0x1122334455667788;
   event.sequence = 1;
   event.peer = 2;
   event.tick = 3;
@@ -111,10 +112,11 @@ TEST(Log, WritesTheExampleOfTheDocumentation) {
   EXPECT_EQ(hex,
             "eda1da010000000000000000"
             "0000000000000005"
-            "0000000e0000002b"
+            "0000000e00000033"
             "5345414d2e722e6576656e742e32"
-            "501798193aa2f237"
+            "71e7d8d436202ff5"
             "0000000000000005"
+            "1122334455667788"
             "000000000000000100000002"
             "0000000000000003"
             "00000003686900");

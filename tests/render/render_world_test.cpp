@@ -69,6 +69,7 @@ TEST(DrawWorld, TheGhostAppearsOnlyIfViewAndOracleDiffer) {
 
 TEST(DrawWorld, CullingChangesNoPixel) {
   Scene scene = synthetic::MakeScene();
+  scene.camera.given = true;
   scene.camera.min = {-9, 0};  // cuts through the stack, the carts' ways and the wheel's
   scene.camera.max = {9, 4};
   scene.camera.follow = 1;

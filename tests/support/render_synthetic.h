@@ -54,6 +54,7 @@ inline Scene MakeScene() {
     scene.players.push_back(player);
   }
   scene.buffer_m = 6;
+  scene.camera.given = true;
   scene.camera.min = {-18, -2};
   scene.camera.max = {18, 10};
   scene.watch.push_back({{1, 2}, 30});

@@ -112,6 +112,8 @@ std::string FormatContents(const std::string& name, const Recording& recording) 
                                  Printable(room.scene_name), static_cast<double>(ticks) / tick_hz,
                                  recording.first_tick, recording.last_tick, room.tick_hz);
   text += Line("method", Method(room));
+  const std::string sessions = ChosenSession(recording);
+  if (!sessions.empty()) text += Line("sessions", sessions);
   try {
     const Scene scene = ParseScene(room.scene_text, room.scene_name + ".toml");
     if (!scene.title.empty()) text += Line("title", Printable(scene.title));

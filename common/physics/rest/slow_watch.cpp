@@ -65,8 +65,8 @@ void SlowWatch::After(const std::vector<int>& present, const std::vector<Activit
     const auto i = static_cast<std::size_t>(body);
     b2Body* b = built.moving[i].body;
     float& quiet = b->*Member(QuietTime());
-    const bool goes =
-        b->IsAwake() && quiet > 0 && activities[i] == Activity::kSimulated && GoesOn(b, before_[i], h);
+    const bool goes = b->IsAwake() && quiet > 0 && activities[i] == Activity::kSimulated &&
+                      GoesOn(b, before_[i], h);
     going_s_[i] = goes ? going_s_[i] + h : 0;
     if (going_s_[i] >= kGoingFor) quiet = 0;
   }

@@ -24,12 +24,14 @@ class RenderLive : public ::testing::Test {
     recording_.room.scene_text = synthetic::SceneText();
   }
   void SendRoom(LiveRenderer* live) {
+    recording_.room.session = session_;
     live->Add(ChannelName("test", "room"), Encode(recording_.room));
   }
   /// Peer 1's view after a tick, as if it were after `claimed`.
   void SendView(LiveRenderer* live, int tick, std::int64_t claimed) {
     View view = recording_.views[1][tick];
     view.tick = claimed;
+    view.session = session_;
     view.sequence = ++sequence_;
     live->Add(ChannelName("test", "view", 1), Encode(view));
   }
@@ -44,7 +46,23 @@ class RenderLive : public ::testing::Test {
   RenderOptions options_;
   Recording recording_ = synthetic::MakeRecording(6);
   std::int32_t sequence_ = 0;
+  std::int64_t session_ = 0;
 };
+
+TEST_F(RenderLive, GoesOnWithTheNextSessionWhenAServerIsStartedAnew) {
+  LiveRenderer live(options_);
+  session_ = 11;
+  SendRoom(&live);
+  SendViews(&live, 0, 30);
+  EXPECT_EQ(live.frames(), 6);
+  session_ = 22;
+  SendRoom(&live);
+  SendViews(&live, 0, 30);
+  EXPECT_EQ(live.frames(), 12) << "of its own beginning, although its ticks are near";
+  session_ = 11;
+  SendViews(&live, 31, 60);
+  EXPECT_EQ(live.frames(), 12) << "the session before is not shown again";
+}
 
 TEST_F(RenderLive, DrawsEachFrameAsSoonAsItsViewArrives) {
   LiveRenderer live(options_);

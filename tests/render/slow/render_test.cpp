@@ -79,13 +79,15 @@ TEST(Sequence, AFrameThatCannotBeWrittenStopsItWithAnError) {
       OperatorError);
 }
 
-TEST(OutputFolder, RefusesOtherPeoplesFilesAndReplacesItsOwnFrames) {
+TEST(OutputFolder, ReplacesFramesIfForcedAndNoOtherFiles) {
   Folder folder;
   const std::string path = folder / "frames";
   OutputFolder(path, false).Prepare();
   for (const char* name : {"/frame_00000.png", "/frame_00007.png"}) std::ofstream(path + name) << 1;
-  OutputFolder(path, false).Prepare();
+  EXPECT_THROW(OutputFolder(path, false), OperatorError);
+  OutputFolder(path, true).Prepare();
   EXPECT_TRUE(fs::is_empty(path));
+  OutputFolder(path, false).Prepare();
   std::ofstream(path + "/thesis.txt") << "mine";
   EXPECT_THROW(OutputFolder(path, false), OperatorError);
   OutputFolder(path, true).Prepare();
@@ -256,9 +258,9 @@ TEST_F(RenderLog, ComparesRunsAndPicturesTheirCollision) {
   EXPECT_GT(rows.height_px, single.height_px + 150);
   // Again gives the same, over the old file.
   const std::string before = Content(all);
-  ASSERT_EQ(
-      SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle", oracle_}),
-      0);
+  ASSERT_EQ(SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle",
+                        oracle_, "--force"}),
+            0);
   EXPECT_EQ(Content(all), before);
 }
 

@@ -1,0 +1,59 @@
+/// Messages of the bus say their session; those of the edge do not, and are as long as before.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "common/codec/codec.h"
+#include "tests/support/random_messages.h"
+
+namespace seam {
+namespace session_form_test {
+
+/// Checks a message of the bus in its two forms. `hash`: of the type without the session.
+template <class Message>
+void CheckSessionForms(std::uint64_t hash) {
+  RandomMessages random(5);
+  Message without;
+  random.Fill(without);
+  Message with = without;
+  with.session = 0x1122334455667788;
+  const Bytes longer = Encode(with), shorter = Encode(without);
+  ASSERT_EQ(longer.size(), shorter.size() + 8);
+  EXPECT_EQ(SessionOf(longer), with.session);
+  EXPECT_EQ(SessionOf(shorter), 0);
+  const AnyMessage any = Decode(longer);
+  ASSERT_TRUE(std::holds_alternative<Message>(any));
+  EXPECT_EQ(Fields(std::get<Message>(any)), Fields(with));
+  // The shorter form lacks the session alone, and has the hash of protocols 8 to 12.
+  Bytes cut = longer;
+  cut.erase(cut.begin() + 16, cut.begin() + 24);
+  for (int i = 0; i < 8; ++i)
+    cut[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(hash >> (56 - 8 * i));
+  EXPECT_EQ(cut, shorter);
+  // A session of 0 is never written out, so that a message has one encoding.
+  Bytes zero = longer;
+  std::fill(zero.begin() + 16, zero.begin() + 24, std::uint8_t{0});
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(Decode(zero)));
+}
+
+TEST(SessionForm, AMessageWithoutSessionIsEncodedAsProtocol12Did) {
+  CheckSessionForms<Room>(0x3b1556dd65c2c546);
+  CheckSessionForms<Inputs>(0x61098e4e073aa192);
+  CheckSessionForms<States>(0x1f0a57888e9a756c);
+  CheckSessionForms<Grants>(0x67581669edb00607);
+  CheckSessionForms<EditOrder>(0xb5af6cfe14504027);
+  CheckSessionForms<Meta>(0x37a03ee57e14fe0e);
+  CheckSessionForms<View>(0xc90a36171e1d6168);
+  CheckSessionForms<Impacts>(0x84c369572c4b9199);
+  CheckSessionForms<Strands>(0x4c2098e274343524);
+  CheckSessionForms<Stats>(0x60f5b0e4b0054c75);
+  CheckSessionForms<Load>(0xbe88264f7026f53b);
+  CheckSessionForms<Event>(0x501798193aa2f237);
+  EXPECT_EQ(SessionOf(Encode(Ping{})), std::nullopt) << "not a message of the bus";
+  EXPECT_EQ(SessionOf(Bytes{1, 2, 3}), std::nullopt);
+}
+
+}  // namespace session_form_test
+}  // namespace seam
