@@ -62,7 +62,8 @@ bool Roles::Proposes(const Edit& edit) const {
     const bool server = config_.policy->SendsCompleteTicks() && table_.at(m).secondaries.Has(0);
     return server ? self_ == 0 : IsAuthority(m);
   }
-  return false;
+  // An anchored assembly has no authority: it is strained by bodies of any peer.
+  return self_ == 0 || !config_.policy->ServerFeelsAll();
 }
 
 GrantsApplied Roles::Apply(const Grants& grants) {

@@ -70,6 +70,9 @@ class AuthorityManager {
   std::vector<Grants> Export(std::int64_t now_us) const;
   /// True if the peer has authority over the mechanism according to the grants sent so far.
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
+  /// True if the peer may report a load on anchored parts: only its own world feels the impacts of
+  /// what it has.
+  bool FeelsAnchored(int peer) const;
   /// Returns the authority that the last plan gives a mechanism, or the current one if there is no
   /// plan yet.
   int Wanted(int mechanism) const;

@@ -175,4 +175,12 @@ PeerSet AuthorityManager::UncertainPeers(const AuthorityView& view) const {
   return doubtful;
 }
 
+bool AuthorityManager::FeelsAnchored(int peer) const {
+  if (config_.policy->ServerFeelsAll()) return false;
+  for (int m = 0; m < table().count(); ++m) {
+    if (Has(peer, m)) return true;
+  }
+  return false;
+}
+
 }  // namespace seam
