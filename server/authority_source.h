@@ -11,6 +11,7 @@
 #include "common/sync/replica.h"
 #include "common/sync/table/body_table.h"
 #include "server/authority/authority_manager.h"
+#include "server/rules/impact_check.h"
 #include "server/rules/rule_source.h"
 #include "server/rules/state_trail.h"
 
@@ -24,12 +25,18 @@ class AuthoritySource : public RuleSource {
   /// Takes states of a peer that the StateFilter accepted.
   void NoteStates(const States& accepted);
   /// Takes impacts reported by a peer. An impact counts once, if it is possible, if the peer has
-  /// authority over the struck body in that epoch, and if no edit has changed the bodies since.
+  /// authority over the struck body in that epoch, and if no edit has changed the bodies since. One
+  /// that the known states do not explain waits for those of its time, at most for kReportPast.
   void NoteReport(int peer, const ImpactReport& report);
+  /// Impacts reported by peers with the right to do so, since the start.
+  struct ReportCounts {
+    std::int64_t accepted = 0, repeated = 0, changed = 0, implausible = 0;
+  };
+  const ReportCounts& counts() const { return reports_; }
   /// To be called after each step of the replica.
   void NoteTick();
 
-  /// Saves the newest state of each body. Reports since the last tick are not saved.
+  /// Saves the newest state of each body. Reports since the last tick, or that wait, are not saved.
   void Persist(StateArchive& a) { trail_.Persist(a); }
 
   BodyState Read(int body) const override;
@@ -41,16 +48,32 @@ class AuthoritySource : public RuleSource {
 
  private:
   bool Mine(int body) const { return authority_.Has(0, replica_.world().mechanism(body)); }
-  bool MayReport(int peer, const ImpactReport& report, std::size_t i);
-  void NoteReported(const ImpactReport& report, std::size_t i);
+  /// An impact on a body, by ids: edits renumber bodies.
+  struct Reported {
+    PartId body = -1, by = -1;  ///< by: -1: an anchored part
+    float dv = 0;               ///< m/s
+    Vec2 point{0, 0};           ///< m
+    std::int64_t tick = 0;
+    int revision = 0;
+    bool told = true;  ///< by a peer; else found in the server's own world
+  };
+  bool MayReport(int peer, const Reported& reported, std::int32_t epoch);
+  /// Returns false if a body has changed since.
+  bool ToBlow(const Reported& reported, Blow* blow) const;
+  void Judge(const Reported& reported, ImpactCheck* check);
+  /// True if states that may still come can explain the impact.
+  bool Waits(const Reported& reported, const Blow& blow, const ImpactCheck& check) const;
+  void JudgeWaiting();
+  void Refuse(const Reported& reported, std::int64_t* reason, std::int64_t* dropped);
 
   const Replica& replica_;
   const AuthorityManager& authority_;
   Stats& stats_;
   StateTrail trail_;
-  std::vector<Blow> blows_;                                     // since the last TakeImpacts
+  ReportCounts reports_;
+  std::vector<Reported> accepted_;                              // since the last TakeImpacts
+  std::vector<Reported> waiting_;                               // for states of their time
   std::set<std::tuple<std::int64_t, PartId, PartId>> counted_;  // tick, struck, by
-  EditHook forget_blows_;                                       // their body indices are stale
 };
 
 }  // namespace seam
