@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "common/sync/quantize.h"
-#include "server/rules/impact_check.h"
+#include "server/rules/touch_check.h"
 
 namespace seam {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 /// Reports farther in the past or future than this are dropped, ticks. The past is long because a
 /// report is retransmitted until it arrives.
 constexpr std::int64_t kReportPast = 120, kReportFuture = 30;
+/// Most reports that wait; a hostile peer must not fill the memory.
+constexpr std::size_t kWaitingMax = 1024;
 
 }  // namespace
 
@@ -21,8 +24,7 @@ AuthoritySource::AuthoritySource(const Replica& replica, const AuthorityManager&
       authority_(authority),
       stats_(stats),
       trail_(replica.table()),
-      holders_(replica.table(), BodyRule::kOrigin),
-      forget_blows_(replica.table(), [this](const BodyRemap&) { blows_.clear(); }) {}
+      holders_(replica.table(), BodyRule::kOrigin) {}
 
 void AuthoritySource::NoteStates(const States& accepted) {
   for (std::size_t i = 0; i < accepted.id.size(); ++i) {
@@ -46,12 +48,20 @@ void AuthoritySource::NoteTick(const std::vector<NewTouch>& touches) {
   for (int body = 0; body < world.body_count(); ++body) {
     if (Mine(body)) trail_.Add(body, world.tick(), world.Read(body));
   }
+  ImpactCheck check(world, trail_, world.tick());
   for (const Blow& blow : ImpactsOf(world)) {
     if (!Mine(blow.body)) continue;
+    const PartId by = blow.by < 0 ? -1 : world.id(blow.by);
+    const Reported found{world.id(blow.body), by,   blow.dv, blow.point, world.tick(),
+                         replica_.revision(), false};
     // A correction may push a copy into one of our bodies: an impact that its authority never had.
-    const bool all_ours = blow.by < 0 || Mine(blow.by);
-    if (all_ours || Possible(world, trail_, blow, world.tick())) blows_.push_back(blow);
+    if (blow.by < 0 || Mine(blow.by)) {
+      accepted_.push_back(found);
+    } else {
+      Judge(found, &check);
+    }
   }
+  JudgeWaiting();
   while (!counted_.empty() && std::get<0>(*counted_.begin()) < world.tick() - 2 * kReportPast) {
     counted_.erase(counted_.begin());
   }
@@ -63,8 +73,11 @@ void AuthoritySource::NoteReport(int peer, const ImpactReport& report) {
     ++stats_.dropped_stale;
     return;
   }
+  ImpactCheck check(replica_.world(), trail_, report.tick);
   for (std::size_t i = 0; i < report.id.size(); ++i) {
-    if (MayReport(peer, report, i)) NoteReported(report, i);
+    const Reported reported{report.id[i], report.by[i],    report.dv[i], {report.x[i], report.y[i]},
+                            report.tick,  report.revision, true};
+    if (MayReport(peer, reported, report.epoch[i])) Judge(reported, &check);
   }
 }
 
@@ -116,17 +129,13 @@ bool AuthoritySource::MayTell(int peer, int body, std::int32_t epoch) const {
   return holders_[body].last == held || holders_[body].before == held;
 }
 
-bool AuthoritySource::MayReport(int peer, const ImpactReport& report, std::size_t i) {
-  const World& world = replica_.world();
-  const int body = world.BodyOfId(report.id[i]);
-  const int by = report.by[i] < 0 ? -1 : world.BodyOfId(report.by[i]);
-  const bool same = body >= 0 && replica_.SameBody(body, report.revision) &&
-                    (report.by[i] < 0 || (by >= 0 && replica_.SameBody(by, report.revision)));
-  if (!same || report.revision > replica_.revision()) {
-    ++stats_.dropped_stale;
+bool AuthoritySource::MayReport(int peer, const Reported& reported, std::int32_t epoch) {
+  Blow blow;
+  if (reported.revision > replica_.revision() || !ToBlow(reported, &blow)) {
+    Refuse(reported, &reports_.changed, &stats_.dropped_stale);
     return false;
   }
-  switch (authority_.RightToMove(peer, body, report.epoch[i])) {
+  switch (authority_.RightToMove(peer, blow.body, epoch)) {
     case AuthorityManager::Right::kYes: return true;
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
@@ -134,18 +143,54 @@ bool AuthoritySource::MayReport(int peer, const ImpactReport& report, std::size_
   return false;
 }
 
-void AuthoritySource::NoteReported(const ImpactReport& report, std::size_t i) {
+bool AuthoritySource::ToBlow(const Reported& reported, Blow* blow) const {
   const World& world = replica_.world();
-  const Blow blow{world.BodyOfId(report.id[i]),
-                  report.by[i] < 0 ? -1 : world.BodyOfId(report.by[i]),
-                  report.dv[i],
-                  {report.x[i], report.y[i]}};
-  if (!Possible(world, trail_, blow, report.tick)) {
-    ++stats_.dropped_implausible;
-  } else if (!counted_.insert({report.tick, report.id[i], report.by[i]}).second) {
-    ++stats_.dropped_stale;
+  blow->body = world.BodyOfId(reported.body);
+  blow->by = reported.by < 0 ? -1 : world.BodyOfId(reported.by);
+  blow->dv = reported.dv;
+  blow->point = reported.point;
+  return blow->body >= 0 && replica_.SameBody(blow->body, reported.revision) &&
+         (reported.by < 0 || (blow->by >= 0 && replica_.SameBody(blow->by, reported.revision)));
+}
+
+void AuthoritySource::Refuse(const Reported& reported, std::int64_t* reason,
+                             std::int64_t* dropped) {
+  if (!reported.told) return;
+  ++*reason;
+  ++*dropped;
+}
+
+void AuthoritySource::Judge(const Reported& reported, ImpactCheck* check) {
+  Blow blow;
+  if (!ToBlow(reported, &blow)) return Refuse(reported, &reports_.changed, &stats_.dropped_stale);
+  if (check->Possible(blow)) {
+    if (!counted_.insert({reported.tick, reported.body, reported.by}).second) {
+      return Refuse(reported, &reports_.repeated, &stats_.dropped_stale);
+    }
+    reports_.accepted += reported.told ? 1 : 0;
+    accepted_.push_back(reported);
+  } else if (Waits(reported, blow, *check) && waiting_.size() < kWaitingMax) {
+    waiting_.push_back(reported);
   } else {
-    blows_.push_back(blow);
+    Refuse(reported, &reports_.implausible, &stats_.dropped_implausible);
+  }
+}
+
+bool AuthoritySource::Waits(const Reported& reported, const Blow& blow,
+                            const ImpactCheck& check) const {
+  return check.MoreMayCome(blow) && replica_.tick() - reported.tick <= kReportPast;
+}
+
+/// Judges those once more whose states have come, or whose time is up.
+void AuthoritySource::JudgeWaiting() {
+  for (const Reported& reported : std::exchange(waiting_, {})) {
+    ImpactCheck check(replica_.world(), trail_, reported.tick);
+    Blow blow;
+    if (ToBlow(reported, &blow) && Waits(reported, blow, check)) {
+      waiting_.push_back(reported);
+    } else {
+      Judge(reported, &check);
+    }
   }
 }
 
@@ -173,7 +218,10 @@ std::int64_t AuthoritySource::TickOf(int body, std::int64_t tick) const {
 
 std::vector<Blow> AuthoritySource::TakeImpacts() {
   std::vector<Blow> taken;
-  taken.swap(blows_);
+  for (const Reported& reported : std::exchange(accepted_, {})) {
+    Blow blow;
+    if (ToBlow(reported, &blow)) taken.push_back(blow);
+  }
   return taken;
 }
 

@@ -82,6 +82,7 @@ struct OracleOptions {
   int nudged_body = -1;   ///< index into ids: this body starts displaced by `nudge` m along x, at
   float nudge = kNudge;   ///< least to the next float; -1: none
   int barrier_every = 0;  ///< World::Barrier() at tick 0 and after each that this divides; 0: never
+  bool barrier_after_edits = false;  ///< another where edits have changed bodies: see Replay
 };
 
 /// True if the room's method is compared with the oracle with barriers. A method that rolls back

@@ -23,17 +23,19 @@ std::vector<BodyState> ReadAll(const World& world) {
   return states;
 }
 
-/// Applies edits to the world and begins a span at `row` if they change bodies or joints.
-void Change(const std::vector<Edit>& edits, std::size_t row, World* world, Oracle* oracle) {
-  if (edits.empty()) return;
+/// Applies edits to the world. Returns true, and begins a span at `row`, if they change bodies or
+/// joints.
+bool Change(const std::vector<Edit>& edits, std::size_t row, World* world, Oracle* oracle) {
+  if (edits.empty()) return false;
   if (oracle->spans.empty()) oracle->Begin(0, SceneRevision(world->topology()), 0);
   bool changed = false;
   for (const Edit& edit : edits) {  // one by one, as every peer does
     oracle->edits.push_back(edit);
     if (world->Apply({edit})) changed = true;
   }
-  if (!changed) return;
+  if (!changed) return false;
   oracle->Begin(row, SceneRevision(world->topology()), static_cast<int>(oracle->edits.size()));
+  return true;
 }
 
 void RequireMemory(std::int64_t kept, const Recording& recording) {
@@ -54,6 +56,7 @@ bool JudgedByBarriers(const Room& room) { return PolicyOf(room).TakesBarriers(0)
 OracleOptions WithBarriers(const Room& room) {
   OracleOptions options;
   options.barrier_every = SendEvery(room);
+  options.barrier_after_edits = PolicyOf(room).GoesBack(0);
   return options;
 }
 
@@ -98,8 +101,9 @@ Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
     const std::vector<Edit> found = world.ProposeEdits();
     if (options.barrier_every > 0 && tick % options.barrier_every == 0) world.Barrier();
     const std::size_t spans = oracle.spans.size(), row = oracle.ticks.size();
-    Change(found, row, &world, &oracle);
-    Change(outside.Take(tick, world.scene()), row, &world, &oracle);
+    bool changed = Change(found, row, &world, &oracle);
+    changed = Change(outside.Take(tick, world.scene()), row, &world, &oracle) || changed;
+    if (changed && options.barrier_after_edits) world.Barrier();
     kept += world.body_count();
     if (oracle.spans.size() > spans) {
       kept += static_cast<std::int64_t>(world.scene().parts.size());

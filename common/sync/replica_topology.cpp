@@ -84,11 +84,15 @@ void Replica::ProposeFound() {
 
 bool Replica::IsComplete(const Edit& edit, std::int64_t found) const {
   if (replay_.settled() < found) return false;
+  bool anchored = true;
   for (const PartId part : world_.topology().PartsOf(edit)) {
     const int m = MechanismOf(world_, part);
-    if (m >= 0 && reach_.CompleteTick(m) < found) return false;
+    if (m < 0) continue;
+    anchored = false;
+    if (reach_.CompleteTick(m) < found) return false;
   }
-  return true;
+  // Any body may have loaded an anchored part.
+  return !anchored || reach_.CompleteTickOfAll() >= found;
 }
 
 bool Replica::Propose(Edit edit, std::int64_t found) {

@@ -60,7 +60,8 @@ bool Roles::Proposes(const Edit& edit) const {
     const int m = MechanismOf(world_, part);
     if (m >= 0) return Finds(m);
   }
-  return false;
+  // An anchored assembly has no authority: it is strained by bodies of any peer.
+  return self_ == 0 || !config_.policy->ServerFeelsAll();
 }
 
 bool Roles::Tells(const PartTouch& touch) const {

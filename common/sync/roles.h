@@ -51,7 +51,8 @@ class Roles {
   /// mode buffer.
   bool Shares() const;
   /// True if this peer is to propose an edit found by physics: the authority of the first affected
-  /// part in a mechanism, or with rollback the server if it follows that mechanism.
+  /// part in a mechanism, or with rollback the server if it follows that mechanism. Of anchored
+  /// parts: the server, or each peer where the server does not feel all impacts.
   bool Proposes(const Edit& edit) const;
   /// True if this peer is to tell of a touch of the two parts, by the same rule.
   bool Tells(const PartTouch& touch) const;

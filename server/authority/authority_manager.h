@@ -70,6 +70,9 @@ class AuthorityManager {
   std::vector<Grants> Export(std::int64_t now_us) const;
   /// True if the peer has authority over the mechanism according to the grants sent so far.
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
+  /// True if the peer may report a load on anchored parts: only its own world feels the impacts of
+  /// what it has.
+  bool FeelsAnchored(int peer) const;
   /// Returns the authority that the last plan gives a mechanism, or the current one if there is no
   /// plan yet.
   int Wanted(int mechanism) const;
@@ -100,8 +103,8 @@ class AuthorityManager {
   /// kJump or kJumpVelocity, the server keeps the mechanism for kConvergeS before the successor
   /// gets it.
   void NoteCopyError(int body, const BodyState& off);
-  /// True if NoteTold has an effect; see AuthorityView::exact.
-  bool WatchesAgreement() const { return view_.exact; }
+  /// True if NoteTold has an effect; see AuthorityView::settles.
+  bool WatchesAgreement() const { return view_.settles; }
   /// Records the error of the server's copy of a body against its holder's state of the same tick.
   void NoteTold(int body, const BodyState& off);
   /// True if the peer needs the state in which a mechanism's holder released it.

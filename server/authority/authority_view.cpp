@@ -42,7 +42,7 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   view.buffer_m = scene_.buffer_m;
   view.gravity = scene_.gravity;
   view.follow_bodies = scene_.follow_bodies;
-  view.exact = config_.policy->GoesBack(0);
+  view.settles = view.exact = config_.policy->GoesBack(0);
   for (int p = 0; p < static_cast<int>(scene_.players.size()) && view.exact; ++p) {
     view.exact = replica_.drivers().MechanismsOf(p).empty();
   }
@@ -173,6 +173,14 @@ PeerSet AuthorityManager::UncertainPeers(const AuthorityView& view) const {
     if (p.limited() || (p.silent && p.peer > 0)) uncertain.Add(p.peer);
   }
   return uncertain;
+}
+
+bool AuthorityManager::FeelsAnchored(int peer) const {
+  if (config_.policy->ServerFeelsAll()) return false;
+  for (int m = 0; m < table().count(); ++m) {
+    if (Has(peer, m)) return true;
+  }
+  return false;
 }
 
 }  // namespace seam

@@ -14,8 +14,8 @@ namespace {
 
 /// A proposal that cannot be ordered (its parts are being handed over) is dropped after this, s.
 constexpr double kPendingSeconds = 3;
-/// Ticks further in the past than this, s, are out of reach for replays.
-constexpr double kBackSeconds = 1;
+/// Ticks further in the past than this, s, are out of reach for replays; no clock is further ahead.
+constexpr double kReachSeconds = 1;
 
 /// Joints that edits of a batch remove, before any of them is applied. A later bond may reuse their
 /// indices: a second break of the same index would break the new bond.
@@ -90,8 +90,27 @@ bool EditLog::Wait(const Edit& edit, int peer, std::int64_t found) {
 std::int64_t EditLog::TickOf(const Pending& pending) const {
   const std::int64_t now = world_.tick();
   const bool found = pending.edit.cause == EditCause::kPhysics && pending.found <= now &&
-                     pending.found >= now - static_cast<std::int64_t>(kBackSeconds * tick_hz_);
+                     pending.found >= now - static_cast<std::int64_t>(kReachSeconds * tick_hz_);
   return std::max(last_tick_, found ? pending.found : now);
+}
+
+bool EditLog::HasRight(int peer, const std::vector<PartId>& parts) const {
+  bool anchored = true;
+  for (const PartId part : parts) {
+    const int m = MechanismOf(world_, part);
+    if (m < 0) continue;
+    anchored = false;
+    if (authority_.Has(peer, m)) return true;
+  }
+  return anchored && authority_.FeelsAnchored(peer);
+}
+
+/// True if physics found the edit in a tick that this world has yet to step: the clock of its peer
+/// is ahead.
+bool EditLog::IsEarly(const Pending& pending) const {
+  const std::int64_t ahead = pending.found - world_.tick();
+  return pending.edit.cause == EditCause::kPhysics && ahead > 0 &&
+         ahead <= static_cast<std::int64_t>(kReachSeconds * tick_hz_);
 }
 
 /// The order of the checks matters: a peer's right is checked before its proposal is read, parsed
@@ -104,11 +123,7 @@ EditLog::Verdict EditLog::Propose(int peer, const EditOrder& proposal) {
   if (!physics || (broken == nullptr && edit.As<BondEdit>() == nullptr)) return Verdict::kNoRight;
   const std::vector<PartId> parts = topology.PartsOf(edit);
   if (parts.empty()) return Verdict::kStale;
-  const bool right = std::any_of(parts.begin(), parts.end(), [&](PartId part) {
-    const int m = MechanismOf(world_, part);
-    return m >= 0 && authority_.Has(peer, m);
-  });
-  if (!right) return Verdict::kNoRight;
+  if (!HasRight(peer, parts)) return Verdict::kNoRight;
   if (broken != nullptr && topology.JointMadeAt(broken->joint) > proposal.sequence) {
     return Verdict::kStale;  // it means an earlier joint
   }
@@ -158,7 +173,7 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
     const bool again = std::any_of(parts.begin(), parts.end(),
                                    [&](PartId part) { return taken.ByAnother(part, by); });
     const bool bond = pending.edit.As<BondEdit>() != nullptr;
-    if ((bond && again) || !authority_.InOneHand(MechanismsOf(pending.edit))) {
+    if (IsEarly(pending) || (bond && again) || !authority_.InOneHand(MechanismsOf(pending.edit))) {
       if (world_.tick() - pending.since < patience) waiting.push_back(pending);
       continue;
     }

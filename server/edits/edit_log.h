@@ -106,6 +106,10 @@ class EditLog {
 
   bool Wait(const Edit& edit, int peer, std::int64_t found);
   std::int64_t TickOf(const Pending& pending) const;
+  /// True if a peer may propose an edit of these parts: one of them is in its mechanisms, or all
+  /// are anchored and only their impacts' authorities feel the load.
+  bool HasRight(int peer, const std::vector<PartId>& parts) const;
+  bool IsEarly(const Pending& pending) const;
   bool IsStale(const Pending& pending) const;
   std::vector<int> MechanismsOf(const Edit& edit) const;
 

@@ -3,62 +3,68 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/scene/mechanism_ids.h"
+#include "common/base/geometry.h"
+#include "common/codec/quanta.h"
+#include "common/scene/mass.h"
+#include "common/sync/reach/zones.h"
 
 namespace seam {
 namespace {
 
-/// Speeds are taken from this many ticks before the impact: an authority sends a state every second
-/// tick. A longer time could explain an impact by the speed before an earlier one; the tick itself
-/// would let the impact explain itself.
-constexpr std::int64_t kTicksBefore = 4;
-/// Allowed change of velocity beyond the momentum's, m/s: for rounding, weight, and the impulse of
-/// motors in one tick.
+/// Allowed change of velocity beyond the momentum's, m/s: for rounding and the impulse of motors in
+/// one tick.
 constexpr float kSlack = 1.0f;
-/// Largest distance of the point from the bodies, m, besides their motion in kTicksBefore.
+/// Largest distance of the point from the bodies, m, besides their motion in kTicksAround.
 constexpr float kNear = 0.5f;
 
-/// Returns the distance from the root of an assembly to its farthest point, m.
-float ExtentOf(const World& world, const Assembly& assembly) {
+const Assembly& AssemblyOf(const World& world, int body) {
+  const Composition& c = world.composition();
+  const int index = c.assembly_of_part[static_cast<std::size_t>(world.id(body))];
+  return c.assemblies[static_cast<std::size_t>(index)];
+}
+
+/// Returns the distance from a part's position to its farthest point, m.
+float ExtentOf(const Part& part) {
+  float own = std::max(part.radius, part.kind == ShapeKind::kBox ? part.size.norm() / 2 : 0.0f);
+  for (const Vec2& point : part.points) own = std::max(own, point.norm() + part.radius);
+  return own;
+}
+
+/// Returns the distance from the body's root to its farthest point, m.
+float ExtentOf(const World& world, int body) {
   const std::vector<Part>& parts = world.scene().parts;
-  const Part& root = parts[static_cast<std::size_t>(assembly.id)];
+  const Part& root = parts[static_cast<std::size_t>(world.id(body))];
   float reach = 0;
-  for (const PartId id : assembly.parts) {
+  for (const PartId id : AssemblyOf(world, body).parts) {
     const Part& part = parts[static_cast<std::size_t>(id)];
-    float own = std::max(part.radius, part.kind == ShapeKind::kBox ? part.size.norm() / 2 : 0.0f);
-    for (const Vec2& point : part.points) own = std::max(own, point.norm() + part.radius);
-    reach = std::max(reach, (part.position - root.position).norm() + own);
+    reach = std::max(reach, (part.position - root.position).norm() + ExtentOf(part));
   }
   return reach;
 }
 
-const Assembly& AssemblyOf(const World& world, PartId part) {
-  const Composition& c = world.composition();
-  const int index = c.assembly_of_part[static_cast<std::size_t>(part)];
-  return c.assemblies[static_cast<std::size_t>(index)];
+/// Extends a box by the body's parts in a pose, each as a disc around it.
+void Extend(const World& world, int body, const BodyState& at, MovingBox* box) {
+  const std::vector<Part>& parts = world.scene().parts;
+  const Part& root = parts[static_cast<std::size_t>(world.id(body))];
+  for (const PartId id : AssemblyOf(world, body).parts) {
+    const Part& part = parts[static_cast<std::size_t>(id)];
+    const Vec2 local = ToRootFrame(part, root, Eigen::Vector2d(0, 0)).cast<float>();
+    const Vec2 place = at.position + Turned(local, at.angle);
+    const Vec2 reach = Vec2::Constant(ExtentOf(part));
+    box->min = box->min.cwiseMin(place - reach);
+    box->max = box->max.cwiseMax(place + reach);
+  }
 }
 
-float ExtentOf(const World& world, int body) {
-  return ExtentOf(world, AssemblyOf(world, world.id(body)));
-}
-
-float LargestRestitution(const World& world, int body) {
-  const Composition& c = world.composition();
-  const int index = c.assembly_of_part[static_cast<std::size_t>(world.id(body))];
+float LargestRestitution(const World& world, const std::vector<int>& bodies) {
   float largest = 0;
-  for (const PartId id : c.assemblies[static_cast<std::size_t>(index)].parts) {
-    const Part& part = world.scene().parts[static_cast<std::size_t>(id)];
-    largest = std::max(largest, part.material.restitution);
+  for (const int body : bodies) {
+    for (const PartId id : AssemblyOf(world, body).parts) {
+      const Part& part = world.scene().parts[static_cast<std::size_t>(id)];
+      largest = std::max(largest, part.material.restitution);
+    }
   }
   return largest;
-}
-
-float MechanismMass(const World& world, int body) {
-  float mass = 0;
-  EachIdOf(world.composition(), world.mechanism(body), [&](PartId id) {
-    mass += world.mass(world.BodyOfId(id));
-  });
-  return mass;
 }
 
 /// True if any anchored part moves. Its speed at impact is not looked up.
@@ -67,81 +73,155 @@ bool HasMovers(const World& world) {
   return std::any_of(all.begin(), all.end(), [](const Assembly& a) { return a.kinematic >= 0; });
 }
 
-using Trail = std::vector<StateTrail::Seen>;
-
-/// True if the body was at the point in that tick, or its newest known state moves it there: where
-/// inputs come late, states arrive later than impacts.
-bool IsNear(const Trail& trail, const Vec2& point, std::int64_t tick, float reach, float dt) {
-  return std::any_of(trail.begin(), trail.end(), [&](const StateTrail::Seen& seen) {
-    const float moves = seen.state.velocity.norm() * dt * static_cast<float>(kTicksBefore);
-    const Vec2 way = static_cast<float>(tick - seen.tick) * dt * seen.state.velocity;
-    const Vec2 apart = point - seen.state.position;
-    return std::min(apart.norm(), (apart - way).norm()) <= reach + moves + kNear;
-  });
-}
-
-/// Returns the largest relative speed of any two states, rotation of both included, m/s.
-float RelativeSpeed(const Trail& one, float reach_one, const Trail& other, float reach_other) {
+/// Returns the largest distance between two velocities of the lists, m/s.
+float LargestApart(const std::vector<Vec2>& one, const std::vector<Vec2>& other) {
   float largest = 0;
-  for (const StateTrail::Seen& a : one) {
-    const float own = std::fabs(a.state.spin) * reach_one;
-    if (other.empty()) largest = std::max(largest, a.state.velocity.norm() + own);
-    for (const StateTrail::Seen& b : other) {
-      const float turning = own + std::fabs(b.state.spin) * reach_other;
-      largest = std::max(largest, (a.state.velocity - b.state.velocity).norm() + turning);
-    }
+  for (const Vec2& a : one) {
+    for (const Vec2& b : other) largest = std::max(largest, (a - b).norm());
   }
   return largest;
 }
 
 }  // namespace
 
-bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std::int64_t tick) {
-  const std::int64_t from = tick - kTicksBefore, to = tick - 1;
-  const Trail struck = trail.Between(blow.body, from, to);
-  if (struck.empty()) return false;
-  const float reach = ExtentOf(world, blow.body);
-  if (!IsNear(struck, blow.point, tick, reach, world.dt())) return false;
-  Trail striker;
-  float reach_by = 0, restitution = LargestRestitution(world, blow.body);
-  if (blow.by >= 0) {
-    striker = trail.Between(blow.by, from, to);
-    reach_by = ExtentOf(world, blow.by);
-    if (striker.empty() || !IsNear(striker, blow.point, tick, reach_by, world.dt())) return false;
-    restitution = std::max(restitution, LargestRestitution(world, blow.by));
-  } else {
-    if (HasMovers(world)) return true;
-    restitution = 1;  // not looked up for anchored parts
+/// A velocity that was told counts only as far as the places before or after it confirm it: the
+/// mean velocity between two places, and what weight, throttle and brakes change in that time.
+ImpactCheck::Moved ImpactCheck::MotionOf(int body) const {
+  Moved moved;
+  const Trail seen = trail_.Around(body, tick_ - kTicksAround, tick_ + kTicksAround);
+  moved.known = !seen.empty() && seen.front().tick <= tick_ + kTicksAround;
+  const float force = world_.scene().gravity.norm() + kDrivenAcceleration;
+  std::vector<bool> confirmed(seen.size(), false);
+  for (std::size_t i = 1; i < seen.size(); ++i) {
+    const BodyState &from = seen[i - 1].state, &to = seen[i].state;
+    const float ticks = static_cast<float>(seen[i].tick - seen[i - 1].tick);
+    const Vec2 way = to.position - from.position;
+    if (way.norm() > StateTrail::kMaxStep * ticks) continue;  // it was moved, and did not move
+    const float seconds = ticks * world_.dt();
+    const Vec2 mean = way / seconds;
+    moved.velocities.push_back(mean);
+    const float reach = force * seconds + 2 * kPositionQuantum / seconds;
+    for (const std::size_t told : {i - 1, i}) {
+      const Vec2& velocity = seen[told].state.velocity;
+      confirmed[told] = confirmed[told] || (velocity - mean).norm() <= reach;
+    }
+    // Angles say nothing of whole turns: where it may have made half of one, its word counts.
+    const float told = std::max(std::fabs(from.spin), std::fabs(to.spin));
+    const float turned = std::fabs(WrapAngle(to.angle - from.angle)) / seconds;
+    const bool may_wrap = told * seconds > static_cast<float>(kPi);
+    moved.spin = std::max(moved.spin, may_wrap ? told : std::min(told, turned));
   }
-  // A free body gains at most (1 + e) times the relative speed. A body held by another at the same
-  // time can pass on all the incoming momentum, however heavy its source.
-  const float bringing = MechanismMass(world, blow.by >= 0 ? blow.by : blow.body);
-  const float ratio = std::max(1.0f, bringing / world.mass(blow.body));
-  const float speed = RelativeSpeed(struck, reach, striker, reach_by);
-  return blow.dv <= (1 + restitution) * speed * ratio + kSlack;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (confirmed[i]) moved.velocities.push_back(seen[i].state.velocity);
+  }
+  if (moved.velocities.empty()) moved.velocities.push_back(Vec2(0, 0));
+  return moved;
 }
 
-bool MayTouch(const World& world, const StateTrail& trail, const PartTouch& touch,
-              std::int64_t tick) {
-  if (HasMovers(world)) return true;
-  struct Side {
-    float extent = 0;
-    Trail places;
-  };
-  const auto side = [&](PartId part) {
-    const Assembly& its = AssemblyOf(world, part);
-    const int index = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
-    Side found{ExtentOf(world, its), {}};
-    if (!its.anchored) {
-      found.places = trail.Between(world.BodyOfId(its.id), tick - kTicksBefore, tick);
-    }
-    if (found.places.empty()) found.places.push_back({tick, world.ReadAssembly(index)});
-    return found;
-  };
-  const Side a = side(touch.a), b = side(touch.b);
-  return std::any_of(a.places.begin(), a.places.end(), [&](const StateTrail::Seen& seen) {
-    return IsNear(b.places, seen.state.position, tick, a.extent + b.extent, world.dt());
+/// True if the body was at the point around that tick, or its newest known state moves it there:
+/// where inputs come late, states arrive later than impacts.
+bool ImpactCheck::IsNear(int body, const Vec2& point) const {
+  const float reach = ExtentOf(world_, body), dt = world_.dt();
+  const Trail seen = trail_.Around(body, tick_ - kTicksAround, tick_ + kTicksAround);
+  return std::any_of(seen.begin(), seen.end(), [&](const StateTrail::Seen& s) {
+    const float moves = s.state.velocity.norm() * dt * static_cast<float>(kTicksAround);
+    const Vec2 way = static_cast<float>(tick_ - s.tick) * dt * s.state.velocity;
+    const Vec2 apart = point - s.state.position;
+    return std::min(apart.norm(), (apart - way).norm()) <= reach + moves + kNear;
   });
+}
+
+std::vector<int> ImpactCheck::IslandOf(int body) {
+  if (island_.empty()) {
+    std::vector<MovingBox> boxes;
+    for (int b = 0; b < world_.body_count(); ++b) {
+      const Trail seen = trail_.Around(b, tick_, tick_);
+      if (seen.empty()) continue;
+      MovingBox box;
+      box.min = box.max = seen.front().state.position;
+      box.group = world_.mechanism(b);
+      for (StateTrail::Seen s : seen) {
+        if (s.tick > tick_ + kTicksAround) break;
+        Extend(world_, b, s.state, &box);
+        if (s.tick >= tick_) continue;
+        s.state.position += static_cast<float>(tick_ - s.tick) * world_.dt() * s.state.velocity;
+        Extend(world_, b, s.state, &box);
+      }
+      boxes.push_back(box);
+    }
+    island_ = Components(static_cast<int>(world_.composition().mechanisms.size()),
+                         MeetingGroups(boxes, 0));
+  }
+  const int own = island_[static_cast<std::size_t>(world_.mechanism(body))];
+  std::vector<int> bodies;
+  for (int b = 0; b < world_.body_count(); ++b) {
+    if (island_[static_cast<std::size_t>(world_.mechanism(b))] == own) bodies.push_back(b);
+  }
+  return bodies;
+}
+
+bool ImpactCheck::Explained(const Blow& blow) {
+  const bool anchored = blow.by < 0;
+  if (anchored && HasMovers(world_)) return true;
+  // The frame of the impact: the struck body, or what is anchored.
+  std::vector<Vec2> frame = {Vec2(0, 0)};
+  if (!anchored) frame = MotionOf(blow.body).velocities;
+  std::vector<int> island = IslandOf(blow.body);
+  if (!anchored && std::find(island.begin(), island.end(), blow.by) == island.end()) {
+    const std::vector<int> more = IslandOf(blow.by);
+    island.insert(island.end(), more.begin(), more.end());
+  }
+  float momentum = 0, mass = 0, fastest = 0;
+  for (const int body : island) {
+    const Moved moved = MotionOf(body);
+    const float turning = moved.spin * ExtentOf(world_, body);
+    const float speed = LargestApart(moved.velocities, frame) + turning;
+    momentum += world_.mass(body) * speed;
+    mass += world_.mass(body);
+    fastest = std::max(fastest, speed);
+  }
+  // The restitution of anchored parts is not looked up.
+  const float e = anchored ? 1 : LargestRestitution(world_, island);
+  if (blow.dv <= (1 + e) * fastest + kSlack) return true;
+  if (!IsHeld(blow, island)) return false;
+  const float weight = mass * world_.scene().gravity.norm() * world_.dt();
+  return blow.dv <= ((1 + e) * momentum + weight) / world_.mass(blow.body) + kSlack;
+}
+
+bool ImpactCheck::IsHeld(const Blow& blow, const std::vector<int>& island) const {
+  const int own = world_.mechanism(blow.body);
+  const int by = blow.by < 0 ? own : world_.mechanism(blow.by);
+  const bool others = std::any_of(island.begin(), island.end(), [&](int body) {
+    const int m = world_.mechanism(body);
+    return body != blow.body && (m == own || m != by);
+  });
+  if (others) return true;
+  const Trail seen = trail_.Around(blow.body, tick_, tick_);
+  const Vec2 at = seen.front().state.position;
+  const float reach = ExtentOf(world_, blow.body) + kNear;
+  std::vector<Vec2> ways = {at - blow.point}, velocities = {Vec2(0, 0)};
+  if (blow.by >= 0) velocities = MotionOf(blow.by).velocities;
+  for (const Vec2& own_velocity : MotionOf(blow.body).velocities) {
+    for (const Vec2& velocity : velocities) ways.push_back(velocity - own_velocity);
+  }
+  return std::any_of(ways.begin(), ways.end(), [&](const Vec2& way) {
+    return way.norm() > 0 && world_.FreeWay(blow.body, at, at + reach * way.normalized()) < 1;
+  });
+}
+
+bool ImpactCheck::MoreMayCome(const Blow& blow) const {
+  const auto more = [this](int body) {
+    const StateTrail::Seen* const newest = trail_.Newest(body);
+    return newest == nullptr || newest->tick < tick_ + kTicksAround;
+  };
+  return more(blow.body) || (blow.by >= 0 && more(blow.by));
+}
+
+bool ImpactCheck::Possible(const Blow& blow) {
+  for (const int body : {blow.body, blow.by}) {
+    if (body >= 0 && !(MotionOf(body).known && IsNear(body, blow.point))) return false;
+  }
+  return Explained(blow);
 }
 
 }  // namespace seam

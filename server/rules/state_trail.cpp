@@ -2,10 +2,19 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "common/scene/saved/persist_state.h"
 
 namespace seam {
+
+StateTrail::Trail StateTrail::CarriedOn(int, const BodyOrigin& origin, Trail* before) {
+  if (before == nullptr) return {};
+  if (origin.same) return std::move(*before);
+  Trail carried = *before;
+  for (Seen& seen : carried) seen.state = Carried(origin, seen.state);
+  return carried;
+}
 
 void StateTrail::Add(int body, std::int64_t tick, const BodyState& state) {
   Trail& trail = trails_[body];
@@ -19,15 +28,15 @@ const StateTrail::Seen* StateTrail::Newest(int body) const {
   return trail.empty() ? nullptr : &trail.back();
 }
 
-std::vector<StateTrail::Seen> StateTrail::Between(int body, std::int64_t from,
-                                                  std::int64_t to) const {
-  std::vector<Seen> found;
-  for (const Seen& seen : trails_[body]) {
-    if (seen.tick > to) break;
-    if (seen.tick < from) found.clear();
-    found.push_back(seen);
-  }
-  return found;
+std::vector<StateTrail::Seen> StateTrail::Around(int body, std::int64_t from,
+                                                 std::int64_t to) const {
+  const Trail& trail = trails_[body];
+  const auto earlier = [](const Seen& seen, std::int64_t tick) { return seen.tick < tick; };
+  auto first = std::lower_bound(trail.begin(), trail.end(), from, earlier);
+  auto last = std::lower_bound(first, trail.end(), to + 1, earlier);
+  if (first != trail.begin()) --first;
+  if (last != trail.end()) ++last;
+  return {first, last};
 }
 
 std::int64_t StateTrail::FirstOf(const Trail& trail, std::size_t i) const {

@@ -14,7 +14,8 @@ namespace seam {
 
 class StateArchive;
 
-/// After an edit only unchanged bodies have a past.
+/// After an edit each body has the past of the body that it came from, moved rigidly: an impact may
+/// break what it hurts.
 class StateTrail {
  public:
   struct Seen {
@@ -26,15 +27,15 @@ class StateTrail {
   void Persist(StateArchive& a);
 
   explicit StateTrail(const BodyTable& table)
-      : trails_(table, BodyRule::kSame), looked_(table, BodyRule::kSame, -1) {}
+      : trails_(table, CarriedOn), looked_(table, BodyRule::kOrigin, -1) {}
 
   /// Adds a state if it is newer than the body's newest.
   void Add(int body, std::int64_t tick, const BodyState& state);
   /// Returns the newest state; nullptr if there is none.
   const Seen* Newest(int body) const;
-  /// Returns the states of a body around a range of ticks: the last one before `from`, and all from
-  /// `from` to `to`. Empty if all known states are later.
-  std::vector<Seen> Between(int body, std::int64_t from, std::int64_t to) const;
+  /// Returns the states of a body around a range of ticks: the last one before `from`, all from
+  /// `from` to `to`, and the first one after `to`.
+  std::vector<Seen> Around(int body, std::int64_t from, std::int64_t to) const;
   /// Returns the ticks that became known for any body since MarkProcessed, each once, ascending:
   /// the ticks of new states, and those between a new state and the one before it.
   std::vector<std::int64_t> NewTicks() const;
@@ -57,6 +58,7 @@ class StateTrail {
 
  private:
   using Trail = std::deque<Seen>;
+  static Trail CarriedOn(int body, const BodyOrigin& origin, Trail* before);
   /// Returns the first tick that state `i` makes known, given the state before it.
   std::int64_t FirstOf(const Trail& trail, std::size_t i) const;
 

@@ -1,4 +1,4 @@
-/// Which impacts are plausible, given the known states of the two bodies.
+/// Which impacts are plausible, given the known states of all bodies.
 
 #include "server/rules/impact_check.h"
 
@@ -7,13 +7,18 @@
 namespace seam {
 namespace impact_check_test {
 
-/// Body 0 at x = 0 and body 1, four times as heavy, at x = 1, both of 1 m; their known states are
-/// of tick 10.
+/// Bodies 0, 1 and 2 of 1 m in a row at x = 0, 1 and 2, the last of 4 kg, others of 1 kg; a wall
+/// left of the first. They stand, until Move says otherwise.
 class ImpactCheckTest : public ::testing::Test {
  protected:
-  ImpactCheckTest()
+  explicit ImpactCheckTest(float apart = 1)
       : world_(ParseScene(R"(
 gravity = [0, 0]
+[[part]]
+name = "wall"
+box = [1, 4]
+position = [-10, 0]
+anchored = true
 [[part]]
 name = "a"
 box = [1, 1]
@@ -21,77 +26,118 @@ restitution = 0
 [[part]]
 name = "b"
 box = [1, 1]
+restitution = 0
+position = [)" + std::to_string(apart) +
+                              R"(, 0]
+[[part]]
+name = "c"
+box = [1, 1]
 density = 4
 restitution = 0
-position = [1, 0]
+position = [)" + std::to_string(2 * apart) +
+                              R"(, 0]
 )",
-                          "test.toml")) {
-    Know(0, {0, 0});
-    Know(1, {-3, 0});
+                          "test.toml")) {}
+  /// Tells states of every second tick from 0 to 20, in which the body moves until tick 10 and has
+  /// its place in the row then; `told`: the velocity that it says, if another.
+  void Move(int body, const Vec2& velocity, const Vec2& after = {0, 0}, const Vec2* told = nullptr,
+            std::int64_t last = 20) {
+    for (std::int64_t tick = 0; tick <= last; tick += 2) {
+      BodyState state = world_.Read(body);
+      const Vec2 now = tick <= 10 ? velocity : after;
+      state.position += static_cast<float>(tick - 10) * world_.dt() * now;
+      state.velocity = told != nullptr ? *told : now;
+      trail_.Add(body, tick, state);
+    }
   }
-  void Know(int body, const Vec2& velocity) {
-    BodyState state = world_.Read(body);
-    state.velocity = velocity;
-    trail_.Add(body, 10, state);
-  }
-  bool Can(float dv, const Vec2& point = {0.5f, 0}, std::int64_t tick = 11, int by = 1) const {
-    return Possible(world_, trail_, {0, by, dv, point}, tick);
+  bool Can(int body, int by, float dv, const Vec2& point, std::int64_t tick = 11) const {
+    return ImpactCheck(world_, trail_, tick).Possible({body, by, dv, point});
   }
 
   World world_;
-  BodyTable bodies_{2, 0};
+  BodyTable bodies_{3, 0};
   StateTrail trail_{bodies_};
 };
 
-TEST_F(ImpactCheckTest, AnImpactIsBoundedByTheIncomingMomentum) {
-  EXPECT_TRUE(Can(3));
-  EXPECT_TRUE(Can(12)) << "held from behind, the lighter takes all of the heavier's momentum";
-  EXPECT_FALSE(Can(13.5f));
+/// The bodies are 3 m apart, so that only the two of the impact touch.
+class ApartTest : public ImpactCheckTest {
+ protected:
+  ApartTest() : ImpactCheckTest(3) {}
+};
+
+TEST_F(ImpactCheckTest, AnImpactComesThroughANeighbour) {
+  Move(0, {0, 0});
+  Move(1, {0, 0});
+  Move(2, {-10, 0});
+  EXPECT_TRUE(Can(0, 1, 9, {0.5f, 0})) << "the heavy one struck the row within the tick";
+  EXPECT_TRUE(Can(1, 2, 9, {1.5f, 0}));
+  EXPECT_TRUE(Can(1, 2, 35, {1.5f, 0})) << "held from behind, it takes all of the momentum";
+  EXPECT_FALSE(Can(1, 2, 60, {1.5f, 0})) << "which is 40 N s";
 }
 
-TEST_F(ImpactCheckTest, ASlowBodyCannotStrikeHard) {
-  Know(0, {0, 0});
-  StateTrail slow(bodies_);
-  BodyState state = world_.Read(0);
-  slow.Add(0, 10, state);
-  state = world_.Read(1);
-  state.velocity = {-0.3f, 0};
-  slow.Add(1, 10, state);
-  EXPECT_FALSE(Possible(world_, slow, {0, 1, 3, {0.5f, 0}}, 11));
-  EXPECT_TRUE(Possible(world_, slow, {0, 1, 2, {0.5f, 0}}, 11));
+TEST_F(ImpactCheckTest, NobodyIsStruckInARowThatStands) {
+  for (int body = 0; body < 3; ++body) Move(body, {0, 0});
+  EXPECT_FALSE(Can(0, 1, 3, {0.5f, 0}));
+  EXPECT_TRUE(Can(0, 1, 0.9f, {0.5f, 0}));
 }
 
-TEST_F(ImpactCheckTest, ThePointLiesOnBothBodies) {
-  EXPECT_TRUE(Can(3, {0.5f, 0.3f}));
-  EXPECT_FALSE(Can(3, {0.5f, 5}));
-  EXPECT_FALSE(Can(3, {-3, 0}));
+TEST_F(ImpactCheckTest, AToldVelocityCountsOnlyIfThePlacesConfirmIt) {
+  const Vec2 lie(-110, 0);
+  Move(0, {0, 0});
+  Move(1, {0, 0}, {0, 0}, &lie);
+  Move(2, {0, 0}, {0, 0}, &lie);
+  EXPECT_FALSE(Can(0, 1, 100, {0.5f, 0}));
+  EXPECT_FALSE(Can(1, 2, 150, {1.5f, 0}));
+  EXPECT_FALSE(Can(1, 2, 3, {1.5f, 0}));
 }
 
-TEST_F(ImpactCheckTest, OnlyStatesUpToThatTickExplainAnImpact) {
-  EXPECT_FALSE(Can(3, {0.5f, 0}, 5)) << "of tick 5 nothing is known";
-  EXPECT_TRUE(Can(3, {0.5f, 0}, 60)) << "what rests is told seldom: the last before it counts";
+TEST_F(ApartTest, AFreeBodyGainsNoMoreThanTheSpeedOfTheImpact) {
+  Move(0, {0, 0});
+  for (std::int64_t tick = 0; tick <= 20; tick += 2) {
+    BodyState state = world_.Read(2);
+    state.position = {1.0f + static_cast<float>(tick < 10 ? 10 - tick : 0) / 6, 0};
+    state.velocity = {tick < 10 ? -10.0f : 0.0f, 0};
+    trail_.Add(2, tick, state);
+  }
+  EXPECT_TRUE(Can(0, 2, 10, {0.5f, 0}));
+  EXPECT_FALSE(Can(0, 2, 30, {0.5f, 0})) << "four times as heavy, but nothing is behind";
 }
 
-TEST_F(ImpactCheckTest, AnOldStateExplainsAnImpactOnItsPath) {
-  StateTrail old(bodies_);
-  old.Add(0, 10, world_.Read(0));
-  BodyState far = world_.Read(1);
-  far.position = {6, 0};
-  far.velocity = {-12, 0};
-  old.Add(1, 10, far);
-  EXPECT_TRUE(Possible(world_, old, {0, 1, 3, {0.5f, 0}}, 35)) << "5 m in 25 ticks";
-  EXPECT_FALSE(Possible(world_, old, {0, 1, 3, {0.5f, 0}}, 12)) << "too soon";
-  EXPECT_FALSE(Possible(world_, old, {0, 1, 3, {0.5f, 0}}, 90)) << "long past";
+TEST_F(ApartTest, AMotionAfterTheImpactExplainsIt) {
+  Move(0, {0, 0}, {-5, 0});
+  for (std::int64_t tick = 0; tick <= 20; tick += 2) {
+    BodyState state = world_.Read(1);
+    state.position = {1, 0};
+    trail_.Add(1, tick, state);
+  }
+  EXPECT_TRUE(Can(0, 1, 5, {0.5f, 0})) << "somebody's blast threw the other into it";
+  EXPECT_FALSE(Can(0, 1, 12, {0.5f, 0}));
 }
 
-TEST_F(ImpactCheckTest, AStandingBodyDoesNotStrikeTheGround) {
-  EXPECT_FALSE(Can(3, {0.5f, 0}, 11, -1));
-  StateTrail falling(bodies_);
-  BodyState state = world_.Read(0);
-  state.velocity = {0, -4};
-  falling.Add(0, 10, state);
-  EXPECT_TRUE(Possible(world_, falling, {0, -1, 6, {0, -0.5f}}, 11));
-  EXPECT_FALSE(Possible(world_, falling, {0, -1, 12, {0, -0.5f}}, 11));
+TEST_F(ApartTest, ThePointLiesOnBothBodies) {
+  Move(0, {0, 0});
+  Move(1, {-3, 0});
+  EXPECT_FALSE(Can(0, 1, 3, {0.5f, 0})) << "the other is 3 m away";
+  EXPECT_FALSE(Can(0, -1, 0.5f, {0.5f, 5}));
+  EXPECT_TRUE(Can(0, -1, 0.5f, {0.5f, 0}));
+}
+
+TEST_F(ApartTest, StatesThatAreStillToComeMayExplainAnImpact) {
+  EXPECT_FALSE(Can(0, 1, 3, {0.5f, 0}, 5)) << "nothing is known";
+  Move(0, {0, 0}, {0, 0}, nullptr, 12);
+  Move(1, {0, 0});
+  ImpactCheck early(world_, trail_, 11);
+  EXPECT_TRUE(early.MoreMayCome({0, 1, 3, {0.5f, 0}}));
+  Move(0, {0, 0});
+  EXPECT_FALSE(early.MoreMayCome({0, 1, 3, {0.5f, 0}}));
+}
+
+TEST_F(ApartTest, AStandingBodyDoesNotStrikeTheGround) {
+  Move(0, {0, 0});
+  EXPECT_FALSE(Can(0, -1, 3, {0.5f, 0}));
+  Move(1, {0, -4});
+  EXPECT_TRUE(Can(1, -1, 6, {3, -0.5f}));
+  EXPECT_FALSE(Can(1, -1, 12, {3, -0.5f}));
 }
 
 }  // namespace impact_check_test

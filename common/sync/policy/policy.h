@@ -43,6 +43,9 @@ class Policy {
   virtual bool PlansAuthority() const { return false; }
   /// True if the planner chooses for each mechanism which peers follow it.
   virtual bool PlansFollowers() const { return false; }
+  /// True if the server simulates every body where physics finds edits, so that its world feels
+  /// each load on an anchored part. Otherwise only the authority of the loading body does.
+  virtual bool ServerFeelsAll() const { return true; }
   /// Clients that simulate a mechanism, as the server knows them.
   enum class Simulators { kAuthorityAndFollowers, kNear, kEveryone };
   virtual Simulators simulators() const { return Simulators::kAuthorityAndFollowers; }

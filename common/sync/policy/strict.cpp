@@ -11,6 +11,7 @@ class Strict : public Policy {
   std::string about() const override { return "no buffer zone"; }
   bool Follows(const Roles&, int) const override { return false; }
   bool PlansAuthority() const override { return true; }
+  bool ServerFeelsAll() const override { return false; }
 };
 
 }  // namespace

@@ -102,4 +102,10 @@ void Reach::Look() {
   }
 }
 
+std::int64_t Reach::CompleteTickOfAll() const {
+  std::int64_t least = looked_;
+  for (const int m : open_) least = std::min(least, CompleteTick(m));
+  return least;
+}
+
 }  // namespace seam

@@ -31,6 +31,8 @@ class Reach {
     if (looked_ < 0) return -1;  // grants may come before the first step
     return std::min(looked_, complete_[static_cast<std::size_t>(mechanism)]);
   }
+  /// Newest tick that is input-complete for every mechanism. The same requirement.
+  std::int64_t CompleteTickOfAll() const;
 
  private:
   const SyncConfig& config_;

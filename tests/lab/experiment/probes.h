@@ -15,5 +15,7 @@ Probe FairnessProbe();
 Probe TitlesProbe();
 Probe LoadProbe();
 Probe HandOverProbe();
+Probe DamageProbe();
+Probe AgreementProbe();
 
 }  // namespace seam

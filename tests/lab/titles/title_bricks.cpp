@@ -19,6 +19,20 @@ void JudgeGluehouse(const Screen& screen, Claims* claims) {
   claims->AtLeast(std::abs(way), 1, "way of the dozer, m");
 }
 
+void JudgeFoundation(const Screen& screen, Claims* claims) {
+  const double before_s = 0.8, thrown_s = 1.5;  // before the crate lands, and when the ball starts
+  const int early = screen.Edits<BreakEdit>() - screen.Edits<BreakEdit>(before_s);
+  claims->Between(early, 0, 0, "bonds that broke under their own weight");
+  claims->AtLeast(screen.Edits<BreakEdit>(thrown_s), 8, "bonds that the ball broke");
+  double highest = 0;
+  for (const std::string& brick : screen.All("roof.")) {
+    highest = std::max<double>(highest, screen.AtEnd(brick).position.y());
+  }
+  claims->Between(highest, 0, 3.35, "height of the roof's highest brick, m");
+  claims->Between(screen.AtEnd("balcony").position.y(), 0, 2, "its height at the end, m");
+  claims->Between(screen.AtEnd("crate").position.y(), 0, 2, "height of the crate, m");
+}
+
 void JudgeSkyline(const Screen& screen, Claims* claims) {
   const double upper = 50, lower = 42;  // m, heights of the roads
   claims->Between(screen.AtEnd("ann-car").position.y(), 0, upper - 4, "ann's height, m");

@@ -33,6 +33,10 @@ const std::vector<Title>& Titles() {
        "The ball breaks at least eight bonds and the roof comes down by 2 m or more; after the "
        "dozer has set off, pieces join again.",
        JudgeGluehouse},
+      {"foundation",
+       "The house stands on its foundation until the ball breaks eight bonds and more and its roof "
+       "comes down by 2 m; the crate breaks the balcony off its tower.",
+       JudgeFoundation},
       {"skyline",
        "ann drives through the crates and off the upper road, bob off the lower one onto the "
        "roofs; a blast frees bricks; ten things and more lie on roofs, ten and more in the "

@@ -49,6 +49,7 @@ void JudgeTitanic(const Screen& screen, Claims* claims);
 void JudgeHarbour(const Screen& screen, Claims* claims);
 void JudgeRegatta(const Screen& screen, Claims* claims);
 void JudgeGluehouse(const Screen& screen, Claims* claims);
+void JudgeFoundation(const Screen& screen, Claims* claims);
 void JudgeSkyline(const Screen& screen, Claims* claims);
 void JudgeRagdolls(const Screen& screen, Claims* claims);
 void JudgeObstacle(const Screen& screen, Claims* claims);

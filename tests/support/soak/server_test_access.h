@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "server/authority_source.h"
 #include "server/server.h"
 
 namespace seam {
@@ -22,6 +23,10 @@ struct ServerTestAccess {
   }
   static Replica& ReplicaOf(Server& server) { return server.replica_; }
   static AuthorityManager& ManagerOf(Server& server) { return server.authority_; }
+  /// Returns the input of the room's rules; nullptr if the scene has none.
+  static const AuthoritySource* RuleSourceOf(const Server& server) {
+    return server.rule_source_.get();
+  }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_->waiting(); }
 };
 
