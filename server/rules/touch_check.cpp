@@ -59,8 +59,7 @@ bool MayTouch(const World& world, const StateTrail& trail, const PartTouch& touc
     const int index = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
     Side found{RadiusOf(world, its), {}};
     if (!its.anchored) {
-      found.places =
-          trail.Between(world.BodyOfId(its.id), tick - ImpactCheck::kTicksAround, tick);
+      found.places = trail.Around(world.BodyOfId(its.id), tick - ImpactCheck::kTicksAround, tick);
     }
     if (found.places.empty()) found.places.push_back({tick, world.ReadAssembly(index)});
     return found;
