@@ -23,7 +23,7 @@ struct ReplicaTestAccess {
   static int OwnPlayer(const Replica& replica) { return replica.roles_.own_player(); }
   /// Returns the body's state after a past tick; nullptr if the peer did not simulate it then.
   static const BodyState* Past(const Replica& replica, int body, std::int64_t tick) {
-    const bool steps = replica.world().motion(body) == Motion::kDynamic &&
+    const bool steps = replica.world().activity(body) == Activity::kSimulated &&
                        replica.memory_.track(body).dynamic_since <= tick;
     return steps ? replica.memory_.history().At(tick, body) : nullptr;
   }

@@ -159,7 +159,7 @@ class DryRoom {
     for (const Part& a : scene_.parts) {
       for (const Part& b : scene_.parts) {
         if (a.id >= b.id || body(a) < 0 || body(b) < 0 || body(a) == body(b)) continue;
-        if (a.group != 0 && a.group == b.group && a.group < 0) continue;
+        if (!MayCollide(a.filter, b.filter)) continue;
         if (MechanismOf(world_, a.id) < 0 && MechanismOf(world_, b.id) < 0) continue;
         if (++pairs > kPairsMost) return;
         Call("on_touch('" + a.name + "', '" + b.name + "')",
