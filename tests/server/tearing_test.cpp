@@ -21,6 +21,7 @@ class Commands : public RoomCommands {
   void Bond(PartId, PartId, float) override {}
   void Push(PartId, const Vec2&) override {}
   void Limp(PartId, float) override { ++limp; }
+  void LeaveSeat(int) override {}
   void Blast(const Vec2&, float, float, float) override {}
   void Insert(const std::string&) override {}
   void Say(const std::string&) override {}
