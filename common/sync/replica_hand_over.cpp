@@ -71,8 +71,6 @@ void Replica::EachDifference(const States& states,
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || world_.activity(body) != Activity::kSimulated) continue;
     if (states.revision != revision()) continue;
-    // Before all inputs are known here, a difference says nothing.
-    if (reach_.CompleteTick(world_.mechanism(body)) < states.tick) continue;
     const BodyState* then = memory_.ComparablePast(body, states.tick);
     if (then != nullptr) call(body, Minus(Unpack(states, i, then->angle), *then));
   }

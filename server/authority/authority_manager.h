@@ -103,8 +103,8 @@ class AuthorityManager {
   /// kJump or kJumpVelocity, the server keeps the mechanism for kConvergeS before the successor
   /// gets it.
   void NoteCopyError(int body, const BodyState& off);
-  /// True if NoteTold has an effect; see AuthorityView::settles.
-  bool WatchesAgreement() const { return view_.settles; }
+  /// True if NoteTold has an effect; see AuthorityView::exact.
+  bool WatchesAgreement() const { return view_.exact; }
   /// Records the error of the server's copy of a body against its holder's state of the same tick.
   void NoteTold(int body, const BodyState& off);
   /// True if the peer needs the state in which a mechanism's holder released it.

@@ -42,7 +42,7 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   view.buffer_m = scene_.buffer_m;
   view.gravity = scene_.gravity;
   view.follow_bodies = scene_.follow_bodies;
-  view.settles = view.exact = config_.policy->GoesBack(0);
+  view.exact = config_.policy->GoesBack(0);
   for (int p = 0; p < static_cast<int>(scene_.players.size()) && view.exact; ++p) {
     view.exact = replica_.drivers().MechanismsOf(p).empty();
   }

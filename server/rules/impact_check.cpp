@@ -85,11 +85,14 @@ float LargestApart(const std::vector<Vec2>& one, const std::vector<Vec2>& other)
 }  // namespace
 
 /// A velocity that was told counts only as far as the places before or after it confirm it: the
-/// mean velocity between two places, and what weight, throttle and brakes change in that time.
+/// mean velocity between two places, and what weight, throttle and brakes change in that time. So
+/// one more state before those around the tick is looked at: the next may be lost.
 ImpactCheck::Moved ImpactCheck::MotionOf(int body) const {
   Moved moved;
-  const Trail seen = trail_.Around(body, tick_ - kTicksAround, tick_ + kTicksAround);
+  const Trail seen = trail_.Around(body, tick_ - 2 * kTicksAround, tick_ + kTicksAround);
   moved.known = !seen.empty() && seen.front().tick <= tick_ + kTicksAround;
+  std::size_t first = 0;  // of the states around the tick
+  while (first + 1 < seen.size() && seen[first + 1].tick <= tick_ - kTicksAround) ++first;
   const float force = world_.scene().gravity.norm() + kDrivenAcceleration;
   std::vector<bool> confirmed(seen.size(), false);
   for (std::size_t i = 1; i < seen.size(); ++i) {
@@ -99,19 +102,20 @@ ImpactCheck::Moved ImpactCheck::MotionOf(int body) const {
     if (way.norm() > StateTrail::kMaxStep * ticks) continue;  // it was moved, and did not move
     const float seconds = ticks * world_.dt();
     const Vec2 mean = way / seconds;
-    moved.velocities.push_back(mean);
+    if (i > first) moved.velocities.push_back(mean);
     const float reach = force * seconds + 2 * kPositionQuantum / seconds;
     for (const std::size_t told : {i - 1, i}) {
       const Vec2& velocity = seen[told].state.velocity;
       confirmed[told] = confirmed[told] || (velocity - mean).norm() <= reach;
     }
+    if (i <= first) continue;
     // Angles say nothing of whole turns: where it may have made half of one, its word counts.
     const float told = std::max(std::fabs(from.spin), std::fabs(to.spin));
     const float turned = std::fabs(WrapAngle(to.angle - from.angle)) / seconds;
     const bool may_wrap = told * seconds > static_cast<float>(kPi);
     moved.spin = std::max(moved.spin, may_wrap ? told : std::min(told, turned));
   }
-  for (std::size_t i = 0; i < seen.size(); ++i) {
+  for (std::size_t i = first; i < seen.size(); ++i) {
     if (confirmed[i]) moved.velocities.push_back(seen[i].state.velocity);
   }
   if (moved.velocities.empty()) moved.velocities.push_back(Vec2(0, 0));

@@ -24,13 +24,13 @@ constexpr double kWaitingFor = 2;
 
 }  // namespace
 
-std::int64_t RestCommit::Assumed(int body) const {
-  if (!config_.policy->SendsCompleteTicks()) return 0;
-  return world_.tick() - reach_.CompleteTick(world_.mechanism(body));
-}
-
 bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int>& own) const {
-  const auto asleep = [&](int b) { return watch_.asleep(b) >= Ticks(kAsleepFor) + Assumed(b); };
+  const bool complete = config_.policy->SendsCompleteTicks();
+  const auto asleep = [&](int b) {
+    const std::int64_t assumed =
+        complete ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
+    return watch_.asleep(b) >= Ticks(kAsleepFor) + assumed;
+  };
   if (std::all_of(own.begin(), own.end(), asleep)) return true;
   return MayCommitAwake(island, own);
 }
@@ -47,13 +47,10 @@ void RestCommit::CommitIsland(const std::vector<int>& island) {
 }
 
 void RestCommit::Commit(int body) {
-  // It has slept since before the newest input-complete tick (MayCommit). A later tick would be an
-  // assumption: a peer that already knows an input since then would put the body to rest again.
-  const std::int64_t as_of = world_.tick() - Assumed(body);
   // Later than anything another authority can have said of it; that peer's clock may be a tick
   // ahead.
   const std::int64_t tick =
-      std::max({as_of, table_.at(body).tick + 1, memory_.track(body).heard_tick});
+      std::max({world_.tick(), table_.at(body).tick + 1, memory_.track(body).heard_tick});
   const std::int32_t epoch = roles_.table().at(world_.mechanism(body)).epoch;
   table_.Commit(body, world_.id(body), epoch, tick, world_.Read(body));
   memory_.track(body).at_rest = true;

@@ -15,7 +15,5 @@ Probe FairnessProbe();
 Probe TitlesProbe();
 Probe LoadProbe();
 Probe HandOverProbe();
-Probe DamageProbe();
-Probe AgreementProbe();
 
 }  // namespace seam
