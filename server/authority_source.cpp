@@ -14,7 +14,7 @@ namespace {
 /// report is retransmitted until it arrives.
 constexpr std::int64_t kReportPast = 120, kReportFuture = 30;
 /// Most reports that wait; a hostile peer must not fill the memory.
-constexpr std::size_t kWaitingMax = 1024;
+constexpr std::size_t kWaitingReportsMax = 1024;
 
 }  // namespace
 
@@ -169,7 +169,7 @@ void AuthoritySource::Judge(const Reported& reported, ImpactCheck* check) {
     }
     reports_.accepted += reported.told ? 1 : 0;
     accepted_.push_back(reported);
-  } else if (Waits(reported, blow, *check) && waiting_.size() < kWaitingMax) {
+  } else if (Waits(reported, blow, *check) && waiting_.size() < kWaitingReportsMax) {
     waiting_.push_back(reported);
   } else {
     Refuse(reported, &reports_.implausible, &stats_.dropped_implausible);

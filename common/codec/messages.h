@@ -1,9 +1,7 @@
 #pragma once
-/// Every message of the edge (UDP) and of the bus (LCM), as plain structs. `session` of a message
-/// of the bus is the number that the room's server drew at random when it was made; 0: unknown, as
-/// on the edge, where the connection tells the session (only Room brings it to the client). The
-/// .lcm files in lcmtypes/ have the same fields in the same order and document the bytes; only
-/// common/codec/codec*.cpp knows both. Units are last in a name; SI without a suffix.
+/// Every message of the edge (UDP) and of the bus (LCM), as plain structs with the fields of
+/// lcmtypes/*.lcm, which document the bytes. `session`: drawn by the room's server at its start; 0
+/// on the edge but in Room. Units are last in a name; SI without a suffix.
 
 #include <cstddef>
 #include <cstdint>
@@ -204,14 +202,12 @@ struct ImpactReport {
   std::vector<float> dv;            ///< m/s, change of velocity of the struck body, >= 0
 };
 
-/// Client -> server, reliable: parts that began to touch, where the client decides about the touch
-/// and a script asks for touches.
+/// Client -> server, reliable: parts that began to touch, for a script that asks for touches.
 struct TouchReport {
-  std::int64_t utime = 0;
-  std::int64_t tick = 0;            ///< tick in which they began to touch
-  std::int32_t revision = 0;        ///< edits that the client had applied
-  std::vector<std::int32_t> a, b;   ///< parts, a < b
-  std::vector<std::int32_t> epoch;  ///< of the client's authority over the first that moves
+  std::int64_t utime = 0, tick = 0;  ///< tick: in which they began to touch
+  std::int32_t revision = 0;         ///< edits that the client had applied
+  std::vector<std::int32_t> a, b;    ///< parts, a < b
+  std::vector<std::int32_t> epoch;   ///< of the client's authority over the first that moves
 };
 
 /// An edit: a change of bonds, joints or parts; see common/topology/edit.h for the fields of each

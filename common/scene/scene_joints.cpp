@@ -199,21 +199,18 @@ void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
   draft->scene.joints.push_back(joint);
 }
 
-/// Adds a joint, and the spring of a prismatic one: a sprung distance along the axis to a point of
-/// a's frame that b does not reach.
+/// Adds a joint, and a prismatic one's spring: along the axis to a point that b does not reach.
 void AddSprung(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
-  Joint slide = joint;
-  const bool sprung = HoldOf(joint.kind) == JointHold::kAxis && joint.frequency_hz > 0;
-  if (sprung) slide.frequency_hz = 0;
+  if (HoldOf(joint.kind) != JointHold::kAxis || joint.frequency_hz <= 0)
+    return Add(r, joint, draft);
+  Joint slide = joint, spring = joint;
+  slide.frequency_hz = 0;
   Add(r, slide, draft);
-  if (!sprung) return;
-  Joint spring = joint;
   spring.name += ".spring";
   spring.kind = JointKind::kDistance;
   spring.length = joint.limited ? 1 + std::max(joint.upper, -joint.lower) : kSpringTravel;
   spring.anchor_a -= spring.length * joint.axis;
   spring.limited = false;
-  spring.motor_player = -1;
   spring.motor_torque = 0;
   spring.coupled[0] = static_cast<int>(draft->scene.joints.size()) - 1;
   Add(r, spring, draft);

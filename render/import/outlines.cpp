@@ -1,10 +1,13 @@
 #include "render/import/outlines.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
+#include "render/import/plain_names.h"
 
 namespace seam {
 namespace {
@@ -147,6 +150,18 @@ void AddOutline(Points points, bool moves, std::vector<PieceOutline>* pieces) {
 }
 
 }  // namespace
+
+std::string ShapeText(const PieceOutline& piece) {
+  switch (piece.kind) {
+    case ShapeKind::kBox: return fmt::format("box = {}\n", Pair(piece.size));
+    case ShapeKind::kCircle: return fmt::format("circle = {:.9g}\n", piece.radius);
+    default: break;
+  }
+  std::string points;
+  for (const Vector2d& p : piece.points) points += (points.empty() ? "" : ", ") + Pair(p);
+  const char* key = piece.kind == ShapeKind::kPolygon ? "polygon" : "chain";
+  return fmt::format("{} = [{}]\n", key, points);
+}
 
 std::vector<PieceOutline> PiecesOf(const ImportedShape& shape, bool moves) {
   std::vector<PieceOutline> pieces;

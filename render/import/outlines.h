@@ -1,6 +1,7 @@
 #pragma once
 /// The shapes of a scene that an imported shape becomes.
 
+#include <string>
 #include <vector>
 
 #include "common/base/geometry.h"
@@ -22,5 +23,8 @@ struct PieceOutline {
 /// chain or, if it `moves`, as triangles (ear clipping), and a line with two sides as two chains.
 /// Points closer than kEdgeMin are left out. Empty if nothing of the least size remains.
 std::vector<PieceOutline> PiecesOf(const ImportedShape& shape, bool moves);
+
+/// Returns the key of the shape in a scene, a line.
+std::string ShapeText(const PieceOutline& piece);
 
 }  // namespace seam

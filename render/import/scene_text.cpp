@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -15,14 +14,13 @@
 #include "common/scene/scene_limits.h"
 #include "render/import/imported.h"
 #include "render/import/outlines.h"
+#include "render/import/plain_names.h"
 
 namespace seam {
 namespace {
 
 using Eigen::Vector2d;
 using Kind = ImportedBody::Kind;
-
-std::string Pair(const Vector2d& v) { return fmt::format("[{:.9g}, {:.9g}]", v.x(), v.y()); }
 
 class SceneWriter {
  public:
@@ -37,7 +35,7 @@ class SceneWriter {
         if ((world_.joints[j].kind == "gear") == gears) WriteJoint(j);
       }
     }
-    std::string head = fmt::format("title = \"{}\"\ngravity = {}\n", Plain(title),
+    std::string head = fmt::format("title = \"{}\"\ngravity = {}\n", PlainText(title),
                                    Pair(Clamped(world_.gravity, 100, "gravity")));
     if (size_ > double{kSizeMaxDefault}) {
       head += fmt::format("size_max = {:.9g}\n", std::min(std::ceil(size_), double{kSizeMaxMax}));
@@ -69,31 +67,9 @@ class SceneWriter {
     return {Clamp(v.x(), -most, most, what), Clamp(v.y(), -most, most, what)};
   }
 
-  /// Returns `name` as a scene may have it, and as no other thing has it.
-  std::string Unique(const std::string& name, const std::string& otherwise) {
-    std::string plain;
-    for (const char c : name) {
-      const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
-      plain += kept ? c : '-';
-    }
-    while (!plain.empty() && (plain[0] == '-' || plain[0] == '_')) plain.erase(0, 1);
-    if (plain.empty()) plain = otherwise;
-    plain = plain.substr(0, 24);
-    std::string unique = plain;
-    for (int i = 2; !names_.insert(unique).second; ++i) unique = plain + "-" + std::to_string(i);
-    return unique;
-  }
-  static std::string Plain(const std::string& text) {
-    std::string plain;
-    for (const char c : text.substr(0, 100)) {
-      plain += c < ' ' || c > '~' || c == '"' || c == '\\' ? '?' : c;
-    }
-    return plain;
-  }
-
   void PlaceShapes(std::size_t b) {
     ImportedBody& body = world_.bodies[b];
-    body.name = Unique(body.name, "body-" + std::to_string(b));
+    body.name = names_.Take(body.name, "body-" + std::to_string(b));
     const bool moves = body.kind == Kind::kDynamic;
     for (const ImportedShape& shape : body.shapes) {
       const std::string what =
@@ -106,7 +82,7 @@ class SceneWriter {
       if (pieces.empty()) Drop(what + ": smaller than " + fmt::format("{:g} m", kSizeMin));
       for (const PieceOutline& piece : pieces) {
         Placed placed;
-        placed.name = placed_[b].empty() ? body.name : Unique(body.name, body.name);
+        placed.name = placed_[b].empty() ? body.name : names_.Take(body.name, body.name);
         placed.piece = piece;
         placed.shape = &shape;
         placed.density =
@@ -202,26 +178,14 @@ class SceneWriter {
     if (body.kind == Kind::kStatic || placed_[b].empty()) return;
     for (std::size_t i = 1; i < placed_[b].size(); ++i) {
       text_ += fmt::format("\n[[joint]]\nname = \"{}\"\nkind = \"weld\"\na = \"{}\"\nb = \"{}\"\n",
-                           Unique(body.name + "-weld", "weld"), body.name, placed_[b][i].name);
+                           names_.Take(body.name + "-weld", "weld"), body.name, placed_[b][i].name);
     }
     if (!turns) return;
     text_ += fmt::format(
         "\n[[joint]]\nname = \"{}\"\nkind = \"kinematic\"\nb = \"{}\"\nanchor = {}\nturning = "
         "{:.9g}\n",
-        Unique(body.name + "-turns", "turns"), body.name, Pair(body.position),
+        names_.Take(body.name + "-turns", "turns"), body.name, Pair(body.position),
         Clamp(body.spin, -double{kSpinMax}, double{kSpinMax}, "body '" + body.name + "': spin"));
-  }
-
-  static std::string ShapeText(const PieceOutline& piece) {
-    switch (piece.kind) {
-      case ShapeKind::kBox: return fmt::format("box = {}\n", Pair(piece.size));
-      case ShapeKind::kCircle: return fmt::format("circle = {:.9g}\n", piece.radius);
-      default: break;
-    }
-    std::string points;
-    for (const Vector2d& p : piece.points) points += (points.empty() ? "" : ", ") + Pair(p);
-    const char* key = piece.kind == ShapeKind::kPolygon ? "polygon" : "chain";
-    return fmt::format("{} = [{}]\n", key, points);
   }
 
   void WriteMaterial(const ImportedBody& body, const Placed& placed) {
@@ -295,7 +259,7 @@ class SceneWriter {
     }
     const bool rigid = IsRigidWeld(j);
     if (j.collide && !rigid) text += "collide = true\n";
-    written_[static_cast<int>(index)] = Unique(label, j.kind);
+    written_[static_cast<int>(index)] = names_.Take(label, j.kind);
     text_ += fmt::format("\n[[joint]]\nname = \"{}\"\n{}", written_[static_cast<int>(index)], text);
   }
 
@@ -368,7 +332,7 @@ class SceneWriter {
 
   Imported& world_;
   std::vector<std::vector<Placed>> placed_;  // by body
-  std::set<std::string> names_;
+  UniqueNames names_;
   std::map<int, std::string> written_;  // joints by their index in the file
   double size_ = 0, reach_ = 0;         // m: largest moving shape; farthest moving body
   std::string text_;

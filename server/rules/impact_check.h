@@ -55,7 +55,7 @@ class ImpactCheck {
   const World& world_;
   const StateTrail& trail_;
   const std::int64_t tick_;
-  std::vector<int> island_;  // by mechanism; empty: not found yet
+  std::vector<int> island_;  // rebuilt by each check, by mechanism
 };
 
 }  // namespace seam

@@ -6,8 +6,8 @@
 
 #include "common/measure/measure.h"
 #include "common/sync/edits/edit_order.h"
+#include "tests/cluster/anchored_scenes.h"
 #include "tests/lab/cluster.h"
-#include "tests/support/anchored_scenes.h"
 
 namespace seam {
 namespace anchored_glue_test {

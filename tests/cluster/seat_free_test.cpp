@@ -90,7 +90,7 @@ TEST(SeatFree, TheSeatOfAKilledPlayerIsFreeWhenItsPlaceHasEnded) {
   }
 }
 
-TEST(SeatFree, WhoComesBackInTimeStillSitsThere) {
+TEST(SeatFree, APlayerWhoComesBackInTimeStillSitsThere) {
   Cluster cluster(Room(Cart()));
   cluster.RunToTick(6 * 60);
   cluster.Kill(0);

@@ -140,7 +140,7 @@ TEST(Measure, TicksAndBodiesTheOracleDoesNotHaveAreLeftOut) {
   oracle.first_tick = 1000;
   const Measures m = Measure(run, oracle);
   EXPECT_EQ(m.compared, 0);
-  EXPECT_EQ(CsvLine({"r", run.room, m, "", 0, 0}), ",r,oracle,,,0,,,,,,,,,,,,,,,,0,,");
+  EXPECT_EQ(CsvLine({"r", run.room, m, "", "", 0, 0}), ",r,oracle,,,0,,,,,,,,,,,,,,,,0,,");
 }
 
 // ---- oracles and tables

@@ -197,7 +197,7 @@ TEST_F(BadInput, TheRendererRefusesWrongLogsAndFlags) {
          log("sceneless.lcm", "bad"),
          Render({"good.lcm", "-o", "words.lcm"}, "not a folder"),
          Render({"good.lcm", "-o", "words.lcm/new"}, "words.lcm/new"),
-         Render({"good.lcm", "-o", "pictures"}, "other files"),
+         Render({"good.lcm", "-o", "pictures"}, "holds files"),
          Render({"good.lcm", "stack.lcm", "-o", "new"}, "--compare"),
          good({"--oracle", "missing.lcm"}, "missing.lcm"),
          good({"--oracle", "good.lcm"}, "no oracle"),
@@ -219,7 +219,7 @@ TEST_F(BadInput, TheRendererRefusesWrongLogsAndFlags) {
          Render({"--strobe", "good.lcm", "-o", "new.png", "--view", "all"}, "--view all"),
          Render({"--live", "good.lcm", "-o", "new"}, "--live"),
          Render({"--live", "-o", "new", "--lcm-url", "magic"}, "LCM url \"magic"),
-         Render({"--live", "-o", "pictures"}, "other files"),
+         Render({"--live", "-o", "pictures"}, "holds files"),
          Render({"--live", "-o", "new", "--oracle", "good.lcm"}, "no oracle")});
 }
 

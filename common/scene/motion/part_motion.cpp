@@ -12,10 +12,11 @@ constexpr const char* kMotionKeys[] = {"linear_damping", "angular_damping", "gra
                                        "fixed_rotation"};
 
 void ReadFilter(const SceneReader& r, CollisionFilter* filter) {
-  constexpr Range kBits{0, UINT16_MAX};
+  constexpr Range kFilterBits{0, UINT16_MAX};
   filter->group = r.Integer("group", {-1000, 1000}, 0);
-  filter->category = static_cast<std::uint16_t>(r.Integer("category", kBits, filter->category));
-  filter->mask = static_cast<std::uint16_t>(r.Integer("mask", kBits, filter->mask));
+  filter->category =
+      static_cast<std::uint16_t>(r.Integer("category", kFilterBits, filter->category));
+  filter->mask = static_cast<std::uint16_t>(r.Integer("mask", kFilterBits, filter->mask));
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 #include "common/measure/measure.h"
 #include "common/scene/scene.h"
 #include "common/sync/edits/edit_order.h"
+#include "tests/cluster/anchored_scenes.h"
 #include "tests/lab/cluster.h"
-#include "tests/support/anchored_scenes.h"
 
 namespace seam {
 namespace edit_order_scenes_test {
