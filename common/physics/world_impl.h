@@ -120,9 +120,9 @@ struct World::Impl {
   /// Returns an error if the snapshot has other bodies or joints than the world.
   Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
   /// Makes everything anew, in the states of the snapshot. Data of joints that are gone is left
-  /// out. The stages' data may be empty: then they begin anew, too. `new_activities`: by body of
-  /// the snapshot; nullptr: activities and bodies stay.
-  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Activity>* new_activities);
+  /// out. The stages' data may be empty: then they begin anew, too. `edited`: activities by body of
+  /// the snapshot, after an edit; nullptr: activities and bodies stay.
+  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Activity>* edited);
   /// True if every body that takes part in steps is at rest and nothing moves on a path.
   bool AllStill() const;
   bool BuiltAlready(const WorldSnapshot& snapshot) const;

@@ -160,7 +160,7 @@ std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& s
 /// Before a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
 /// none is, and the next rebuild may move them.
 void World::Impl::Arrange(const std::vector<Activity>& wanted) {
-  const bool any = std::find(wanted.begin(), wanted.end(), Activity::kDisplayed) != wanted.end();
+  const bool any = !std::all_of(wanted.begin(), wanted.end(), IsPresent);
   const bool others = memory.composition != composition.hash;
   unsettled = others && any;
   if (others) {
@@ -169,10 +169,8 @@ void World::Impl::Arrange(const std::vector<Activity>& wanted) {
     return;
   }
   SaveAllJoints(any);
-  memory.goes_aside.assign(wanted.size(), 0);
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    memory.goes_aside[i] = IsPresent(wanted[i]) ? 0 : 1;
-  }
+  memory.goes_aside.clear();
+  for (const Activity each : wanted) memory.goes_aside.push_back(IsPresent(each) ? 0 : 1);
 }
 
 /// Likewise, before a rebuild of the present bodies.
@@ -185,12 +183,11 @@ void World::Impl::ArrangeCrossed() {
   }
 }
 
-void World::Impl::Rebuild(const WorldSnapshot& snapshot,
-                          const std::vector<Activity>* new_activities) {
-  const bool same = new_activities == nullptr && memory.composition == composition.hash &&
+void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Activity>* edited) {
+  const bool same = edited == nullptr && memory.composition == composition.hash &&
                     memory.revision == topology.revision();
   std::vector<Activity> wanted;
-  if (!same) wanted = new_activities != nullptr ? *new_activities : activities;
+  if (!same) wanted = edited != nullptr ? *edited : activities;
   same ? ArrangeCrossed() : Arrange(wanted);
   Empty();
   tick = snapshot.tick;  // stages place things by the tick

@@ -226,15 +226,20 @@ double Open(const World& world) {
   return worst;
 }
 
-TEST(DisplayedBody, ItsJointsAreKnownWhileAbsentAndHoldAfterItsReturn) {
+class NotPresent : public testing::TestWithParam<Activity> {};
+
+TEST_P(NotPresent, JointsAreKnownAndHoldAfterTheReturn) {
   for (const char* joints : {"joints = \"exact\"\n", "joints = \"iterative\"\n"}) {
     const std::unique_ptr<World> world = SmallWorld(kRope, joints);
     Steps(world.get(), 30);
     const std::size_t pins = world->Pins().size();
     ASSERT_EQ(pins, 4u);
-    SetRope(world.get(), Activity::kDisplayed);
+    SetRope(world.get(), GetParam());
     Steps(world.get(), 1);
     EXPECT_EQ(world->Pins().size(), pins) << joints;
+    PushEdit push;  // changes no bodies, but the next barrier builds all of them anew
+    push.part = world->id(kLinks);
+    EXPECT_FALSE(world->Apply({Edit(push)}).has_value());
     world->Barrier();
     EXPECT_EQ(world->Pins().size(), pins) << joints;
     SetRope(world.get(), Activity::kSimulated);
@@ -244,6 +249,10 @@ TEST(DisplayedBody, ItsJointsAreKnownWhileAbsentAndHoldAfterItsReturn) {
     EXPECT_LT(world->Read(kLinks).position.y(), -20) << "what lies apart fell on";
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Activities, NotPresent,
+                         testing::Values(Activity::kDisplayed, Activity::kParked,
+                                         Activity::kDormant));
 
 TEST(DisplayedBody, AWorldGoesBackToATickWithOtherPresentBodies) {
   const std::unique_ptr<World> world = SmallWorld(kRope);
