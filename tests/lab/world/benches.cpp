@@ -14,7 +14,6 @@ const std::vector<Bench>& WorldBenches() {
       {"grouping", GroupingBench},
       {"grouping-moving", GroupingMovingBench},
       {"joints", JointsBench},
-      {"taut-bridge", TautBridgeBench},
       {"characters", CharactersBench},
       {"factor", FactorBench},
       {"planner", PlannerBench},
