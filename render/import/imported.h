@@ -28,7 +28,7 @@ struct ImportedBody {
   std::string name;
   Eigen::Vector2d position{0, 0};  ///< m, of the origin
   double angle = 0;                ///< rad
-  Eigen::Vector2d velocity{0, 0};  ///< m/s, of the origin
+  Eigen::Vector2d velocity{0, 0};  ///< m/s, of the centre of mass
   double spin = 0;                 ///< rad/s
   double linear_damping = 0, angular_damping = 0, gravity_scale = 1;
   bool fixed_rotation = false, bullet = false;

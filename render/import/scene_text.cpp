@@ -134,8 +134,8 @@ class SceneWriter {
            !placed_[static_cast<std::size_t>(j.b)].empty();
   }
 
-  /// Converts the velocities to those of the centres of mass. Welded bodies move as one: all take
-  /// the first's velocity, and none if one of them stands still.
+  /// Welded bodies move as one: all take the first's velocity, and none if one of them stands
+  /// still.
   void ShareVelocities() {
     DisjointSets whole(world_.bodies.size());
     for (const ImportedJoint& j : world_.joints) {
@@ -143,8 +143,6 @@ class SceneWriter {
     }
     for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
       ImportedBody& body = world_.bodies[b];
-      const Vector2d arm = Turned(MassOf(b).centre, body.angle);
-      body.velocity += body.spin * Vector2d(-arm.y(), arm.x());
       if (body.fixed_rotation) body.spin = 0;
     }
     for (std::size_t b = 0; b < world_.bodies.size(); ++b) {

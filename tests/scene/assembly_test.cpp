@@ -132,7 +132,8 @@ TEST(Mass, PolygonsAgreeWithBoxesAndTriangles) {
   EXPECT_NEAR(PartProperties(part).mass, 8 * 3.141592653589793, 1e-12);
   EXPECT_NEAR(PartProperties(part).inertia, 16 * 3.141592653589793, 1e-12);
   part.kind = ShapeKind::kChain;
-  EXPECT_NEAR(PartProperties(part).mass, (3 + std::sqrt(18.0)) * 0.02, 1e-6) << "a strip of 2 cm";
+  EXPECT_NEAR(PartProperties(part).mass, (3 + std::sqrt(18.0)) * 0.02 * 2, 1e-6)
+      << "a strip of 2 cm";
   part.anchored = true;
   EXPECT_EQ(PartMass(part), 0);
 }

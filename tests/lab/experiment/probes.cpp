@@ -4,7 +4,7 @@ namespace seam {
 
 const std::vector<Probe>& Probes() {
   static const std::vector<Probe> probes = {FairnessProbe(), TitlesProbe(), LoadProbe(),
-                                            HandOverProbe()};
+                                            HandOverProbe(), DamageProbe()};
   return probes;
 }
 

@@ -15,5 +15,6 @@ Probe FairnessProbe();
 Probe TitlesProbe();
 Probe LoadProbe();
 Probe HandOverProbe();
+Probe DamageProbe();
 
 }  // namespace seam
