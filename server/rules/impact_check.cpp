@@ -30,17 +30,7 @@ float ExtentOf(const Part& part) {
   return own;
 }
 
-/// Returns the distance from the body's root to its farthest point, m.
-float ExtentOf(const World& world, int body) {
-  const std::vector<Part>& parts = world.scene().parts;
-  const Part& root = parts[static_cast<std::size_t>(world.id(body))];
-  float reach = 0;
-  for (const PartId id : AssemblyOf(world, body).parts) {
-    const Part& part = parts[static_cast<std::size_t>(id)];
-    reach = std::max(reach, (part.position - root.position).norm() + ExtentOf(part));
-  }
-  return reach;
-}
+float ExtentOf(const World& world, int body) { return ExtentOf(world, AssemblyOf(world, body)); }
 
 /// Extends a box by the body's parts in a pose, each as a disc around it.
 void Extend(const World& world, int body, const BodyState& at, MovingBox* box) {
@@ -83,6 +73,17 @@ float LargestApart(const std::vector<Vec2>& one, const std::vector<Vec2>& other)
 }
 
 }  // namespace
+
+float ExtentOf(const World& world, const Assembly& assembly) {
+  const std::vector<Part>& parts = world.scene().parts;
+  const Part& root = parts[static_cast<std::size_t>(assembly.id)];
+  float reach = 0;
+  for (const PartId id : assembly.parts) {
+    const Part& part = parts[static_cast<std::size_t>(id)];
+    reach = std::max(reach, (part.position - root.position).norm() + ExtentOf(part));
+  }
+  return reach;
+}
 
 /// A velocity that was told counts only as far as the places before or after it confirm it: the
 /// mean velocity between two places, and what weight, throttle and brakes change in that time. So

@@ -16,6 +16,9 @@
 
 namespace seam {
 
+/// Returns the distance from the root of an assembly to its farthest point, m.
+float ExtentOf(const World& world, const Assembly& assembly);
+
 /// Judges the impacts of one tick. What is known of the bodies must not change meanwhile.
 class ImpactCheck {
  public:

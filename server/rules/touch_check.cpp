@@ -17,20 +17,6 @@ const Assembly& AssemblyOfPart(const World& world, PartId part) {
   return c.assemblies[static_cast<std::size_t>(index)];
 }
 
-/// Returns the distance from the root of an assembly to its farthest point, m.
-float RadiusOf(const World& world, const Assembly& assembly) {
-  const std::vector<Part>& parts = world.scene().parts;
-  const Part& root = parts[static_cast<std::size_t>(assembly.id)];
-  float reach = 0;
-  for (const PartId id : assembly.parts) {
-    const Part& part = parts[static_cast<std::size_t>(id)];
-    float own = std::max(part.radius, part.kind == ShapeKind::kBox ? part.size.norm() / 2 : 0.0f);
-    for (const Vec2& point : part.points) own = std::max(own, point.norm() + part.radius);
-    reach = std::max(reach, (part.position - root.position).norm() + own);
-  }
-  return reach;
-}
-
 /// True if the body was near the place in that tick, or its newest known state moves it there.
 bool WasNear(const StateTrail::Seen& seen, const Vec2& place, std::int64_t tick, float reach,
              float dt) {
@@ -57,7 +43,7 @@ bool MayTouch(const World& world, const StateTrail& trail, const PartTouch& touc
   const auto side = [&](PartId part) {
     const Assembly& its = AssemblyOfPart(world, part);
     const int index = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
-    Side found{RadiusOf(world, its), {}};
+    Side found{ExtentOf(world, its), {}};
     if (!its.anchored) {
       found.places = trail.Around(world.BodyOfId(its.id), tick - ImpactCheck::kTicksAround, tick);
     }

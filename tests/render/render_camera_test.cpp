@@ -102,7 +102,7 @@ TEST_P(CameraOnScene, HasNoJitterOfItsOwn) {
     const Vec2 now = box.centre() / box.size().x();
     const Vec2 speed = 60 * (now - before);
     if (i > 1) {
-      EXPECT_LT((speed - speed_before).norm(), 1.5f) << i / 60.0;
+      EXPECT_LT((speed - speed_before).norm(), 1.0f) << i / 60.0;
     }
     before = now;
     speed_before = speed;

@@ -51,6 +51,9 @@ TEST(WaterWorld, AFreeFloaterDoesNotSleepInASlowFlow) {
   Steps(&world, 60 * 60);
   EXPECT_TRUE(world.awake(0));
   EXPECT_NEAR(world.Read(0).velocity.x(), 0.004, 1e-3);
+  world.SetAwake(0, false);
+  world.Step();
+  EXPECT_TRUE(world.awake(0)) << "and wakes up there";
 }
 
 TEST(WaterWorld, AMooredFloaterMaySleepInAFlow) {

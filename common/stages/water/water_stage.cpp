@@ -134,6 +134,17 @@ Wettable& WaterStage::WettableOf(int body) {
   return wettable_[body] = std::move(made);
 }
 
+/// Returns true if a joint or contact may hold the body against a flow.
+bool IsHeld(b2Body* body) {
+  if (body->GetJointList() != nullptr) return true;
+  for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+    const bool sensor =
+        edge->contact->GetFixtureA()->IsSensor() || edge->contact->GetFixtureB()->IsSensor();
+    if (!sensor && edge->contact->IsTouching()) return true;
+  }
+  return false;
+}
+
 FloatingBody AsFloating(const b2Body& b) {
   const b2Transform& pose = b.GetTransform();
   const auto mass = static_cast<double>(b.GetMass());
@@ -163,6 +174,10 @@ void WaterStage::Push(int body, bool unseen, float h) {
   b2Body* b = w_.built.moving[static_cast<std::size_t>(body)].body;
   if (IsAside(*b) || b->GetType() != b2_dynamicBody || (unseen && !IsNear(b))) return;
   const auto in = [&](std::size_t i) { return unseen || Touching(body, i) > 0; };
+  for (std::size_t i = 0; i < w_.scene.waters.size(); ++i) {
+    // A body that drifts too slowly for the engine must not fall asleep on the way.
+    if (in(i) && w_.scene.waters[i].flow != Vec2(0, 0) && !IsHeld(b)) b->SetAwake(true);
+  }
   if (!b->IsAwake()) return;
   Wettable& wettable = WettableOf(body);
   const FloatingBody floating = AsFloating(*b);
