@@ -18,30 +18,52 @@ constexpr float kAlone = 3;         ///< box around a single body, in multiples 
 /// leading bodies. Larger: the mechanisms become specks; smaller: more of what moves is cut off.
 constexpr float kAreaPerMechanism = 40;
 
-/// Smooths boxes by a Gaussian in time, and enlarges a box where smoothing would cut off more than
-/// the margin.
-std::vector<WorldBox> Smoothed(const std::vector<WorldBox>& raw) {
-  const double sigma = kSmooth_s * kSamplesPerSecond;
-  const int reach = static_cast<int>(std::ceil(2 * sigma));
+constexpr double kSigma = kSmooth_s * kSamplesPerSecond;  ///< in samples
+const int kReach = static_cast<int>(std::ceil(2 * kSigma));
+
+/// Returns the boxes' means by a Gaussian in time.
+std::vector<WorldBox> Mean(const std::vector<WorldBox>& raw) {
   const int count = static_cast<int>(raw.size());
-  std::vector<WorldBox> smooth;
+  std::vector<WorldBox> means;
   for (int i = 0; i < count; ++i) {
     Vec2 min(0, 0), max(0, 0);
     float sum = 0;
     // The same number of neighbours on both sides; otherwise the ends would be pulled inwards.
-    const int near = std::min({reach, i, count - 1 - i});
+    const int near = std::min({kReach, i, count - 1 - i});
     for (int k = -near; k <= near; ++k) {
-      const auto weight = static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)));
+      const auto weight = static_cast<float>(std::exp(-0.5 * k * k / (kSigma * kSigma)));
       min += weight * raw[static_cast<std::size_t>(i + k)].min;
       max += weight * raw[static_cast<std::size_t>(i + k)].max;
       sum += weight;
     }
-    WorldBox box{min / sum, max / sum};
-    const Vec2 spare = 0.8f * kMargin * box.size();
-    const WorldBox& must = raw[static_cast<std::size_t>(i)];
-    box.min = box.min.cwiseMin(must.min + spare);
-    box.max = box.max.cwiseMax(must.max - spare);
-    smooth.push_back(box);
+    means.push_back({min / sum, max / sum});
+  }
+  return means;
+}
+
+/// Smooths boxes in time, and enlarges a box where smoothing would cut off more than the margin.
+/// What is added begins before and ends after that moment, itself smooth: a mean of the largest
+/// additions around.
+std::vector<WorldBox> Smoothed(const std::vector<WorldBox>& raw) {
+  std::vector<WorldBox> smooth = Mean(raw), lacks, added;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const Vec2 spare = 0.8f * kMargin * smooth[i].size();
+    lacks.push_back({(raw[i].min + spare - smooth[i].min).cwiseMin(0.0f),
+                     (raw[i].max - spare - smooth[i].max).cwiseMax(0.0f)});
+  }
+  const int count = static_cast<int>(raw.size());
+  for (int i = 0; i < count; ++i) {
+    WorldBox most{Vec2(0, 0), Vec2(0, 0)};
+    for (int k = std::max(0, i - kReach); k <= std::min(count - 1, i + kReach); ++k) {
+      most.min = most.min.cwiseMin(lacks[static_cast<std::size_t>(k)].min);
+      most.max = most.max.cwiseMax(lacks[static_cast<std::size_t>(k)].max);
+    }
+    added.push_back(most);
+  }
+  added = Mean(added);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    smooth[i].min += added[i].min;
+    smooth[i].max += added[i].max;
   }
   return smooth;
 }
