@@ -14,6 +14,7 @@
 #include "common/physics/world_build.h"
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
+#include "common/scene/scene_limits.h"
 #include "common/scene/types.h"
 #include "common/topology/edit.h"
 #include "common/topology/topology.h"
@@ -35,7 +36,7 @@ struct StageWorld {
 constexpr int kStageNumberMax = 1 << 24;
 
 /// The numbers that the stages of a world have saved, to be read back in their order. Trusts none
-/// of them: after a number that is missing, not finite or out of its range, good() is false.
+/// of them: after a number that is missing or out of its range, good() is false.
 class StageMemory {
  public:
   /// `numbers` must outlive this.
@@ -44,8 +45,9 @@ class StageMemory {
   /// Returns the next number; 0 if it is none.
   float Next() {
     const float number = at_ < numbers_.size() ? numbers_[at_++] : NAN;
-    good_ = good_ && std::isfinite(number);
-    return std::isfinite(number) ? number : 0;
+    const bool in = std::abs(number) <= kImpulseMax;  // no place, speed or time is larger
+    good_ = good_ && in;
+    return in ? number : 0;
   }
   /// Returns the next number as a whole one; `least` if it is not in least..most.
   int NextInt(int least, int most) {

@@ -43,6 +43,9 @@ static_assert(kSpinMax < kStepHzMin * 1.5707f);
 /// m/s
 constexpr float kSpeedMax = 120;
 static_assert(kSpeedMax <= kStepHzMin * 2);
+/// Largest impulse, N s, and angular impulse, N m s: that of 10 000 t at the greatest speed. The
+/// lightest part stays finite with it.
+constexpr float kImpulseMax = 1e9f;
 /// Returns the least number of substeps at this tick rate.
 constexpr int SubstepsMin(int tick_hz) { return (kStepHzMin + tick_hz - 1) / tick_hz; }
 /// m. Least: half of the engine's slop, so that resting shapes just touch; with less they overlap.

@@ -99,9 +99,11 @@ Status Topology::Validate(const Edit& edit) const {
                  [&](const RemoveEdit& remove) { return has(remove.part); },
                  [&](const FreeEdit& free) { return has(free.part); },
                  [&](const PushEdit& push) {
-                   const bool finite = push.impulse.allFinite() && std::isfinite(push.turn) &&
-                                       std::isfinite(push.limp);
-                   return finite ? has(push.part) : Status::Error("the impulse is not finite");
+                   const bool possible = push.impulse.norm() <= kImpulseMax &&
+                                         std::abs(push.turn) <= kImpulseMax &&
+                                         std::isfinite(push.limp);
+                   return possible ? has(push.part)
+                                   : Status::Error("the impulse is not finite, or above 1e9 N s");
                  },
                  [&](const SeatEdit& seat) {
                    if (seat.seat < 0 ||

@@ -48,6 +48,7 @@ class LoneRoom {
     for (int p = 0; p < static_cast<int>(server->scene().players.size()); ++p) {
       replica.RecordInput(p, tick, InputOf(p, tick));
     }
+    if (!server->started()) Start();  // a saved room may not have started
     now_us = std::max(now_us, server->next_tick_us());
     server->Tick(now_us, 0);
     ASSERT_EQ(server->tick(), tick);

@@ -322,5 +322,19 @@ TEST(Topology, ABondWithAnAnchoredPartCarriesTheMechanismAlong) {
   EXPECT_LT((PartPose(*world, 1).position - Vec2(5, 2)).norm(), 1e-5f);
 }
 
+TEST(Topology, APushBeyondTheLimitIsRefusedAndOneAtItStaysFinite) {
+  const auto world = SmallWorld(Part("mote", 0.05, 0.05, 0, 0, "density = 0.01"), "", kNoGravity);
+  const float most = 1e9f, inf = std::numeric_limits<float>::infinity();
+  for (const float much : {2 * most, 3e38f, inf, -inf, std::nanf("")}) {
+    EXPECT_FALSE(world->topology().Validate(Edit(PushEdit{0, {much, 0}})).ok()) << much;
+    EXPECT_FALSE(world->topology().Validate(Edit(PushEdit{0, {0, 0}, much})).ok()) << much;
+  }
+  ASSERT_TRUE(world->topology().Validate(Edit(PushEdit{0, {most, 0}, most})).ok());
+  world->Apply({Edit(PushEdit{0, {most, 0}, most})});
+  Steps(world.get(), 20);
+  EXPECT_TRUE(world->Read(0).position.allFinite());
+  EXPECT_TRUE(std::isfinite(world->Read(0).angle));
+}
+
 }  // namespace topology_test
 }  // namespace seam

@@ -14,8 +14,6 @@
 namespace seam {
 namespace {
 
-/// Largest saved impulse, N s or N m s: ten times that of 10 t at the engine's fastest, 120 m/s.
-constexpr float kImpulseSavedMost = 1e7f;
 /// Most contact points of a world, and numbers that its stages save: far more than bodies have.
 constexpr std::size_t kPointsMost = 1 << 24, kStageNumbersMost = 1 << 24;
 /// Most rows of a joint's impulses.
@@ -46,11 +44,11 @@ void Persist(StateArchive& a, WorldSnapshot* snapshot) {
   a.List(&snapshot->points, kPointsMost, [&](WorldSnapshot::Point* point) {
     a.Word(&point->pair);
     a.Word(&point->feature);
-    a.Real(&point->normal, kImpulseSavedMost);
-    a.Real(&point->tangent, kImpulseSavedMost);
+    a.Real(&point->normal, kImpulseMax);
+    a.Real(&point->tangent, kImpulseMax);
   });
   a.List(&snapshot->joints, kPointsMost, [&](std::vector<float>* impulses) {
-    a.List(impulses, kImpulsesMost, [&](float* impulse) { a.Real(impulse, kImpulseSavedMost); });
+    a.List(impulses, kImpulsesMost, [&](float* impulse) { a.Real(impulse, kImpulseMax); });
   });
   a.List(&snapshot->left, kPartsMax, [&](WorldSnapshot::Left* left) {
     a.Int(&left->body, 0, static_cast<std::int64_t>(kPartsMax));

@@ -83,7 +83,10 @@ void Attack(const Bytes& good, int times, std::uint64_t seed) {
   EXPECT_GT(accepted, 0);
 }
 
-TEST(RoomStateDamage, SignedDamageNeverCrashes) { Attack(Rich(), 2000, 1); }
+TEST(RoomStateDamage, SignedDamageNeverCrashes) {
+  const Bytes good = Rich();
+  for (const std::uint64_t seed : {1, 14, 31, 58}) Attack(good, 500, seed);
+}
 
 TEST(RoomStateDamage, SignedDamageOfBondsSeatsAndWaterNeverCrashes) {
   for (const char* scene : {"dockside", "gluehouse", "ragdolls"}) {
