@@ -110,6 +110,9 @@ class ExactIsland {
     double goal = 0;  // m or rad
     double side = 0;  // m/s or rad/s, at the last correction
   };
+  /// Shares by which diagonal entries of hard and of bounded rows are enlarged, because rows may be
+  /// redundant.
+  static constexpr double kHardShare = 1e-7, kBoundedShare = 1e-6;
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
   ExactBody& Body(int body) { return bodies[static_cast<std::size_t>(body)]; }
   long ShapeMatrix(long most);
@@ -141,8 +144,11 @@ class ExactIsland {
   Start StartOf(const Pace& pace) const;
   bool Possible(const Start& start, bool pushes);
   void KeepPoses();
-  void CheckWithoutContacts(const Pace& pace, bool whole);
+  void RestorePoses(std::vector<ExactBody>* to) const;
+  bool Gains(const Start& start);
+  void CheckWithoutContacts(const Pace& pace, bool whole, bool shut);
   void Calm(const Pace& pace, const Start& start);
+  void Agree(double h);
   void PushApart(const Pace& pace);
   bool PushesOut() const;
   void Kick(double h);
@@ -169,22 +175,35 @@ class ExactIsland {
   bool ShutJoints(const Pace& pace);
   void Accelerate(double slope);
   void SoftenContacts();
-  void SolveAtEnd(const Pace& pace);
+  void SolveAtEnd(const Pace& pace, double hard, int rounds);
 
   // The tension of joints as additional inertia.
   static double Stiffened(const ExactBody& q);
   void Tension(double h);
   bool Stiffer();
+  /// The inertia is computed anew, so often at most, while it is too small by more than this
+  /// factor.
+  static constexpr double kStifferBy = 1.1;
+  static constexpr int kStifferTries = 4;
+  /// Share of the stiffness left per substep without tension: inertias that jump cause noise.
+  static constexpr double kLasts = 0.999;
+
+  // Taut mechanisms.
+  bool Taut(double h) const;
+  bool TautCourse(const Pace& pace);
+  void Stiffen();
+  bool TooSoft() const;
+  bool CloseTaut(const Pace& pace);
+  void FindWay(const Pace& pace);
 
   // The system of rows, for the current velocities.
-  /// `hard`, `bounded`: shares by which diagonal entries are enlarged, because rows may be
-  /// redundant.
-  static constexpr double kHardShare = 1e-7, kBoundedShare = 1e-6;
   void Assemble(double hard = kHardShare, double bounded = kBoundedShare);
   bool Assembles(double hard, double bounded);
   int FirstChanged(double hard, double bounded);
   void Factor();
-  void Solve(bool ahead);
+  /// Most rounds in which friction follows the normal impulses.
+  static constexpr int kFrictionRounds = 3;
+  void Solve(bool ahead, int rounds = kFrictionRounds);
   bool PivotToTheEnd();
   bool Pivot(int* wrong);
   void SetFrictionBounds();

@@ -4,6 +4,7 @@
 /// detects such a substep and solves it differently.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/physics/exact/island.h"
@@ -29,6 +30,8 @@ constexpr double kDiagonalOfJam = 1e-3;
 constexpr double kDeep = 0.03;
 /// m/s: maximal speed of that motion; and the speed below which it may be ignored for sleep.
 constexpr double kApartMost = 1, kApartStill = 0.01;
+/// Numbers of a body's kept pose: place, angle, its cosine and sine.
+constexpr std::size_t kPoseNumbers = 5;
 
 }  // namespace
 
@@ -123,9 +126,9 @@ bool ExactIsland::Possible(const Start& start, bool pushes) {
   return true;
 }
 
-/// Saves poses. Sufficient without contacts, as SolveAhead saves the velocities.
+/// Saves poses. With the velocities that SolveAhead saves, that is enough to go back.
 void ExactIsland::KeepPoses() {
-  poses_.resize(5 * bodies.size());
+  poses_.resize(kPoseNumbers * bodies.size());
   double* pose = poses_.data();
   for (const ExactBody& q : bodies) {
     *pose++ = q.x;
@@ -136,28 +139,48 @@ void ExactIsland::KeepPoses() {
   }
 }
 
-/// Checks a substep without contacts in which joints could not be satisfied or energy grew: a
-/// mechanism at its dead centre or a pulley without rope can only stop. Calms it if it gained more
-/// than was supplied. `whole`: all of its kick was at the beginning.
-void ExactIsland::CheckWithoutContacts(const Pace& pace, bool whole) {
-  bodies_before_ = bodies;
+/// Returns bodies to the saved poses.
+void ExactIsland::RestorePoses(std::vector<ExactBody>* to) const {
   const double* pose = poses_.data();
-  for (ExactBody& q : bodies_before_) {
+  for (ExactBody& q : *to) {
     q.x = *pose++;
     q.y = *pose++;
     q.a = *pose++;
     q.c = *pose++;
     q.s = *pose++;
   }
+}
+
+/// True if a substep without contacts has gained more energy than was supplied.
+bool ExactIsland::Gains(const Start& start) {
+  const double most = kGainOnce * (kGainShare * start.energy + kGainPerMass * start.mass);
+  const double gained = KineticOf(bodies) - start.energy;
+  return gained > most && gained - WorkDone(start.mass) > most;
+}
+
+/// Checks a substep without contacts in which joints could not be satisfied or energy grew: a
+/// mechanism at its dead centre or a pulley without rope can only stop. Solves it as taut if it is,
+/// and calms it if it gained more than was supplied. `whole`: all of its kick was at the beginning.
+/// `shut`: its joints are closed.
+void ExactIsland::CheckWithoutContacts(const Pace& pace, bool whole, bool shut) {
+  bodies_before_ = bodies;
+  RestorePoses(&bodies_before_);
   bodies.swap(bodies_before_);
   Restore(start_);
   const Start start = StartOf(pace);
+  const bool taut = !shut && Taut(pace.h);
   bodies.swap(bodies_before_);
-  const double most = kGainShare * start.energy + kGainPerMass * start.mass;
-  const double gained = KineticOf(bodies) - start.energy;
-  if (gained <= kGainOnce * most || gained - WorkDone(start.mass) <= kGainOnce * most) return;
+  if (!taut && !Gains(start)) return;
   rows_before_ = rows_;
-  for (Row& row : rows_before_) row.total -= row.base;
+  for (Row& row : rows_before_) {
+    row.total -= row.base;
+    row.base = 0;
+  }
+  if (taut) {
+    GoBack(pace);
+    if (!whole) Kick(pace.h / 2);
+    if (TautCourse(pace) && !Gains(start)) return;
+  }
   Calm(pace, start);
   if (!whole) Kick(pace.h / 2);
 }
@@ -166,7 +189,7 @@ void ExactIsland::CheckWithoutContacts(const Pace& pace, bool whole) {
 /// neither separate joints nor press contacts together. With the bodies' own inertias, and target
 /// speeds only for motors and springs, that takes energy and never adds any, however far the solve
 /// gets. Rows give way a little, so that contradictions make bounded impulses. Joints are brought
-/// together without velocity.
+/// together without velocity, after which the velocities agree with the way.
 void ExactIsland::Calm(const Pace& pace, const Start& start) {
   GoBack(pace);
   for (ExactBody& q : bodies) {
@@ -200,11 +223,43 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
     row.total += row.base;
     row.lambda = 0;
   }
+  KeepPoses();
   Move(pace.h);
   Fill(pace);
   BringTogether(pace);
+  Agree(pace.h);
   for (ExactBody& q : bodies) q.lasting *= kGainKept;
   gained_ *= kGainKept;
+}
+
+/// Changes velocities towards those of the way from the kept poses to here, as far as that takes
+/// kinetic energy. Rows that give way let a load on a taut chain sink, and the joints lift it again
+/// without velocity: its speed would grow by gravity for ever, while it stays where it is.
+void ExactIsland::Agree(double h) {
+  const auto left = [h](const ExactBody& q, const double* pose) {
+    return std::array<double, 3>{(q.x - pose[0]) / h - q.vx, (q.y - pose[1]) / h - q.vy,
+                                 (q.a - pose[2]) / h - q.w};
+  };
+  double along = 0, square = 0;
+  const double* pose = poses_.data();
+  for (const ExactBody& q : bodies) {
+    const std::array<double, 3> by = left(q, pose);
+    pose += kPoseNumbers;
+    if (!q.moves()) continue;
+    along += (by[0] * q.vx + by[1] * q.vy) / q.im + by[2] * q.w * q.inertia;
+    square += (by[0] * by[0] + by[1] * by[1]) / q.im + by[2] * by[2] * q.inertia;
+  }
+  if (along >= 0) return;
+  const double share = std::min(1.0, -along / square);
+  pose = poses_.data();
+  for (ExactBody& q : bodies) {
+    const std::array<double, 3> by = left(q, pose);
+    pose += kPoseNumbers;
+    if (!q.moves()) continue;
+    q.vx += share * by[0];
+    q.vy += share * by[1];
+    q.w += share * by[2];
+  }
 }
 
 /// Resolves overlaps that remain after a jammed substep by a separate motion that leaves no

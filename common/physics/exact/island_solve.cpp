@@ -10,8 +10,7 @@
 namespace seam {
 namespace {
 
-/// Rounds of friction; they end when the bounds change by less than kFrictionSame, as a share.
-constexpr int kFrictionRounds = 3;
+/// Rounds of friction end when the bounds change by less than this share.
 constexpr double kFrictionSame = 0.02;
 /// Pivots before Descend takes over; and the number of those without progress.
 constexpr int kPivots = 12, kPatience = 3;
@@ -211,7 +210,7 @@ bool ExactIsland::NextFrictionBounds() {
   return change > kFrictionSame;
 }
 
-void ExactIsland::Solve(bool ahead) {
+void ExactIsland::Solve(bool ahead, int rounds) {
   if (given_up()) return;
   if (relaxed_) {
     Relax(ahead);
@@ -220,7 +219,7 @@ void ExactIsland::Solve(bool ahead) {
   if (bounded_ > 0) Save(&before_);  // else the first pivot is the last
   moved_ = false;
   next_.resize(rows_.size());
-  for (int round = 0; round < kFrictionRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     SetFrictionBounds();
     if (!PivotToTheEnd()) Descend();
     if (contacts.empty() || !NextFrictionBounds()) break;

@@ -21,11 +21,6 @@ constexpr double kStiffTo = 1, kStiffFrom = 0.4;
 constexpr double kSurelyLittle = 0.39;
 /// Limit of the stiffness, as a multiple of the inertia: a jam may report any tension.
 constexpr double kStiffMost = 100;
-/// Share of the stiffness left per substep without tension: inertias that jump cause noise.
-constexpr double kLasts = 0.999;
-/// The inertia is computed anew while it is too small by more than this factor.
-constexpr double kStifferBy = 1.1;
-constexpr int kStifferTries = 4;
 /// Growth of energy from which a substep without contacts is checked.
 constexpr double kMuchMore = 2;
 /// A motor that lacks this much speed applies its maximum, rad/s or m/s.
@@ -81,13 +76,18 @@ void ExactIsland::Substep(const Pace& pace) {
   if (contacts.empty()) {
     KeepPoses();
     const double most = kMuchMore * KineticOf(bodies);
-    if (!Course(pace, whole) || KineticOf(bodies) > most) CheckWithoutContacts(pace, whole);
+    const bool shut = Course(pace, whole);
+    if (!shut || KineticOf(bodies) > most) CheckWithoutContacts(pace, whole, shut);
     return;
   }
   bodies_before_ = bodies;
   rows_before_ = rows_;
   const Start start = StartOf(pace);
   const bool pushes = PushesOut();
+  if (Taut(pace.h)) {
+    if (TautCourse(pace) && Possible(start, false)) return;
+    GoBack(pace);
+  }
   Course(pace, whole);
   if (Possible(start, pushes)) return;
   // In a jam, contacts that resolve an overlap add energy that the solve at the end cannot take
@@ -127,7 +127,7 @@ bool ExactIsland::Course(const Pace& pace, bool whole) {
   Move(pace.h);
   const bool shut = ShutJoints(pace);
   if (!whole) Kick(pace.h / 2);
-  SolveAtEnd(pace);
+  SolveAtEnd(pace, kHardShare, kFrictionRounds);
   Arrive();
   for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
   return shut;
@@ -197,7 +197,7 @@ void ExactIsland::Move(double h) {
   }
 }
 
-void ExactIsland::SolveAtEnd(const Pace& pace) {
+void ExactIsland::SolveAtEnd(const Pace& pace, double hard, int rounds) {
   Fill(pace);
   for (Row& row : rows_) {
     row.lambda = 0;
@@ -219,8 +219,8 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
       case RowKind::kFriction: break;
     }
   }
-  Assemble();
-  Solve(false);
+  Assemble(hard);
+  Solve(false, rounds);
   for (Row& row : rows_) {
     row.base += row.lambda;
     row.total += row.base;

@@ -152,7 +152,7 @@ void ExactIsland::Rejoin(const Pace& pace, bool struck) {
       At(contact_row_[c] + 2 * i).state = RowState::kOut;  // its impact comes in the next step
     }
   }
-  SolveAtEnd(pace);
+  SolveAtEnd(pace, kHardShare, kFrictionRounds);
 }
 
 /// Shifts positions as an impulse of `by` would in one second: m or rad.

@@ -26,6 +26,7 @@ TextTable AssemblyBench(bool quick);
 TextTable GroupingBench(bool quick);
 TextTable GroupingMovingBench(bool quick);
 TextTable JointsBench(bool quick);
+TextTable TautBridgeBench(bool quick);
 TextTable CharactersBench(bool quick);
 TextTable FactorBench(bool quick);
 TextTable PlannerBench(bool quick);

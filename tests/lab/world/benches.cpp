@@ -14,6 +14,7 @@ const std::vector<Bench>& WorldBenches() {
       {"grouping", GroupingBench},
       {"grouping-moving", GroupingMovingBench},
       {"joints", JointsBench},
+      {"taut-bridge", TautBridgeBench},
       {"characters", CharactersBench},
       {"factor", FactorBench},
       {"planner", PlannerBench},
