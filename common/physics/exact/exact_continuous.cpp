@@ -98,13 +98,27 @@ double ExactStep::EnergyOf(const Found& found, bool left) const {
 }
 
 /// Bodies that are moved back to their impact, and others with them, may be lifted, in a jam at
-/// every step. Takes the gained energy from their motion.
-void ExactStep::RemoveLiftEnergy(double before, Found* found) const {
+/// every step. Takes the gained energy from their motion, and moves the bodies back towards `from`
+/// as far as their motion has less.
+void ExactStep::RemoveLiftEnergy(double before, const std::vector<ExactBody>& from,
+                                 Found* found) const {
   double mass = 0;
   for (const ExactBody& q : found->island->bodies) mass += q.moves() ? 1 / q.im : 0;
   const double kinetic = KineticOf(found->island->bodies);
-  const double excess = EnergyOf(*found, false) - before;
-  if (excess <= kLiftShare * kinetic + kLiftPerMass * mass) return;
+  const double spare = kLiftShare * kinetic + kLiftPerMass * mass;
+  double excess = EnergyOf(*found, false) - before;
+  if (excess <= spare) return;
+  if (excess > kinetic + spare) {
+    const double there = EnergyOf(*found, false);
+    std::vector<ExactBody>& bodies = found->island->bodies;
+    const std::vector<ExactBody> to = bodies;
+    GoShare(from, 0, &bodies);
+    const double lift = there - EnergyOf(*found, false);
+    bodies = to;
+    const double most = lift - (excess - kinetic - spare);
+    if (lift > 0) GoShare(from, std::max(0.0, most / lift), &bodies);
+    excess = kinetic;
+  }
   const double share = std::sqrt(std::max(0.0, 1 - excess / kinetic));
   for (ExactBody& q : found->island->bodies) {
     if (!q.moves()) continue;
@@ -160,8 +174,9 @@ void ExactStep::RejoinMoved(float h, const Pace& pace) {
       q.w = s.w;
     }
     const double before = EnergyOf(found, true);
+    const std::vector<ExactBody> from = found.island->bodies;
     found.island->Rejoin(pace, struck);
-    RemoveLiftEnergy(before, &found);
+    RemoveLiftEnergy(before, from, &found);
     WakeMoved(found);
     SavePoses(found);
   }

@@ -111,9 +111,11 @@ void ExactStep::LoadMoving(ExactBody* q) {
 void ExactStep::LoadPoses(Found* found) {
   ExactIsland& island = *found->island;
   island.still = true;
+  island.displaced = false;
   for (ExactBody& q : island.bodies) {
     const ExactBody before = q;
     if (q.slot >= 0) {
+      island.displaced = island.displaced || !Told(slots_[static_cast<std::size_t>(q.slot)]);
       LoadMoving(&q);
       island.still = island.still && SamePose(q, before);
       continue;

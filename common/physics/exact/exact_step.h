@@ -95,7 +95,7 @@ class ExactStep {
   void Continuous(const b2TimeStep& step, const Pace& pace);
   void RejoinMoved(float h, const Pace& pace);
   double EnergyOf(const Found& found, bool left) const;
-  void RemoveLiftEnergy(double before, Found* found) const;
+  void RemoveLiftEnergy(double before, const std::vector<ExactBody>& from, Found* found) const;
   static void WakeMoved(const Found& found);
   static bool Told(const Slot& slot);
   void Report(const Found& found) const;

@@ -28,6 +28,9 @@ class ExactIsland {
   /// True if all bodies are where the last Step or Rejoin left them, to the last bit, and the
   /// speeds of anchored and kinematic ones are unchanged.
   bool still = false;
+  /// True if a body is not where the last Step or Rejoin left it, because an edit, a message or the
+  /// engine has moved it: its joints may then be brought together by any lift.
+  bool displaced = true;
   /// True if the last Step moved bodies without velocity, so that they are not at rest.
   bool stirred = false;
 
@@ -122,9 +125,12 @@ class ExactIsland {
 
   double Pull() const;
   void Look(const Pace& pace);
-  static bool Shuts(const Row& row);
+  static bool Shuts(RowKind kind, double error);
+  static void AddApart(RowKind kind, double error, double* sum, double* most);
   double SquaresApart(double* most) const;
-  void BringTogether(const Pace& pace);
+  void BringTogether(const Pace& pace, double lift_most);
+  double Lifted(const std::vector<ExactBody>& from) const;
+  double LiftMost(double time) const;
   void ShiftTogether(double damping);
   void MakeAlike();
   void CopyMasses(const std::vector<ExactBody>& from);
@@ -137,6 +143,8 @@ class ExactIsland {
     double energy = 0;   // J, kinetic
     double mass = 0;     // kg
     double impulse = 0;  // N s, the result of MostImpulse
+    double kick = 0;     // J, the part of `energy` that the kick gave
+    double lift = 0;     // J, the result of LiftMost
   };
   double MostImpulse(const Pace& pace) const;
   double MostWarmStart(const Pace& pace) const;
@@ -194,6 +202,8 @@ class ExactIsland {
   void Stiffen();
   bool TooSoft() const;
   bool CloseTaut(const Pace& pace);
+  double SquaresHere(const Pace& pace, double* most);
+  void PushTautApart(const Pace& pace);
   void FindWay(const Pace& pace);
 
   // The system of rows, for the current velocities.
@@ -294,5 +304,8 @@ inline void ExactIsland::Push(const Row& row, double impulse) {
 
 /// Returns the kinetic energy of the moving bodies, J.
 double KineticOf(const std::vector<ExactBody>& bodies);
+
+/// Moves bodies back until they are at `share` of their way from `from`.
+void GoShare(const std::vector<ExactBody>& from, double share, std::vector<ExactBody>* bodies);
 
 }  // namespace seam

@@ -107,12 +107,30 @@ ExactIsland::Start ExactIsland::StartOf(const Pace& pace) const {
   start.energy = KineticOf(bodies);
   for (const ExactBody& q : bodies) start.mass += q.moves() ? 1 / q.im : 0;
   start.impulse = MostImpulse(pace);
+  start.lift = LiftMost(pace.h);
+  for (const ExactBody& q : bodies) {
+    if (!q.moves()) continue;
+    const double h = pace.h;
+    const double along = q.ax * (q.vx - h * q.ax / 2) + q.ay * (q.vy - h * q.ay / 2);
+    start.kick += h * (along / q.im + q.inertia * q.turn * (q.w - h * q.turn / 2));
+  }
   return start;
 }
 
+/// Returns the energy of lifting all bodies at kApartMost for `time`, J: as far as overlaps and
+/// joints that a jam holds apart may be resolved in that time, although nothing supplies it.
+double ExactIsland::LiftMost(double time) const {
+  double weight = 0;
+  for (const ExactBody& q : bodies) {
+    if (q.moves()) weight += std::sqrt(q.ax * q.ax + q.ay * q.ay) / q.im;
+  }
+  return kApartMost * time * weight;
+}
+
 /// True if the substep's impulses are possible: no contact exceeds its maximal impulse, and no more
-/// energy was gained than supplied, in this substep and in those before it. `pushes`: contacts
-/// resolve an overlap.
+/// energy was gained than supplied, in this substep and in those before it. That of places counts
+/// too: closing joints or resolving overlaps can lift bodies at any speed, which the solve at the
+/// end then takes from them. `pushes`: contacts resolve an overlap.
 bool ExactIsland::Possible(const Start& start, bool pushes) {
   for (const Row& row : rows_) {
     if (row.kind == RowKind::kNormal && std::fabs(row.base) > start.impulse) return false;
@@ -120,7 +138,10 @@ bool ExactIsland::Possible(const Start& start, bool pushes) {
   const double most = kGainShare * start.energy + kGainPerMass * start.mass;
   double gained = KineticOf(bodies) - start.energy;
   if (pushes && gained > most) return false;
-  if (gained > 0) gained -= WorkDone(start.mass);
+  const double lifted = gained + start.kick + Lifted(bodies_before_) - start.lift;
+  const double work = gained > 0 || lifted > kGainOnce * most ? WorkDone(start.mass) : 0;
+  if (lifted - work > kGainOnce * most) return false;
+  if (gained > 0) gained -= work;
   if (gained > kGainOnce * most || kGainKept * gained_ + gained > kGainLasting * most) return false;
   gained_ = std::max(0.0, kGainKept * gained_ + gained);
   return true;
@@ -225,8 +246,9 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
   }
   KeepPoses();
   Move(pace.h);
+  const double lift_most = start.lift + std::max(0.0, -Lifted(bodies_before_));
   Fill(pace);
-  BringTogether(pace);
+  BringTogether(pace, lift_most);
   Agree(pace.h);
   for (ExactBody& q : bodies) q.lasting *= kGainKept;
   gained_ *= kGainKept;
@@ -300,7 +322,7 @@ void ExactIsland::PushApart(const Pace& pace) {
     bodies[i].ii = was.ii;
   }
   Fill(pace);
-  BringTogether(pace);
+  BringTogether(pace, LiftMost(pace.h));
 }
 
 }  // namespace seam

@@ -48,7 +48,7 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     const double lacks = row.target - Speed(row);
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
   }
-  BringTogether(pace);
+  BringTogether(pace, displaced ? kUnbounded : LiftMost(pace.h * pace.substeps));
   if (!contacts.empty()) carried_ = MostWarmStart(pace);
   for (int i = 0; i < pace.substeps; ++i) {
     if (i > 0) FillAgain(pace);
@@ -85,7 +85,10 @@ void ExactIsland::Substep(const Pace& pace) {
   const Start start = StartOf(pace);
   const bool pushes = PushesOut();
   if (Taut(pace.h)) {
-    if (TautCourse(pace) && Possible(start, false)) return;
+    if (TautCourse(pace) && Possible(start, false)) {
+      PushTautApart(pace);
+      return;
+    }
     GoBack(pace);
   }
   Course(pace, whole);

@@ -94,14 +94,42 @@ bool ExactIsland::CloseTaut(const Pace& pace) {
   double share = 1;
   for (int cuts = 0; cuts <= kCuts; ++cuts) {
     for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(*by_place_[p], share * x_[p]);
-    Fill(pace);
-    if (SquaresApart(&most) <= apart) return most <= kLeftOpen;
+    double left = 0;
+    if (SquaresHere(pace, &left) <= apart) {
+      Fill(pace);
+      return left <= kLeftOpen;
+    }
     RestorePoses(&bodies);
     share *= kCutTo;
   }
-  Fill(pace);
-  SquaresApart(&most);
   return most <= kLeftOpen;
+}
+
+/// Returns SquaresApart for where the bodies are now, without writing their rows.
+double ExactIsland::SquaresHere(const Pace& pace, double* most) {
+  double sum = 0;
+  *most = 0;
+  for (const Held& held : joints) {
+    double* const errors = &errors_[static_cast<std::size_t>(held.row)];
+    if (!JointErrors(*held.joint, held.ends, bodies, errors)) {
+      FillJoint(*held.joint, held.ends, bodies, pace, now_.data());
+      for (int i = 0; i < held.rows; ++i) errors[i] = now_[static_cast<std::size_t>(i)].error;
+    }
+    for (int i = 0; i < held.rows; ++i) AddApart(At(held.row + i).kind, errors[i], &sum, most);
+  }
+  return sum;
+}
+
+/// Moves bodies out of deep overlaps as after a jam, unless that opens joints.
+void ExactIsland::PushTautApart(const Pace& pace) {
+  double before = 0, most = 0;
+  SquaresApart(&before);
+  KeepPoses();
+  PushApart(pace);
+  SquaresApart(&most);
+  if (most <= std::max(before, kClosed)) return;
+  RestorePoses(&bodies);
+  Fill(pace);
 }
 
 /// Solves for the impulses of that way, with the states of the last solve.

@@ -40,9 +40,16 @@ void ExactIsland::Look(const Pace& pace) {
   for (ExactContact& contact : contacts) ReadContact(bodies, rest, &contact);
 }
 
-/// True if the row is corrected when joints are brought together.
-bool ExactIsland::Shuts(const Row& row) {
-  return row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
+/// True if a row is corrected when joints are brought together.
+bool ExactIsland::Shuts(RowKind kind, double error) {
+  return kind == RowKind::kHard || (kind == RowKind::kLimit && error < -kOverstepped);
+}
+
+/// Adds a row to the sum and to the largest error of SquaresApart.
+void ExactIsland::AddApart(RowKind kind, double error, double* sum, double* most) {
+  if (!Shuts(kind, error)) return;
+  *sum += error * error;
+  *most = std::max(*most, kind == RowKind::kHard ? std::fabs(error) : 1.0);
 }
 
 /// Returns the sum of those rows' squared errors, m and rad. `most`: the largest error of
@@ -50,22 +57,46 @@ bool ExactIsland::Shuts(const Row& row) {
 double ExactIsland::SquaresApart(double* most) const {
   double sum = 0;
   *most = 0;
-  for (const Row& row : rows_) {
-    if (!Shuts(row)) continue;
-    sum += row.error * row.error;
-    *most = std::max(*most, row.kind == RowKind::kHard ? std::fabs(row.error) : 1.0);
+  for (const Row& row : rows_) AddApart(row.kind, row.error, &sum, most);
+  return sum;
+}
+
+/// Returns the energy that gravity and forces would have to be given for the bodies' way from
+/// `from`, J. Negative if they fell.
+double ExactIsland::Lifted(const std::vector<ExactBody>& from) const {
+  double sum = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const ExactBody &q = bodies[b], &was = from[b];
+    if (!q.moves()) continue;
+    sum -= (q.ax * (q.x - was.x) + q.ay * (q.y - was.y)) / q.im;
+    sum -= q.inertia * q.turn * (q.a - was.a);
   }
   return sum;
+}
+
+void GoShare(const std::vector<ExactBody>& from, double share, std::vector<ExactBody>* bodies) {
+  for (std::size_t b = 0; b < bodies->size(); ++b) {
+    ExactBody& q = (*bodies)[b];
+    const ExactBody& was = from[b];
+    const double turn = share * (q.a - was.a);
+    q.x = was.x + share * (q.x - was.x);
+    q.y = was.y + share * (q.y - was.y);
+    q.a = was.a;
+    q.c = was.c;
+    q.s = was.s;
+    if (turn != 0) q.Turn(turn);
+  }
 }
 
 /// Corrects joints that a message, an edit or continuous collision has pulled apart since the last
 /// step, and limits that are exceeded: positions only, with the least motion weighted by mass, and
 /// without velocity. In chains of light links that are almost straight, that motion would turn the
 /// links, where only moving the load at their end helps. So if it fails, all bodies are treated as
-/// alike, and then it is damped (Levenberg 1944, Marquardt 1963).
-void ExactIsland::BringTogether(const Pace& pace) {
+/// alike, and then it is damped (Levenberg 1944, Marquardt 1963). The motion ends where it has
+/// lifted the bodies by `lift_most`, J: what a jam holds apart for long may come together at once.
+void ExactIsland::BringTogether(const Pace& pace, double lift_most) {
   held_.clear();
-  double most = 0, damping = kHardShare;
+  double most = 0, damping = kHardShare, lifted = 0;
   double apart = SquaresApart(&most);
   bool alike = false;
   for (int tries = 0, failed = 0; tries - failed < kTogetherTries && failed < kTriesThatFail;
@@ -88,7 +119,12 @@ void ExactIsland::BringTogether(const Pace& pace) {
     if (relaxed_ || (now <= apart && turned <= kTurnMost)) {
       apart = now;
       damping = std::max(kHardShare, damping / kDampedMore);
-      continue;
+      const double more = Lifted(bodies_before_);
+      lifted += more;
+      if (lifted <= lift_most) continue;
+      GoShare(bodies_before_, 1 - (lifted - lift_most) / more, &bodies);
+      Fill(pace);
+      break;
     }
     bodies = bodies_before_;
     Fill(pace);
@@ -124,7 +160,7 @@ void ExactIsland::ShiftTogether(double damping) {
   std::fill(x_.begin(), x_.end(), 0.0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     Row& row = rows_[i];
-    const bool shuts = Shuts(row);
+    const bool shuts = Shuts(row.kind, row.error);
     const bool held = row.kind == RowKind::kNormal && row.error <= 0;
     row.state = shuts || held ? RowState::kFree : RowState::kOut;
     if (!shuts || place_[i] < 0) continue;
@@ -140,7 +176,7 @@ void ExactIsland::ShiftTogether(double damping) {
 void ExactIsland::Rejoin(const Pace& pace, bool struck) {
   Look(pace);
   Fill(pace);
-  BringTogether(pace);
+  BringTogether(pace, kUnbounded);
   if (!struck) return;
   for (Row& row : rows_) {
     row.base = row.lambda = row.total = 0;
