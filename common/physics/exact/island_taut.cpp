@@ -15,7 +15,7 @@ namespace {
 
 /// Ratio of stiffness to inertia from which a link is taut: about pi^2, at which its tension swings
 /// it by half a period in a substep, so that no substep can follow.
-constexpr double kTaut = 10;
+constexpr double kTautFrom = 10;
 /// rad: links that turn by more in a substep are under tension because they turn.
 constexpr double kTautTurn = 0.1;
 /// Share by which diagonal entries of hard rows are enlarged. A load on a chain of 60 that is 5 cm
@@ -24,7 +24,7 @@ constexpr double kTautShare = 1e-12;
 /// Rounds of friction: its bounds follow the normal impulses of the solve before.
 constexpr int kTautRounds = 1;
 /// Errors that are closed, and errors that may be left, m or rad.
-constexpr double kClosed = 1e-7, kLeftOpen = 1e-5;
+constexpr double kTautClosed = 1e-7, kLeftOpen = 1e-5;
 /// A way that leaves joints farther apart is cut to this share, so many times, and then not gone.
 constexpr double kCutTo = 0.25;
 constexpr int kCuts = 2;
@@ -38,7 +38,7 @@ bool ExactIsland::Taut(double h) const {
   for (const ExactBody& q : bodies) {
     if (!q.moves()) continue;
     if (std::fabs(h * q.w) > kTautTurn) return false;
-    taut = taut || q.stiffness > kTaut * q.inertia;
+    taut = taut || q.stiffness > kTautFrom * q.inertia;
   }
   return taut;
 }
@@ -88,7 +88,7 @@ bool ExactIsland::TautCourse(const Pace& pace) {
 bool ExactIsland::CloseTaut(const Pace& pace) {
   double most = 0;
   const double apart = SquaresApart(&most);
-  if (most <= kClosed) return true;
+  if (most <= kTautClosed) return true;
   FindWay(pace);
   KeepPoses();
   double share = 1;
@@ -127,7 +127,7 @@ void ExactIsland::PushTautApart(const Pace& pace) {
   KeepPoses();
   PushApart(pace);
   SquaresApart(&most);
-  if (most <= std::max(before, kClosed)) return;
+  if (most <= std::max(before, kTautClosed)) return;
   RestorePoses(&bodies);
   Fill(pace);
 }

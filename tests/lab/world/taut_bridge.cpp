@@ -1,7 +1,7 @@
 /// Loads that fall on taut bridges: energy out of nothing, open joints, and the cost beside stock's
 /// iterative joints in the same run.
 
-#include "tests/support/taut_bridge.h"
+#include "tests/support/mechanisms/taut_bridge.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/physics/exact/exact_scenes.h"
-#include "tests/support/taut_bridge.h"
+#include "tests/support/mechanisms/taut_bridge.h"
 
 namespace seam {
 namespace exact_bridge_test {

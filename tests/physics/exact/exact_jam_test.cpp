@@ -75,7 +75,7 @@ TEST(ExactJam, CratesJammedInAPitGainNoEnergy) { ExpectNoGain(JamPlace::kPit); }
 
 TEST(ExactJam, CratesJammedBetweenTheRailsOfAWagonGainNoEnergy) { ExpectNoGain(JamPlace::kWagon); }
 
-TEST(ExactJam, WhatAJamHoldsApartDoesNotComeTogetherAtOnce) {
+TEST(ExactJam, JointsHeldApartByAJamDoNotComeTogetherAtOnce) {
   // Closing their joints would lift all crates by 8 to 13 cm in a tick: after continuous collision
   // (114), in an ordinary substep (168, 382), or both (89).
   for (const unsigned seed : {89U, 114U, 168U, 377U, 382U}) ExpectNoGain(JamPlace::kPit, seed);
