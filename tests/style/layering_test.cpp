@@ -194,6 +194,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"render/page", "render/(canvas|draw|playback)"},
       {"tests/support/allocations", "none"},
       {"tests/support/browser", "tests/support"},
+      {"tests/support/mechanisms", "tests/support"},
       {"tests/support/plan", "none"},
       {"tests/support/soak", "tests/support"},
       {"tests/lab/experiment", "tests/lab"},
