@@ -39,6 +39,9 @@ constexpr std::int64_t kCatchesUpPart = 4;
 /// Mode central: inputs should arrive this long before the server needs them, us, and at least a
 /// tick: one that is late costs a whole tick, however long.
 constexpr std::int64_t kInputMarginUs = 35000;
+/// The same where datagrams are lost: a burst may take an input and its first repeats. With less
+/// some act late; with more, copies are stepped again from older states.
+constexpr std::int64_t kInputMarginLossUs = 5 * kInputRepeatUs;
 
 }  // namespace
 
@@ -123,7 +126,8 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
 
 std::int64_t Client::LeadTarget() const {
   const std::int64_t tick_us = 1000000 / room_.tick_hz;
-  return clock_.rtt_p90_us() / 2 + std::max(kInputMarginUs, tick_us);
+  const std::int64_t margin_us = link_->loss_ppm() > 0 ? kInputMarginLossUs : kInputMarginUs;
+  return clock_.rtt_p90_us() / 2 + std::max(margin_us, tick_us);
 }
 
 std::int64_t Client::RoomTime(std::int64_t now_us) {

@@ -44,6 +44,7 @@ struct Oracle {
   std::vector<std::vector<BodyState>> ticks;
   std::vector<RevisionSpan> spans;  ///< ascending; empty: always `ids`, other parts unknown
   std::vector<Edit> edits;          ///< applied edits, in order, with the oracle's own ids
+  std::vector<std::int64_t> edit_ticks;  ///< by edit: its tick; empty if unknown
   /// First id of the parts inserted at run time. Their ids in the recording may differ.
   PartId inserted_from = std::numeric_limits<PartId>::max();
   std::map<PartId, PartId> own_id;  ///< ids of parts inserted at run time, by id in the recording

@@ -31,6 +31,7 @@ bool Change(const std::vector<Edit>& edits, std::size_t row, World* world, Oracl
   bool changed = false;
   for (const Edit& edit : edits) {  // one by one, as every peer does
     oracle->edits.push_back(edit);
+    oracle->edit_ticks.push_back(oracle->first_tick + static_cast<std::int64_t>(row));
     if (world->Apply({edit})) changed = true;
   }
   if (!changed) return false;

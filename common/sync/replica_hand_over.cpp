@@ -71,6 +71,9 @@ void Replica::EachDifference(const States& states,
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || world_.activity(body) != Activity::kSimulated) continue;
     if (states.revision != revision()) continue;
+    // Before all inputs are known here and acted on, a difference says nothing.
+    const std::int64_t complete = reach_.CompleteTick(world_.mechanism(body));
+    if (std::min(complete, replay_.settled()) < states.tick) continue;
     const BodyState* then = memory_.ComparablePast(body, states.tick);
     if (then != nullptr) call(body, Minus(Unpack(states, i, then->angle), *then));
   }

@@ -11,5 +11,9 @@ BodyState Minus(const BodyState& a, const BodyState& b);
 BodyState PlusScaled(const BodyState& a, const BodyState& b, float s);
 /// Returns Xr' = Xr extrapolated by its own velocity for dt.
 BodyState Extrapolate(const BodyState& remote, float dt);
+/// True if position and angle, whole turns included, are bit for bit the same.
+inline bool SamePose(const BodyState& a, const BodyState& b) {
+  return a.position == b.position && a.angle == b.angle;
+}
 
 }  // namespace seam

@@ -103,8 +103,8 @@ class AuthorityManager {
   /// kJump or kJumpVelocity, the server keeps the mechanism for kConvergeS before the successor
   /// gets it.
   void NoteCopyError(int body, const BodyState& off);
-  /// True if NoteTold has an effect; see AuthorityView::exact.
-  bool WatchesAgreement() const { return view_.exact; }
+  /// True if NoteTold has an effect; see AuthorityView::settles.
+  bool WatchesAgreement() const { return view_.settles; }
   /// Records the error of the server's copy of a body against its holder's state of the same tick.
   void NoteTold(int body, const BodyState& off);
   /// True if the peer needs the state in which a mechanism's holder released it.
@@ -218,6 +218,9 @@ class AuthorityManager {
   PeerSet silent_;                           // in the last Update
   std::vector<std::int64_t> round_trip_us_;  // by peer, in the last Update
   bool plan_due_ = true;
+  /// The server has simulated every body since the room began. A copy that began later lacks the
+  /// memory of stages, such as a character's step: its differences prove nothing.
+  bool follows_all_ = true;
   MechanismColumn<Memory> memory_;
   EditHook edited_;
 };

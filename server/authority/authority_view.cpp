@@ -48,6 +48,9 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   }
   view.server_follow = situation.shown || view.exact ? scene_.server_follow : 0;
   view.physics_edits = physics_edits_;
+  follows_all_ =
+      follows_all_ && (physics_edits_ || replica_.world().body_count() <= view.server_follow);
+  view.settles = view.exact || (config_.policy->GoesBack(0) && follows_all_);
   view.islands = islands_;
   view.rules = *scene_.planner;
   view.together = situation.together;

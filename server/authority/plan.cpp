@@ -52,7 +52,7 @@ AuthorityPlan PlanAuthority(const AuthorityView& view) {
     PlanRectangles(view, &plan);
   }
   if (view.policy->PlansFollowers()) {
-    if (view.exact) DecideContested(ground, &plan);
+    if (view.settles) DecideContested(ground, &plan);
     PlanFollowers(ground, &plan);
   }
   BringTogether(view, &plan);

@@ -66,6 +66,9 @@ struct AuthorityView {
   bool physics_edits = false;  ///< see ProposesEdits: the server follows everything
   /// Nobody drives and peers replay from received states: all peers should arrive at equal bits.
   bool exact = false;
+  /// The server decides where owners disagree: `exact`, or it has simulated every body since the
+  /// room began.
+  bool settles = false;
   bool islands = false;  ///< plans by islands around the players, not by their regions
   PlannerRules rules;    ///< for islands, and the minimum time of an authority
   std::vector<PlayerView> players;
@@ -83,7 +86,7 @@ struct AuthorityView {
 ///   Authority, by rectangles: the owner's peer if present; else the peer in whose region the root
 ///   of the mechanism is (it leaves the current region only kHysteresis beyond the border); else
 ///   the server. By islands: see PlanIslands. A client keeps an authority for rules.dwell_s at
-///   least. If nobody drives, the server takes over contested crowds: see DecideContested.
+///   least. If view.settles, the server takes over contested crowds: see DecideContested.
 ///   Mechanisms that are to be joined go to one peer. The server gets a mechanism if the player of
 ///   the chosen peer may not have it.
 ///   Followers (mode buffer): peers with a region or a mechanism within the scene's buffer width of

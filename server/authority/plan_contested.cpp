@@ -44,6 +44,8 @@ void DecideContested(const PlanGround& ground, AuthorityPlan* plan) {
     const Crowd& crowd = crowds[static_cast<std::size_t>(groups[m])];
     const MechanismView& mechanism = view.mechanisms[m];
     if (mechanism.asleep || (!crowd.Contested() && !crowd.Decided())) continue;
+    // Its driver steps it on and feels no delay.
+    if ((*plan)[m].authority > 0) (*plan)[m].secondaries.Add((*plan)[m].authority);
     (*plan)[m].authority = 0;
     (*plan)[m].decided = true;
   }

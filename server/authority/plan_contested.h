@@ -5,11 +5,12 @@
 
 namespace seam {
 
-/// If nobody drives, all peers compute equal bits, unless one was disconnected or away and has
-/// simulated its bodies differently meanwhile. In a crowd full of impacts such peers never converge
-/// again: each impact amplifies the difference, and impacts that only one of two peers computed add
-/// energy (docs/lessons.md). So the server takes such a crowd, until it sleeps or its members
-/// separate.
+/// Peers that know the same inputs compute equal bits, unless one was disconnected or away, or
+/// could not go back far enough, and has simulated its bodies differently meanwhile. In a crowd
+/// full of impacts such peers never converge again: each impact amplifies the difference, and
+/// impacts that only one of two peers computed add energy (docs/lessons.md). So the server takes
+/// such a crowd, until it sleeps or its members separate. Where somebody drives it does so only
+/// if it knows as much as the owners (AuthorityView::settles).
 ///
 /// A crowd is a group of awake mechanisms that may come into contact, directly or through others
 /// (ContactGroups::soon). It is contested if several peers have members and the recent states of

@@ -13,7 +13,7 @@ constexpr int kAnn = 1, kBob = 2;
 class PlanContested : public ::testing::Test {
  protected:
   PlanContested() {
-    view_.exact = true;
+    view_.settles = true;
     view_.buffer_m = 4;
     view_.players.push_back({kAnn, 0.05f, true, {-100, -100}, {-0.001f, 100}});
     view_.players.push_back({kBob, 0.05f, true, {0, -100}, {100, 100}});
@@ -63,10 +63,20 @@ TEST_F(PlanContested, AgreedBodiesKeepTheirOwners) {
   EXPECT_EQ(Decided(), 0) << "a surprise now and then";
 }
 
-TEST_F(PlanContested, DrivenBodiesKeepTheirOwners) {
+TEST_F(PlanContested, BodiesKeepTheirOwnersWherePeersDoNotGoBack) {
   AddRow(12, kContestedSum);
-  view_.exact = false;
+  view_.settles = false;
   EXPECT_EQ(Decided(), 0);
+}
+
+TEST_F(PlanContested, TheOwnerThatLosesABodyFollowsIt) {
+  AddRow(12, kContestedSum);
+  view_.follow_bodies = 0;
+  const AuthorityPlan plan = PlanAuthority(view_);
+  for (std::size_t m = 0; m < plan.size(); ++m) {
+    ASSERT_TRUE(plan[m].decided);
+    EXPECT_TRUE(plan[m].secondaries.Has(view_.mechanisms[m].now.authority)) << m;
+  }
 }
 
 TEST_F(PlanContested, BodiesOfOneOwnerStayItsOwnDespiteTheServersError) {

@@ -204,6 +204,8 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"tests/lab/damage", "tests/lab(/experiment)?"},
       {"tests/lab/exact", "tests/lab(/experiment|/hard|/report)?"},
       {"tests/lab/gait", "tests/lab(/experiment)?"},
+      {"tests/lab/agreement", "tests/lab(/experiment)?"},
+      {"tests/lab/damage", "tests/lab(/experiment)?"},
       {"tests/lab/handover", "tests/lab(/experiment)?"},
       {"tests/lab/hard", "none"},
       {"tests/lab/hard/mechanisms", "tests/lab/hard"},

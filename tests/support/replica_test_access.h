@@ -20,6 +20,13 @@ struct ReplicaTestAccess {
         (at.array() >= seen.min.array()).all() && (at.array() <= seen.max.array()).all();
     return replica.memory_.parked(body) && !within;
   }
+  static int OwnPlayer(const Replica& replica) { return replica.roles_.own_player(); }
+  /// Returns the body's state after a past tick; nullptr if the peer did not simulate it then.
+  static const BodyState* Past(const Replica& replica, int body, std::int64_t tick) {
+    const bool steps = replica.world().activity(body) == Activity::kSimulated &&
+                       replica.memory_.track(body).dynamic_since <= tick;
+    return steps ? replica.memory_.history().At(tick, body) : nullptr;
+  }
   /// Returns the lengths of the queues of edits, states and rest commits, by name.
   static std::map<std::string, std::size_t> Queues(const Replica& replica) {
     return {{"edits ordered", replica.queue_->size()},

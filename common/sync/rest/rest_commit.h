@@ -126,6 +126,9 @@ class RestCommit {
   void FindDue();
   void Hold(int body);
   void CommitIsland(const std::vector<int>& island);
+  /// Number of the last ticks in which the body's motion rests on assumed inputs.
+  std::int64_t Assumed(int body) const;
+  bool LayThere(int body, std::int64_t ago) const;
   bool MayCommit(const std::vector<int>& island, const std::vector<int>& own) const;
   void Commit(int body);
   bool WokenSince(int body, std::int64_t tick, const BodyState& pose) const;
@@ -141,9 +144,9 @@ class RestCommit {
   RestTable table_;
   RestWatch watch_;
   BodyColumn<Disturbance> disturbed_;
-  std::vector<int> freed_;              // bodies released here, and some that no longer are
-  std::vector<int> due_;                // bodies that this step has to check
-  mutable int open_ = 0;                // a body that was not held at the last call of all()
+  std::vector<int> freed_;  // bodies released here, and some that no longer are
+  std::vector<int> due_;    // bodies that this step has to check
+  mutable int open_ = 0;    // a body that was not held at the last call of all()
   bool edited_ = false;
   std::vector<int> committed_;  // bodies, since the last Take; some twice
   std::int64_t number_ = 0;     // of the next Rest

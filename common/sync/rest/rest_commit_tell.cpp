@@ -24,12 +24,23 @@ constexpr double kWaitingFor = 2;
 
 }  // namespace
 
+std::int64_t RestCommit::Assumed(int body) const {
+  if (!config_.policy->SendsCompleteTicks()) return 0;
+  return world_.tick() - reach_.CompleteTick(world_.mechanism(body));
+}
+
+/// True if the body lay `ago` ticks ago exactly where it lies. A replay may have woken it since
+/// then, although it has never been seen awake.
+bool RestCommit::LayThere(int body, std::int64_t ago) const {
+  if (ago == 0) return true;  // this tick is not recorded yet
+  const BodyState* const then = memory_.history().At(world_.tick() - ago, body);
+  return then != nullptr && SamePose(*then, world_.Read(body));
+}
+
 bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int>& own) const {
-  const bool complete = config_.policy->SendsCompleteTicks();
   const auto asleep = [&](int b) {
-    const std::int64_t assumed =
-        complete ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
-    return watch_.asleep(b) >= Ticks(kAsleepFor) + assumed;
+    const std::int64_t assumed = Assumed(b);
+    return watch_.asleep(b) >= Ticks(kAsleepFor) + assumed && LayThere(b, assumed);
   };
   if (std::all_of(own.begin(), own.end(), asleep)) return true;
   return MayCommitAwake(island, own);
@@ -47,10 +58,13 @@ void RestCommit::CommitIsland(const std::vector<int>& island) {
 }
 
 void RestCommit::Commit(int body) {
+  // It has slept since before the newest input-complete tick (MayCommit). A later tick would be an
+  // assumption: a peer that already knows an input since then would put the body to rest again.
+  const std::int64_t as_of = world_.tick() - Assumed(body);
   // Later than anything another authority can have said of it; that peer's clock may be a tick
   // ahead.
   const std::int64_t tick =
-      std::max({world_.tick(), table_.at(body).tick + 1, memory_.track(body).heard_tick});
+      std::max({as_of, table_.at(body).tick + 1, memory_.track(body).heard_tick});
   const std::int32_t epoch = roles_.table().at(world_.mechanism(body)).epoch;
   table_.Commit(body, world_.id(body), epoch, tick, world_.Read(body));
   memory_.track(body).at_rest = true;
@@ -119,13 +133,14 @@ bool RestCommit::Receive(const Rest& rest) {
   return placed;
 }
 
-/// Returns true if an awake simulated copy was at that pose at `tick`, so that it was woken later:
-/// the commitment merely arrives late.
+/// Returns true if a simulated copy was at that pose at `tick` and was woken later: the commitment
+/// merely arrives late. It may have come to rest elsewhere meanwhile.
 bool RestCommit::WokenSince(int body, std::int64_t tick, const BodyState& pose) const {
-  if (!config_.policy->TrustsSleep() || !roles_.Simulates(body) || !world_.awake(body))
-    return false;
+  if (!config_.policy->TrustsSleep() || !roles_.Simulates(body)) return false;
   const BodyState* then = memory_.history().At(tick, body);
   if (then == nullptr) return false;
+  const bool lay = then->velocity.squaredNorm() == 0 && then->spin == 0;
+  if (!world_.awake(body) && (!lay || SamePose(world_.Read(body), *then))) return false;
   const BodyState off = Minus(pose, *then);
   return off.position.norm() < kMoved && std::fabs(WrapAngle(off.angle)) < kMoved;
 }

@@ -30,18 +30,13 @@ BodyState Apart(const BodyState& now, const BodyState& then) {
   return apart;
 }
 
-/// Call after going back to a barrier. Puts bodies that rested at that tick where their authority
-/// has committed them since; otherwise each replay would restore our old pose and end the rest.
-void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
-  for (int body = 0; body < world.body_count(); ++body) {
-    const BodyTrack& track = memory.track(body);
-    if (!track.at_rest || roles.RoleOfBody(body) != kRoleSecondary) continue;
-    if (!IsPresent(world.activity(body)) || world.tick() < track.heard_tick) continue;
-    const BodyState* const lay = memory.history().At(world.tick(), body);
-    if (lay == nullptr || Negligible(Apart(world.Read(body), *lay))) continue;
-    world.Write(body, *lay, false);
-    world.SetAwake(body, false);
-  }
+/// Puts a copy that rested at the world's tick exactly where its authority has committed it since;
+/// otherwise each replay would restore our old pose and end the rest.
+void PutToRest(int body, World& world, const BodyMemory& memory) {
+  const BodyState* const lay = memory.history().At(world.tick(), body);
+  if (lay == nullptr || (!world.awake(body) && SamePose(world.Read(body), *lay))) return;
+  world.Write(body, *lay, false);
+  world.SetAwake(body, false);
 }
 
 }  // namespace
@@ -145,12 +140,18 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
 }
 
 /// Ends a committed rest that a replay has changed. Committed bodies are stepped again; the rest
-/// holds if the body came to rest at the same pose. Returns true if it holds.
+/// holds only if the body lies at exactly the same pose: another one, however near, is that of all
+/// who know the same inputs. Returns true if it holds.
 bool Replay::KeepsRest(int body, const BodyState& pose) {
   BodyTrack& track = memory_.track(body);
   if (!track.at_rest) return false;
-  track.at_rest = !world_.awake(body) && Agrees(Apart(world_.Read(body), pose));
+  track.at_rest = !world_.awake(body) && SamePose(world_.Read(body), pose);
   return track.at_rest;
+}
+
+/// True if the body is a copy held at the pose that its authority committed.
+bool Replay::RestsAsCopy(int body) const {
+  return memory_.track(body).at_rest && roles_.RoleOfBody(body) == kRoleSecondary;
 }
 
 /// Call after the step to the world's tick. Writes the states known of that tick.
@@ -168,6 +169,12 @@ void Replay::WriteKnownStates(int body) {
   }
   const BodyState* heard = memory_.snapshots().At(body, world_.tick());
   if (heard != nullptr && roles_.RoleOfBody(body) == kRoleSecondary) {
+    // The commitment itself. A newer state, or an edit of an earlier tick, would have replaced it.
+    if (RestsAsCopy(body) && memory_.track(body).heard_tick == world_.tick() &&
+        SamePose(*heard, *past)) {
+      PutToRest(body, world_, memory_);
+      return;
+    }
     const BodyState local = world_.Read(body);
     BodyState state = *heard;
     state.angle = UnwrapAngle(state.angle, local.angle);
@@ -249,7 +256,11 @@ bool Replay::Depart(std::int64_t from, bool all) {
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
   RestoreDormant();
-  PutToRest(world_, roles_, memory_);
+  for (const int body : world_.present()) {
+    if (RestsAsCopy(body) && world_.tick() >= memory_.track(body).heard_tick) {
+      PutToRest(body, world_, memory_);
+    }
+  }
   WriteKnownStates();
   RepeatEdits();
   return true;

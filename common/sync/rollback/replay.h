@@ -103,6 +103,7 @@ class Replay {
   };
 
   bool KeepsRest(int body, const BodyState& pose);
+  bool RestsAsCopy(int body) const;
   /// A body as displayed before it is stepped again.
   struct Shown {
     int body = -1;

@@ -4,7 +4,7 @@ namespace seam {
 
 const std::vector<Probe>& Probes() {
   static const std::vector<Probe> probes = {FairnessProbe(), TitlesProbe(), LoadProbe(),
-                                            HandOverProbe(), DamageProbe()};
+                                            HandOverProbe(), DamageProbe(), AgreementProbe()};
   return probes;
 }
 

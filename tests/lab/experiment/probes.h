@@ -16,5 +16,6 @@ Probe TitlesProbe();
 Probe LoadProbe();
 Probe HandOverProbe();
 Probe DamageProbe();
+Probe AgreementProbe();
 
 }  // namespace seam
