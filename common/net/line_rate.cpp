@@ -92,7 +92,7 @@ void LineRate::Look(std::int64_t now_us) {
   } else {
     growth_ = std::min(growth_ * std::pow(kGrowthRise, passed_s), kGrowthMost);
   }
-  rate_ = std::min(kMost, rate_ * (1 + growth_ * passed_s));
+  rate_ = std::min(kFastest, rate_ * (1 + growth_ * passed_s));
 }
 
 void LineRate::Cut(double arriving, bool deep) {

@@ -40,7 +40,7 @@ class LineRate {
   /// Least rate, bytes/s: acks, pings and inputs.
   static constexpr double kLeast = 1500;
   /// Greatest rate, bytes/s: more than any path of a session carries.
-  static constexpr double kMost = 1.25e9;
+  static constexpr double kFastest = 1.25e9;
   /// Time between two looks, us; at least a round trip. Shorter ones mistake jitter for a queue.
   static constexpr std::int64_t kRateLookUs = 200000;
   /// Queue that is left standing, us, besides the jitter and the time between two datagrams.
