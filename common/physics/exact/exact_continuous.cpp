@@ -106,10 +106,10 @@ void ExactStep::RemoveLiftEnergy(double before, const std::vector<ExactBody>& fr
   for (const ExactBody& q : found->island->bodies) mass += q.moves() ? 1 / q.im : 0;
   const double kinetic = KineticOf(found->island->bodies);
   const double spare = kLiftShare * kinetic + kLiftPerMass * mass;
-  double excess = EnergyOf(*found, false) - before;
+  const double there = EnergyOf(*found, false);
+  double excess = there - before;
   if (excess <= spare) return;
   if (excess > kinetic + spare) {
-    const double there = EnergyOf(*found, false);
     std::vector<ExactBody>& bodies = found->island->bodies;
     const std::vector<ExactBody> to = bodies;
     GoShare(from, 0, &bodies);
