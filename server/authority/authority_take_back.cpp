@@ -68,6 +68,7 @@ void AuthorityManager::Persist(StateArchive& a) {
   });
   a.Int(&see_all_, 0, INT32_MAX);
   a.Flag(&plan_due_);
+  a.Flag(&follows_all_);
   if (!a.reading()) return;
   const auto count = static_cast<std::size_t>(memory_.size());
   a.Require(plan_.empty() || plan_.size() == count, "a plan of other mechanisms");
