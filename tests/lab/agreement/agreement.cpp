@@ -21,7 +21,7 @@ std::optional<std::int64_t> AgreementWatch::KnownTick() const {
       known = std::min(known, peer->inputs(player).newest());
     }
   }
-  return known < now - 2 * cluster_.scene().solver.tick_hz ? std::nullopt : std::optional(known);
+  return known < now - PastTicks() ? std::nullopt : std::optional(known);
 }
 
 void AgreementWatch::Compare(int a, int b, std::int64_t tick) {
@@ -61,12 +61,20 @@ void AgreementWatch::Look() {
     if (client->replica()->revision() != peers_[0]->revision()) return;
     peers_.push_back(client->replica());
   }
-  const std::optional<std::int64_t> tick = KnownTick();
-  if (!tick || *tick <= compared_tick_) return;
-  compared_tick_ = *tick;
-  for (int a = 0; a < static_cast<int>(peers_.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(peers_.size()); ++b) Compare(a, b, *tick);
+  const std::optional<std::int64_t> known = KnownTick();
+  if (!known) return;
+  const std::int64_t oldest = looked_ - PastTicks();
+  if (compared_tick_ < oldest) differ_.clear();  // nobody knows what was between
+  for (std::int64_t tick = std::max(compared_tick_ + 1, oldest); tick <= *known; ++tick) {
+    for (int a = 0; a < static_cast<int>(peers_.size()); ++a) {
+      for (int b = a + 1; b < static_cast<int>(peers_.size()); ++b) Compare(a, b, tick);
+    }
+    compared_tick_ = tick;
   }
+}
+
+std::int64_t AgreementWatch::PastTicks() const {
+  return static_cast<std::int64_t>(2) * cluster_.scene().solver.tick_hz;
 }
 
 double AgreementWatch::longest_s() const {

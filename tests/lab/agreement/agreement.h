@@ -12,8 +12,8 @@
 
 namespace seam {
 
-/// Compares the pasts of all peers that simulate a body, each time at the newest tick up to which
-/// all of them know all inputs, and never a tick twice. Call Look after every virtual instant.
+/// Compares the pasts of all peers that simulate a body at every tick, once, as soon as all of them
+/// know all inputs up to it. Call Look after every virtual instant.
 class AgreementWatch {
  public:
   explicit AgreementWatch(Cluster& cluster) : cluster_(cluster) {}
@@ -33,6 +33,8 @@ class AgreementWatch {
  private:
   using Pair = std::tuple<int, int, PartId>;  // two peers and a body's id
   std::optional<std::int64_t> KnownTick() const;
+  /// Number of ticks that the peers' pasts are compared back.
+  std::int64_t PastTicks() const;
   void Compare(int a, int b, std::int64_t tick);
 
   Cluster& cluster_;
