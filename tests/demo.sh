@@ -183,8 +183,9 @@ for scene in $worlds; do
           stutter, seam
           print (lost == "" ? "" : ", bodies lost or too many " lost) }' "$out/$scene-world.txt"
   middle=$(awk '/^duration *=/ { print $3 / 2 }' "scenes/$scene.toml")
+  # One moment, so what moves just then says little of the scene.
   timeout 40 "$bin/seam-render" --force "$log" -o "$out/frames/$scene-world" --view all --fps 1 \
-    --from "$middle" --to "$middle" >/dev/null 2>&1 || continue
+    --camera scene --from "$middle" --to "$middle" >/dev/null 2>&1 || continue
   mv "$out/frames/$scene-world"/*.png "$out/$scene-world.png"
   timeout 40 "$bin/seam-render" --force --strobe "$log" -o "$out/$scene-world-strobe.png" >/dev/null 2>&1 ||
     echo "demo: no strobe of $scene" >&2
