@@ -147,7 +147,7 @@ TEST(ImportDump, TheSceneMovesAsTheDumpedWorld) {
   World world(ParseScene(text + "\n[solver]\njoints = \"iterative\"\nsleep = false\n", "d.toml"));
   ASSERT_EQ(world.body_count(), static_cast<int>(original.moving.size())) << text;
   original.world.SetAllowSleeping(false);
-  for (int tick = 0; tick < 36; ++tick) {
+  for (int tick = 0; tick < 60; ++tick) {
     original.world.Step(1.0f / 60, 8, 3);
     world.Step();
   }
