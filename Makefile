@@ -43,8 +43,8 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-
 	-isystem $(EIGEN) -isystem /usr/include/freetype2 -pthread $(CXXFLAGS)
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
-LIBS := -llcm -lbox2d -lfmt -lsodium -pthread
-RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz -lzstd -ltinyxml2
+LIBS := -llcm -lbox2d -lfmt -lsodium -lzstd -pthread
+RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz -ltinyxml2
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
@@ -220,9 +220,9 @@ $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
-	$(LINK) $(LIBS) -lzstd -o $@
+	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-import: $(OUT)/render/import_main.o $(IMPORT) $(OUT)/libseam-common.a
-	$(LINK) $(LIBS) -lzstd -ltinyxml2 -o $@
+	$(LINK) $(LIBS) -ltinyxml2 -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.

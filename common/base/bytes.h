@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace seam {
@@ -20,6 +21,11 @@ struct ByteView {
   const std::uint8_t* begin() const { return data; }
   const std::uint8_t* end() const { return data + size; }
 };
+
+/// Returns the bytes of a text.
+inline ByteView TextBytes(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 /// FNV-1a, 64 bit (Fowler, Noll, Vo; draft-eastlake-fnv). `seed` chains calls.
 inline std::uint64_t Fnv1a(const void* data, std::size_t size,

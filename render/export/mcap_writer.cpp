@@ -1,11 +1,10 @@
 #include "render/export/mcap_writer.h"
 
-#include <zstd.h>
-
 #include <algorithm>
 #include <array>
 
 #include "common/base/check.h"
+#include "common/base/compress.h"
 
 namespace seam {
 namespace {
@@ -13,8 +12,6 @@ namespace {
 constexpr char kMagic[] = {'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 /// Size beyond which a chunk ends, bytes: readers keep a chunk in memory.
 constexpr std::size_t kMcapChunkBytes = 4 << 20;
-/// Level of compression, 1 to 19: higher is smaller and slower.
-constexpr int kZstdLevel = 12;
 
 enum Opcode : std::uint8_t {
   kHeader = 1,
@@ -52,12 +49,8 @@ std::string Record(Opcode opcode, const std::string& content) {
 }
 
 std::string Compressed(const std::string& bytes) {
-  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t size =
-      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
-  SEAM_ASSERT(ZSTD_isError(size) == 0);
-  packed.resize(size);
-  return packed;
+  const Bytes packed = Compress(TextBytes(bytes));
+  return std::string(packed.begin(), packed.end());
 }
 
 std::array<std::uint32_t, 256> CrcTable() {

@@ -281,7 +281,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/codec/codec[^/]*\\.cpp", kCode, "seam/[a-z_]+\\.hpp");
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
   ExpectOnlyIn("render/(page/gzip|canvas/png_writer)\\.cpp|tests/.*", kCode, "zlib\\.h");
-  ExpectOnlyIn("render/export/mcap_writer\\.cpp|tests/.*", kCode, "zstd\\.h");
+  ExpectOnlyIn("common/base/compress\\.cpp|tests/.*", kCode, "zstd\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
   ExpectOnlyIn("common/base/command/(command_line|command_table|mistake)\\.cpp", kCode, "CLI/.*");
