@@ -62,6 +62,7 @@ class TiledReader {
       if (name == "group") {
         ReadLayers(*e, at, depth + 1);
       } else if (name == "objectgroup") {
+        of_layer_ = e->FirstChildElement("properties");
         for (const XMLElement* o = e->FirstChildElement("object"); o != nullptr;
              o = o->NextSiblingElement("object")) {
           ReadObject(*o, at);
@@ -73,10 +74,8 @@ class TiledReader {
   }
 
   /// Returns the value of a custom property, or of the same property of its layer; "" if neither.
-  static std::string Property(const XMLElement& object, const std::string& key) {
-    const XMLElement* layer = object.Parent()->ToElement();
-    for (const XMLElement* of : {&object, layer}) {
-      const XMLElement* list = of->FirstChildElement("properties");
+  std::string Property(const XMLElement& object, const std::string& key) const {
+    for (const XMLElement* list : {object.FirstChildElement("properties"), of_layer_}) {
       if (list == nullptr) continue;
       for (const XMLElement* p = list->FirstChildElement("property"); p != nullptr;
            p = p->NextSiblingElement("property")) {
@@ -188,6 +187,7 @@ class TiledReader {
   const double pixels_;
   double height_ = 0;  // of the map, pixels: its lower edge is y = 0
   Imported world_;
+  const XMLElement* of_layer_ = nullptr;  // the properties of the layer that is read; null: none
 };
 
 }  // namespace
