@@ -15,6 +15,7 @@
 #include "common/measure/handover_list.h"
 #include "common/measure/limit/held_inputs.h"
 #include "common/measure/preconditions.h"
+#include "common/measure/revisions.h"
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
 #include "common/record/loss_timeline.h"
@@ -93,7 +94,7 @@ MeasuredRun MeasureLog(std::size_t i, const Options& options,
   run.lacks = LackOf(recording);
   run.gaps = recording.bus_gaps;
   run.skipped_bytes = recording.skipped_bytes;
-  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const Scene scene = RecordedScene(recording.room);
   const std::string partial = PartialViewsText(PartialViews(scene, recording),
                                                [&](int peer) { return ViewNameOf(scene, peer); });
   if (!partial.empty()) {
@@ -166,7 +167,7 @@ void PrintFloor(const Recording& recording) {
 
 void PrintHandOvers(Recording recording, const std::string& name, const TimeRange& range) {
   KeepRange(range, &recording);
-  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const Scene scene = RecordedScene(recording.room);
   const RevisionHistory revisions(scene, recording);
   const std::string list = FormatHandOvers(ListHandOvers(recording, &revisions));
   if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());

@@ -5,12 +5,13 @@
 
 #include "common/measure/mean_square.h"
 #include "common/measure/measure.h"
+#include "common/measure/revisions.h"
 #include "common/measure/screen/extent.h"
 
 namespace seam {
 
 double OracleDistance(const Recording& recording, const Oracle& a, const Oracle& b) {
-  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const Scene scene = RecordedScene(recording.room);
   const RevisionHistory revisions(scene, b.edits);
   Extents extents(&revisions);
   MeanSquare apart;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/measure/parts.h"
+#include "common/measure/revisions.h"
 #include "common/measure/screen/screen.h"
 #include "common/scene/assembly.h"
 
@@ -55,7 +56,7 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
   std::map<PartId, int> mechanisms;
   std::optional<RevisionHistory> revisions;
   if (!recording.room.scene_text.empty()) {
-    const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+    const Scene scene = RecordedScene(recording.room);
     revisions.emplace(scene, recording);
     const Composition& composition = revisions->At(0)->composition();
     for (const Assembly& assembly : composition.assemblies) {

@@ -66,7 +66,7 @@ OracleOptions JudgeOf(const Room& room) {
 }
 
 Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
-  Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  Scene scene = RecordedScene(recording.room);
   scene.solver.tick_hz = recording.room.tick_hz;
   World world(scene);
   if (options.nudged_body >= 0) {

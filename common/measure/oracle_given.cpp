@@ -57,7 +57,7 @@ Oracle OracleFromRecording(const Recording& recording, const Recording* measured
   std::optional<Scene> scene;
   std::optional<RevisionHistory> revisions;
   if (scene_known && changes) {
-    scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+    scene = RecordedScene(recording.room);
     revisions.emplace(*scene, recording);
   }
   const std::int64_t count = views->second.rbegin()->first - oracle.first_tick + 1;

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "common/measure/revisions.h"
 #include "common/scene/expected.h"
 #include "common/sync/method.h"
 
@@ -13,7 +14,7 @@ std::string WhyNotValid(const Recording& recording, const Oracle& oracle,
   if (measures.compared == 0) return "no view was compared";
   const Room& room = recording.room;
   if (room.scene_text.empty()) return "";
-  const Scene scene = ParseScene(room.scene_text, room.scene_name + ".toml");
+  const Scene scene = RecordedScene(room);
   const Expected& expected = *scene.expected;
   if (expected.contact && !oracle.contact.value_or(true)) {
     return "no contact between two players' bodies";

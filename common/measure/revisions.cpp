@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "common/measure/pose.h"
 #include "common/scene/mass.h"
+#include "common/scene/scene.h"
 #include "common/sync/edits/edit_order.h"
 
 namespace seam {
@@ -17,12 +21,28 @@ constexpr std::size_t kRevisionsMax = 64;
 /// the list, since a damaged number may be two thousand million. A log lacks a few edits, not most.
 constexpr std::size_t kNumbersSlack = 65536, kNumbersPerEdit = 16;
 
+/// A scene with the text and the name that it was parsed from.
+struct ParsedScene {
+  std::string text, name;
+  Scene scene;
+};
+
 bool ChangesBodies(const Edit& edit) {
   return edit.As<std::monostate>() == nullptr && edit.As<PushEdit>() == nullptr &&
          edit.As<SeatEdit>() == nullptr;
 }
 
 }  // namespace
+
+Scene RecordedScene(const Room& room) {
+  thread_local std::optional<ParsedScene> last;
+  if (!last || last->text != room.scene_text || last->name != room.scene_name) {
+    last.reset();  // unless this one parses
+    Scene scene = ParseScene(room.scene_text, room.scene_name + ".toml");
+    last = ParsedScene{room.scene_text, room.scene_name, std::move(scene)};
+  }
+  return last->scene;
+}
 
 SceneRevision::SceneRevision(Topology made)
     : topology(std::move(made)), moving(MovingIndices(composition())) {

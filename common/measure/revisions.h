@@ -15,6 +15,10 @@
 
 namespace seam {
 
+/// Returns the scene of a recording, before its edits. Each thread keeps the last one, as a long
+/// scene takes seconds to parse. Throws OperatorError if the text is no scene.
+Scene RecordedScene(const Room& room);
+
 /// A topology with indices for frequent lookups.
 struct SceneRevision {
   explicit SceneRevision(Topology made);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/measure/revisions.h"
 #include "common/scene/bricks.h"
 #include "common/scene/player_colours.h"
 #include "common/sync/method.h"
@@ -30,9 +31,7 @@ Pose Blend(const Pose& a, const Pose& b, float blend) {
 /// Views further apart than this are a gap in the recording and not interpolated, ticks.
 constexpr std::int64_t kGapTicksMax = 12;
 
-Scene SceneOf(const Recording& recording) {
-  return ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
-}
+Scene SceneOf(const Recording& recording) { return RecordedScene(recording.room); }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/measure/contents/partial_views.h"
+#include "common/measure/revisions.h"
 #include "common/record/time_range.h"
 #include "common/scene/assembly.h"
 #include "common/scene/toml/scene_text.h"
@@ -115,7 +116,7 @@ std::string FormatContents(const std::string& name, const Recording& recording) 
   const std::string sessions = ChosenSession(recording);
   if (!sessions.empty()) text += Line("sessions", sessions);
   try {
-    const Scene scene = ParseScene(room.scene_text, room.scene_name + ".toml");
+    const Scene scene = RecordedScene(room);
     if (!scene.title.empty()) text += Line("title", Printable(scene.title));
     text += Line("players", Players(scene, recording));
     text += Line("views", Views(scene, recording));

@@ -9,6 +9,7 @@
 #include "common/measure/mean_square.h"
 #include "common/measure/outside_edits.h"
 #include "common/measure/recorded_inputs.h"
+#include "common/measure/revisions.h"
 #include "common/measure/screen/extent.h"
 #include "common/physics/world.h"
 #include "common/sync/method.h"
@@ -164,7 +165,7 @@ class Guesser {
 std::optional<double> HeldInputsError(const Recording& recording, int every) {
   SEAM_ASSERT(every >= 1);
   if (PolicyOf(recording.room).IsOracle()) return std::nullopt;
-  Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  Scene scene = RecordedScene(recording.room);
   scene.solver.tick_hz = recording.room.tick_hz;
   const KnownInputs known = FindKnownInputs(recording);
   if (known.empty()) return std::nullopt;

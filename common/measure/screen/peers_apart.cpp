@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "common/measure/mean_square.h"
+#include "common/measure/revisions.h"
 #include "common/measure/screen/extent.h"
 
 namespace seam {
@@ -27,8 +28,7 @@ void AddPair(const View& one, const View& other, Extents* extents, MeanSquare* a
 std::optional<double> PeersApart(const Recording& recording) {
   std::optional<RevisionHistory> revisions;
   if (!recording.room.scene_text.empty()) {
-    revisions.emplace(ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml"),
-                      recording);
+    revisions.emplace(RecordedScene(recording.room), recording);
   }
   Extents extents(revisions ? &*revisions : nullptr);
   MeanSquare apart;

@@ -7,6 +7,7 @@
 
 #include "common/measure/parts.h"
 #include "common/measure/percentile.h"
+#include "common/measure/revisions.h"
 #include "common/measure/screen/age.h"
 #include "common/measure/screen/counterfactual.h"
 
@@ -180,7 +181,7 @@ std::optional<double> HeardUs(const Recording& recording, int peer, std::int64_t
 void MeasureResponse(const Recording& recording, const Oracle& oracle, int input_delay_ticks,
                      Measures* measures) {
   if (recording.room.scene_text.empty() || !TimesPass(recording)) return;
-  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const Scene scene = RecordedScene(recording.room);
   const RevisionHistory revisions(scene, recording);
   const RevisionHistory* changing = revisions.change() ? &revisions : nullptr;
   OwnBodies own(recording, &revisions);
