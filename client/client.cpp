@@ -1,6 +1,7 @@
 #include "client/client.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/physics/stage.h"
@@ -28,7 +29,7 @@ constexpr std::int64_t kInputKnownAfter = 2;
 /// Most ticks stepped in one call. If further behind than kGiveUpTicks we rejoin.
 constexpr int kCatchUpSteps = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
-/// A late joiner waits this long after its last hello for all bodies' states, us; then it starts
+/// A late joiner waits this long after it has the room for all bodies' states, us; then it starts
 /// with those it has.
 constexpr std::int64_t kWorldWaitUs = 4000000;
 /// States older than the round trip and this are not current, us.
@@ -52,6 +53,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
   if (closed_ || !fatal_.empty()) return;
   if (link_ == nullptr) Join(now_us);
+  if (std::exchange(loaded_now_, false)) answered_us_ = received_us_ = now_us;
   ReceiveAll(now_us);
   if (closed_ || !fatal_.empty()) return;
   const std::int64_t silence_us = now_us - answered_us_;
@@ -74,7 +76,8 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   } else {
     SendReadyAndPing(now_us);
   }
-  StartIfDue(now_us);
+  // Loading takes seconds if the scene is long: `now_us` is from before.
+  if (!loaded_now_) StartIfDue(now_us);
   late_us_ = 0;
   line_ready_ = LineReady(now_us);
   const std::int64_t before = replica_ != nullptr ? replica_->tick() : 0;
@@ -146,7 +149,7 @@ void Client::StartIfDue(std::int64_t now_us) {
   // Within the first half second we count as present from the start, only late in stepping.
   const std::int64_t tick = time * room_.tick_hz / 1000000;
   const bool late = tick > room_.tick_hz / 2;
-  const bool waits = now_us - last_hello_us_ < kWorldWaitUs;
+  const bool waits = now_us - received_us_ < kWorldWaitUs;
   const std::int64_t age_us = clock_.rtt_p90_us() + kWorldAgeUs;
   const std::int64_t from = tick - age_us * room_.tick_hz / 1000000;
   if (late && waits && !held_.Covers(replica_->world(), from)) return;

@@ -72,6 +72,13 @@ class Client {
   std::int64_t joining_us(std::int64_t now_us) const {
     return peer_ < 0 && link_ != nullptr ? now_us - joining_since_us_ : 0;
   }
+  /// Returns the share of the room that has come, 0 to 1; 1 once there is a world.
+  double room_share() const {
+    if (replica_ != nullptr || room_size_ == 0) return replica_ != nullptr ? 1 : 0;
+    return static_cast<double>(room_bytes_.size()) / static_cast<double>(room_size_);
+  }
+  /// Returns the size of the room as it comes, bytes; 0 until the server says it.
+  std::size_t room_size() const { return room_size_; }
   bool running() const { return replica_ != nullptr && started_; }
   int peer() const { return peer_; }
   /// Returns the name under which it joins or has joined.
@@ -193,6 +200,8 @@ class Client {
   JoinBuffer held_;                           // received states until the start
   Bytes room_bytes_;
   std::size_t room_size_ = 0;
+  std::int64_t received_us_ = 0;  // time of the room's last bytes
+  bool loaded_now_ = false;       // loaded the room in this call, which may have taken seconds
   int peer_ = -1;
   int player_ = -1;
   bool said_ready_ = false;

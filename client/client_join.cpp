@@ -50,7 +50,7 @@ void Client::Join(std::int64_t now_us) {
   metadata_ = MetaTable();
   if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
-  said_ready_ = started_ = released_ = false;
+  said_ready_ = started_ = released_ = loaded_now_ = false;
   timeline_ = RoomTimeline();
   lead_us_ = -1;
   answered_us_ = now_us;
@@ -143,7 +143,7 @@ void Client::GiveUpName(const std::string& free) {
 void Client::OnWelcome(std::int64_t now_us, const Welcome& welcome) {
   if (peer_ >= 0) return;
   if (welcome.peer < 1 || welcome.room_bytes < 1 ||
-      static_cast<std::size_t>(welcome.room_bytes) > kBusMessageBytesMax) {
+      static_cast<std::size_t>(welcome.room_bytes) > kPackedRoomBytesMax) {
     fatal_ = "the server's welcome makes no sense";
     return;
   }

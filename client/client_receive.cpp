@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "client/client.h"
 #include "common/base/check.h"
+#include "common/base/compress.h"
 #include "common/base/nearest.h"
 #include "common/scene/part_rules.h"
 #include "common/sync/method.h"
@@ -224,24 +226,27 @@ void Client::MakeReplica(const Topology* become) {
 }
 
 void Client::OnChunk(std::int64_t now_us, const Chunk& chunk) {
-  if (replica_ != nullptr || room_size_ == 0) return;
+  if (scene_ != nullptr || room_size_ == 0) return;
   if (static_cast<std::size_t>(chunk.offset_bytes) != room_bytes_.size() ||
       room_bytes_.size() + chunk.data.size() > room_size_) {
     fatal_ = "the server's room does not fit its welcome";
     return;
   }
   room_bytes_.insert(room_bytes_.end(), chunk.data.begin(), chunk.data.end());
+  received_us_ = now_us;
   if (room_bytes_.size() == room_size_) Build(now_us);
 }
 
 void Client::Build(std::int64_t now_us) {
-  const AnyMessage any = Decode(room_bytes_);
-  const Room* room = std::get_if<Room>(&any);
+  const std::optional<Bytes> bytes = Decompress(std::exchange(room_bytes_, {}), kRoomBytesMax);
+  AnyMessage any = bytes ? Decode(*bytes) : AnyMessage();
+  Room* const room = std::get_if<Room>(&any);
   if (room == nullptr) {
     fatal_ = "the server's room does not decode";
     return;
   }
-  room_ = *room;
+  room_ = std::move(*room);
+  loaded_now_ = true;
   try {
     SceneCache own;
     SceneCache& scenes = config_.scenes != nullptr ? *config_.scenes : own;

@@ -75,7 +75,7 @@ bool LiveRenderer::Add(const std::string& channel, ByteView message) {
 }
 
 void LiveRenderer::DrawDue() {
-  if (!builder_.has_room() || builder_.recording().views.empty()) return;
+  if (!builder_.has_scene() || builder_.recording().views.empty()) return;
   if (!playback_) Begin();
   // The displayed peer's newest tick; another peer's may be ahead of it.
   const auto views = builder_.recording().views.find(playback_->PeerOr(options_.peer));

@@ -74,6 +74,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
       filter_(scene_, replica_, authority_, *edits_, stats_.counters),
       broadcast_(recorder, room_, config.publish != Publish::kNone, config.sync, scene_, replica_,
                  sessions_),
+      room_feed_(room_),
       clock_(config.sync.tick_hz) {
   replica_.OnCorrected([this](int body, const BodyState& by) { NoteCorrected(body, by); });
   if (!Rules::Needed(scene_)) return;
@@ -98,10 +99,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   }
   ReleaseSilentDrivers(now_us);
   StartIfReady(now_us);
-  if (now_us - last_room_us_ >= 1000000) {
-    last_room_us_ = now_us;
-    broadcast_.Publish(At(now_us, room_));
-  }
+  room_feed_.Publish(now_us, broadcast_);
   const std::int64_t before = replica_.tick();
   for (int steps = 0; steps < kStepsMax && now_us >= next_tick_us(); ++steps) {
     stats_.NoteLate(now_us - next_tick_us());

@@ -20,6 +20,7 @@
 #include "server/broadcast.h"
 #include "server/edits/oracle_edit_log.h"
 #include "server/room_clock.h"
+#include "server/room_feed.h"
 #include "server/rules/bounds_watch.h"
 #include "server/rules/seats.h"
 #include "server/server_stats.h"
@@ -197,12 +198,12 @@ class Server {
   BoundsWatch bounds_;
   StateFilter filter_;
   Broadcast broadcast_;
+  RoomFeed room_feed_;
   std::unique_ptr<ServerCommands> commands_;
   std::unique_ptr<AuthoritySource> rule_source_;
   std::unique_ptr<Rules> rules_;   // null: the scene has none
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
-  std::int64_t last_room_us_ = -1000000000;
   bool look_soon_ = false;             // a client became ready: its relevances are not known
   std::int64_t drivers_heard_us_ = 0;  // time of the next check for silent drivers
   std::vector<int> inputs_due_;        // players with new inputs

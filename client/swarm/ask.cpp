@@ -7,6 +7,7 @@
 namespace seam {
 namespace {
 
+/// Time without an answer, or without more of the room, us.
 constexpr std::int64_t kPatienceOfAskUs = 10000000;
 
 }  // namespace
@@ -22,8 +23,11 @@ Room AskForRoom(const Address& server, const std::string& room) {
   Group group;
   group.Add(config, false);
   const Client& scout = group.members()[0]->client();
-  const std::int64_t begin_us = SteadyClockUs();
+  std::int64_t begin_us = SteadyClockUs();
+  double share = 0;
   while (scout.replica() == nullptr && scout.fatal().empty() && g_stop == 0) {
+    if (scout.room_share() > share) begin_us = SteadyClockUs();
+    share = scout.room_share();
     if (SteadyClockUs() - begin_us > kPatienceOfAskUs) {
       throw OperatorError("no answer from " + ToString(server) + " within 10 s");
     }

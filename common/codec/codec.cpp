@@ -96,6 +96,12 @@ constexpr std::uint64_t kHashWithoutSession<Load> = 0xbe88264f7026f53b;
 template <>
 constexpr std::uint64_t kHashWithoutSession<Event> = 0x501798193aa2f237;
 
+/// Largest encoding of a message; a Room has the longest scene on the edge alone.
+template <class Message>
+constexpr std::size_t kEncodedBytesMax = kBusMessageBytesMax;
+template <>
+constexpr std::size_t kEncodedBytesMax<Room> = kRoomBytesMax;
+
 /// Place and size of `session` in an encoded message: after the type hash and utime.
 constexpr std::ptrdiff_t kSessionFieldAt = 16, kSessionFieldBytes = 8;
 
@@ -117,7 +123,7 @@ Bytes EncodeAs(const Message& message) {
   SetCount(message, wire, 0);
   SetTotal(message, wire, 0);
   const int size = wire.getEncodedSize();
-  SEAM_ASSERT(size > 0 && static_cast<std::size_t>(size) <= kBusMessageBytesMax);
+  SEAM_ASSERT(size > 0 && static_cast<std::size_t>(size) <= kEncodedBytesMax<Message>);
   Bytes bytes(static_cast<std::size_t>(size));
   SEAM_ASSERT(wire.encode(bytes.data(), 0, size) == size);
   if constexpr (kHashWithoutSession<Message> != 0) {
@@ -178,6 +184,7 @@ AnyMessage DecodeWithSession(ByteView bytes) {
 struct Decoder {
   AnyMessage (*decode)(ByteView);
   bool on_bus, has_session;
+  std::size_t bytes_max;
 };
 
 using Decoders = std::unordered_map<std::uint64_t, Decoder>;
@@ -185,11 +192,13 @@ using Decoders = std::unordered_map<std::uint64_t, Decoder>;
 template <class Message>
 void AddDecoders(Decoders* decoders) {
   constexpr bool on_bus = MessageTraits<Message>::kTravels != Travels::kEdge;
+  constexpr std::size_t most = kEncodedBytesMax<Message>;
   if constexpr (kHashWithoutSession<Message> != 0) {
-    (*decoders)[WireHash<Message>()] = {DecodeWithSession<Message>, on_bus, true};
-    (*decoders)[kHashWithoutSession<Message>] = {DecodeWithoutSession<Message>, on_bus, false};
+    (*decoders)[WireHash<Message>()] = {DecodeWithSession<Message>, on_bus, true, most};
+    (*decoders)[kHashWithoutSession<Message>] = {DecodeWithoutSession<Message>, on_bus, false,
+                                                 most};
   } else {
-    (*decoders)[WireHash<Message>()] = {DecodeAs<Message>, on_bus, on_bus};
+    (*decoders)[WireHash<Message>()] = {DecodeAs<Message>, on_bus, on_bus, most};
   }
 }
 
@@ -216,7 +225,7 @@ SEAM_MESSAGES(SEAM_MESSAGE_ENCODE)
 
 AnyMessage Decode(ByteView bytes) {
   const Decoder* const decoder = FindDecoder(bytes);
-  if (decoder == nullptr || bytes.size > kBusMessageBytesMax) return {};
+  if (decoder == nullptr || bytes.size > decoder->bytes_max) return {};
   try {
     return decoder->decode(bytes);
   } catch (...) {  // nothing is known to throw, but hostile bytes must not end the process

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/compress.h"
 #include "common/base/limits.h"
 
 namespace seam {
@@ -59,9 +60,14 @@ static_assert(30 + 12 * kReportedTouchesMax <= kMessageBytesMax);
 /// Most bytes in one Chunk.
 constexpr std::size_t kChunkBytesMax = 1000;
 static_assert(kChunkBytesMax < kMessageBytesMax);
-/// Longest scene file that a Room can carry; a longer one cannot be played.
-constexpr std::size_t kSceneTextBytesMax = 51200;
-static_assert(kSceneTextBytesMax < kBusMessageBytesMax);
+/// Longest text of a scene. More costs every joiner seconds: a parser reads about 1 MB a second.
+constexpr std::size_t kSceneTextBytesMax = 4000000;
+/// Largest encoded Room, and the largest of it compressed, as joiners get it.
+constexpr std::size_t kRoomBytesMax = kSceneTextBytesMax + 1000;
+constexpr std::size_t kPackedRoomBytesMax = CompressedBytesMax(kRoomBytesMax);
+/// Longest text in a Room of the bus; a longer one travels in ScenePart messages.
+constexpr std::size_t kBusSceneBytesMax = 51200;
+static_assert(kBusSceneBytesMax < kBusMessageBytesMax);
 /// Longest name of a mode, reconciler or scene; longest network profile; longest event or reason.
 constexpr std::size_t kLabelBytesMax = 64, kImpairBytesMax = 200, kTextBytesMax = 1000;
 /// Ticks are below this (580 years at 60 Hz), times within kTimeMaxUs (285 years) of 0, so that

@@ -8,6 +8,7 @@
 #include "common/codec/messages.h"
 #include "common/codec/packed/packed_inputs.h"
 #include "common/codec/packed/packed_states.h"
+#include "common/codec/scene_part.h"
 
 /// X(struct, LCM type, route, kind in the channel, fields of `m` in the .lcm's order)
 ///
@@ -25,6 +26,8 @@
   X(Room, room_t, kBusRoom, "scene", m.utime, m.session, m.sequence, m.protocol, m.room,           \
     m.scene_name, m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz,       \
     m.send_hz, m.input_delay_ticks)                                                                \
+  X(ScenePart, scene_part_t, kBusRoom, "scene_part", m.utime, m.session, m.sequence, m.part,       \
+    m.parts, m.data)                                                                               \
   X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest, m.rest_blocks,            \
     m.rest_block, m.rest_part, m.load)                                                             \
   X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest, m.rest_blocks,              \

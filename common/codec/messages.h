@@ -48,7 +48,7 @@ struct Welcome {
   std::int64_t utime = 0;
   std::int32_t peer = 0;        ///< this client's peer number, >= 1
   std::int32_t player = -1;     ///< index of its player in the scene, -1 for a spectator
-  std::int32_t room_bytes = 0;  ///< size of the encoded Room that follows
+  std::int32_t room_bytes = 0;  ///< size of the compressed encoded Room that follows
   std::int64_t key = 0;         ///< secret of this player; see Join
 };
 
@@ -72,7 +72,7 @@ struct Room {
   std::int32_t protocol = kProtocolVersion;
   std::string room;        ///< room name as in the channel
   std::string scene_name;  ///< file name of the scene without folder and ".toml"
-  std::string scene_text;  ///< the whole scene file
+  std::string scene_text;  ///< the whole scene file; on the bus "" if above kBusSceneBytesMax
   std::string mode;        ///< oracle | central | strict | buffer
   std::string reconcile;   ///< snap | interleave | ... ; empty unless mode is buffer
   std::string predict;     ///< own | all; empty unless mode is central

@@ -100,13 +100,13 @@ bool Valid(const Ready& m) { return Time(m.utime); }
 
 bool Valid(const Welcome& m) {
   return Time(m.utime) && Within(m.peer, 1, kPeersMax - 1) && Within(m.player, -1, kPeersMax - 1) &&
-         Within(m.room_bytes, 1, kBusMessageBytesMax);
+         Within(m.room_bytes, 1, kPackedRoomBytesMax);
 }
 
 bool Valid(const Chunk& m) {
-  return Time(m.utime) && Within(m.offset_bytes, 0, kBusMessageBytesMax) &&
+  return Time(m.utime) && Within(m.offset_bytes, 0, kPackedRoomBytesMax) &&
          Within(m.data.size(), 1, kChunkBytesMax) &&
-         static_cast<std::size_t>(m.offset_bytes) + m.data.size() <= kBusMessageBytesMax;
+         static_cast<std::size_t>(m.offset_bytes) + m.data.size() <= kPackedRoomBytesMax;
 }
 
 bool Valid(const Room& m) {
@@ -117,6 +117,13 @@ bool Valid(const Room& m) {
          IsPrintable(m.predict, kLabelBytesMax) && IsPrintable(m.impair, kImpairBytesMax) &&
          Within(m.input_delay_ticks, 0, kInputDelayTicksMax) &&
          Within(m.tick_hz, kTickHzMin, kTickHzMax) && Within(m.send_hz, 1, m.tick_hz);
+}
+
+bool Valid(const ScenePart& m) {
+  const bool last = m.part == m.parts - 1;
+  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Within(m.parts, 1, kScenePartsMax) &&
+         Within(m.part, 0, m.parts - 1) &&
+         Within(m.data.size(), last ? 1 : kScenePartBytes, kScenePartBytes);
 }
 
 bool Valid(const Ping& m) {

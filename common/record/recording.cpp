@@ -5,9 +5,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "common/base/check.h"
 #include "common/codec/codec.h"
-#include "common/record/log_file.h"
 
 namespace seam {
 namespace {
@@ -95,6 +93,7 @@ bool RecordingBuilder::IsOfSession(const Message& message) {
   next.undecodable = recording_.undecodable;
   recording_ = std::move(next);
   has_room_ = false;
+  scene_parts_ = SceneParts();
   sorted_ = true;
   heard_.clear();
   partial_.clear();
@@ -144,6 +143,7 @@ bool RecordingBuilder::Keep(Room& room) {
     ++recording_.foreign;
     return false;
   }
+  if (has_room_ && room.scene_text.empty()) room.scene_text = recording_.room.scene_text;
   const bool other = has_room_ && !SameSession(room, recording_.room);
   // Older recordings have no number that tells a server from the one before it.
   const bool restarted = has_room_ && room.sequence < room_sequence_;
@@ -155,7 +155,24 @@ bool RecordingBuilder::Keep(Room& room) {
   room_sequence_ = room.sequence;
   if (!has_room_) recording_.room = std::move(room);
   has_room_ = true;
+  AddScene();
   return true;
+}
+
+bool RecordingBuilder::Keep(ScenePart& part) {
+  if (!scene_parts_.Take(part)) {
+    ++recording_.undecodable;
+    return false;
+  }
+  AddScene();
+  return true;
+}
+
+/// Adds a scene that came in parts to its Room, whichever came first.
+void RecordingBuilder::AddScene() {
+  if (has_room_ && scene_parts_.whole() && recording_.room.scene_text.empty()) {
+    recording_.room.scene_text = scene_parts_.TakeText();
+  }
 }
 
 bool RecordingBuilder::Keep(Inputs& inputs) {
@@ -297,54 +314,6 @@ void RecordingBuilder::DropStrayTicks() {
 
 void MemoryRecorder::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
   builder.Add(channel, message, utime);
-}
-
-Recording ReadRecording(const std::string& path, const std::string& room,
-                        const std::string& session) {
-  std::vector<LogSession> sessions = ListSessions(path, room);
-  std::optional<std::int64_t> chosen;
-  if (!sessions.empty()) chosen = sessions[ChooseSession(sessions, session, path)].id;
-  LogReader reader(path);
-  RecordingBuilder builder(room, chosen);
-  LogEvent event;
-  while (reader.Next(&event)) builder.Add(event.channel, event.data, event.timestamp_us);
-  if (!builder.has_room()) {
-    const std::int32_t other = builder.recording().foreign_protocol;
-    if (other != 0) {
-      throw OperatorError(path + ": recorded with protocol " + std::to_string(other) +
-                          "; this program reads protocol " +
-                          std::to_string(kOldestReadableProtocol) + " to " +
-                          std::to_string(kProtocolVersion));
-    }
-    const std::string which = room.empty() ? "no Seam2D room" : "no room \"" + room + "\"";
-    throw OperatorError(path + ": " + which + " in this log (record channels SEAM.*)");
-  }
-  if (builder.recording().mixed) {
-    throw OperatorError(path +
-                        ": holds more than one session, recorded before protocol 13, when messages "
-                        "did not say their session: record one session per log");
-  }
-  Recording recording = std::move(builder.recording());
-  recording.skipped_bytes = reader.skipped_bytes();
-  recording.sessions = std::move(sessions);
-  return recording;
-}
-
-std::string SessionSuffix(const Recording& recording) {
-  const std::vector<LogSession>& all = recording.sessions;
-  if (all.size() < 2) return "";
-  const auto chosen = std::find_if(all.begin(), all.end(), [&](const LogSession& session) {
-    return session.id == recording.room.session;
-  });
-  return "#" + std::to_string(chosen - all.begin() + 1);
-}
-
-std::string ChosenSession(const Recording& recording) {
-  const std::string suffix = SessionSuffix(recording);
-  if (suffix.empty()) return "";
-  const bool last = recording.room.session == recording.sessions.back().id;
-  return SessionsText(recording.sessions) + "; this is " + suffix.substr(1) +
-         (last ? ", the last" : "") + " (--session chooses)";
 }
 
 }  // namespace seam

@@ -13,12 +13,13 @@
 #include "common/codec/messages.h"
 #include "common/record/log_sessions.h"
 #include "common/record/recorder.h"
+#include "common/record/scene_parts.h"
 
 namespace seam {
 
 /// The messages of one session of a room, by kind, and counters of damage.
 struct Recording {
-  Room room;                                          ///< the session's first
+  Room room;                                          ///< the session's first, with its scene
   std::map<int, std::map<std::int64_t, View>> views;  ///< by peer, by tick; complete ones only
   /// Times at which the bus received each view, us on one clock for all peers. By peer, by tick;
   /// empty if unknown.
@@ -77,8 +78,13 @@ class RecordingBuilder {
   Recording& recording();
   /// Returns the session that is recorded; nullopt before the first message.
   std::optional<std::int64_t> session() const { return session_; }
-  /// Returns true once a Room was received; without one nothing can be drawn.
+  /// Returns true once a Room was received.
   bool has_room() const { return has_room_; }
+  /// Returns true once its scene was received, too, which may follow in parts; without it nothing
+  /// can be drawn.
+  bool has_scene() const { return has_room_ && !recording_.room.scene_text.empty(); }
+  /// Returns the parts of the scene that have come, if it comes in parts.
+  const SceneParts& scene_parts() const { return scene_parts_; }
 
  private:
   /// The sequence numbers received on a channel.
@@ -92,6 +98,7 @@ class RecordingBuilder {
   bool IsDuplicate(const std::string& channel, std::int64_t sequence, ByteView message);
   void CountGaps(const std::string& channel, std::int64_t more);
   bool Keep(Room& room);
+  bool Keep(ScenePart& part);
   bool Keep(Inputs& inputs);
   bool Keep(States& states);
   bool Keep(Grants& grants);
@@ -104,6 +111,7 @@ class RecordingBuilder {
   bool Keep(Load& load);
   bool Keep(Event& event);
   bool KeepWhole(View& view);
+  void AddScene();
   void DropStrayTicks();
 
   std::string wanted_room_;
@@ -113,6 +121,7 @@ class RecordingBuilder {
   std::int64_t room_sequence_ = 0;
   std::int64_t heard_us_ = -1;  // time of receipt of the message being added
   bool has_room_ = false;
+  SceneParts scene_parts_;
   bool sorted_ = true;
   Recording recording_;
   std::map<std::string, Heard> heard_;                                 ///< by channel

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "common/codec/messages.h"
+#include "common/codec/scene_part.h"
 #include "common/net/datagram.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
@@ -34,6 +35,7 @@ constexpr MessageBytes kViewBytes{50, 31};
 constexpr MessageBytes kImpactsBytes{38, 20};
 constexpr MessageBytes kStrandsBytes{38, 10};
 constexpr MessageBytes kRoomBytes{83, 1};  ///< per byte of any of its texts
+constexpr MessageBytes kScenePartBytesOf{42, 1};
 
 constexpr std::size_t Largest(const MessageBytes& bytes, std::size_t count) {
   return bytes.empty + bytes.each * count;
@@ -65,8 +67,12 @@ static_assert(Largest(kEditBytes, kEditTextBytesMax) <= kMessageBytesMax, "EditO
 static_assert(Largest(kViewBytes, kViewBodiesMax) <= kBusMessageBytesMax, "View too large");
 static_assert(Largest(kImpactsBytes, kImpactsMax) <= kBusMessageBytesMax, "Impacts too large");
 static_assert(Largest(kStrandsBytes, kStrandPointsMax) <= kBusMessageBytesMax, "Strands too large");
-static_assert(Largest(kRoomBytes, kSceneTextBytesMax + 5 * kLabelBytesMax + kImpairBytesMax) <=
-                  kBusMessageBytesMax,
-              "a Room with the longest scene could neither be published nor joined");
+constexpr std::size_t kRoomLabelBytesMax = 5 * kLabelBytesMax + kImpairBytesMax;
+static_assert(Largest(kRoomBytes, kBusSceneBytesMax + kRoomLabelBytesMax) <= kBusMessageBytesMax,
+              "a Room with the longest scene of the bus could not be published");
+static_assert(Largest(kRoomBytes, kSceneTextBytesMax + kRoomLabelBytesMax) <= kRoomBytesMax,
+              "a Room with the longest scene could not be joined");
+static_assert(Largest(kScenePartBytesOf, kScenePartBytes) <= kBusMessageBytesMax,
+              "ScenePart too large");
 
 }  // namespace seam

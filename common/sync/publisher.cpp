@@ -34,6 +34,7 @@ void Publisher::Publish(Message message) {
 }
 
 template void Publisher::Publish(Room);
+template void Publisher::Publish(ScenePart);
 template void Publisher::Publish(Inputs);
 template void Publisher::Publish(States);
 template void Publisher::Publish(Grants);

@@ -18,8 +18,8 @@
 namespace seam {
 
 enum class SessionStage {
-  kAdmitted,  ///< has proved its address; the Welcome is queued, and the Room comes next
-  kLoading,   ///< the Room is on its way to the client
+  kAdmitted,  ///< has proved its address; is sent the Welcome and the Room
+  kLoading,   ///< the last of the Room is on its way to the client
   kReady,     ///< simulates (or will from tick 0)
 };
 
@@ -60,6 +60,7 @@ struct Session {
   int revision = -1;  ///< edits that the client has applied, as of its newest ping
   float load = -1;    ///< share of the client's time spent in its ticks; below 0: not known
   SessionStage stage = SessionStage::kAdmitted;
+  std::size_t room_sent = 0;  ///< bytes of the room that were given to the link
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;
   bool lapsed = false;  ///< its lease has ended: the client gets no authority until it joins anew

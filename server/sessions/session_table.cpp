@@ -1,25 +1,37 @@
 #include "server/sessions/session_table.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "common/base/compress.h"
 #include "common/net/datagram.h"
 #include "common/sync/lease.h"
 
 namespace seam {
 namespace {
 
-/// A session that never gets ready is dropped after this, us.
+/// A session that never gets ready is dropped after this, us, and the time for the room.
 constexpr std::int64_t kHalfOpenUs = 10000000;
+/// That time, us for each byte on its way: a line of 1 kB/s.
+constexpr std::int64_t kUsPerRoomByte = 1000;
+/// Time to parse a scene, us for each byte: a tenth of the speed that is usual. Meanwhile a client
+/// is silent.
+constexpr std::int64_t kUsPerSceneByte = 10;
+/// Messages of the room that wait at a session's link: more than a link sends ahead of its
+/// acknowledgements, and a small part of the room.
+constexpr std::size_t kRoomAhead = 96;
+static_assert(kRoomAhead * kChunkBytesMax > kReliableWindowBytes);
 /// A goodbye is sent this often, each in a datagram of its own: a burst of losses, as of profile
 /// 4g, easily takes four in a row.
 constexpr int kByeCopies = 12;
 
 }  // namespace
 
-SessionTable::SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed, Net& net,
-                           Entropy& entropy, double bytes_per_s)
+SessionTable::SessionTable(const Scene& scene, const Bytes& room, const TrafficRate& allowed,
+                           Net& net, Entropy& entropy, double bytes_per_s)
     : scene_(scene),
-      room_(std::move(room)),
+      room_(Compress(room)),
+      load_us_(kUsPerSceneByte * static_cast<std::int64_t>(room.size())),
       allowed_(allowed),
       bytes_per_s_(bytes_per_s),
       net_(net),
@@ -124,6 +136,7 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
 void SessionTable::NoteReady(Session& session) {
   if (session.stage != SessionStage::kLoading) return;
   session.stage = SessionStage::kReady;
+  silent_us_ = 0;  // it may not be silent for as long as it might while it was loading
   NoteChanged();
   ++session.account->sessions;
   Note(SessionEvent::Kind::kReady, session);
@@ -133,17 +146,29 @@ void SessionTable::Advance(std::int64_t now_us) {
   if (!std::exchange(admitted_, false)) return;
   for (auto& [id, session] : sessions_) {
     if (session->stage != SessionStage::kAdmitted) continue;
-    session->stage = SessionStage::kLoading;
-    for (std::size_t at = 0; at < room_.size(); at += kChunkBytesMax) {
-      const std::size_t end = std::min(room_.size(), at + kChunkBytesMax);
-      Chunk chunk;
-      chunk.utime = now_us;
-      chunk.offset_bytes = static_cast<std::int32_t>(at);
-      chunk.data.assign(room_.begin() + static_cast<std::ptrdiff_t>(at),
-                        room_.begin() + static_cast<std::ptrdiff_t>(end));
-      session->link.SendReliable(Encode(chunk));
+    SendRoom(now_us, session.get());
+    if (session->room_sent < room_.size()) {
+      admitted_ = true;
+      continue;
     }
+    session->stage = SessionStage::kLoading;
     Note(SessionEvent::Kind::kLoading, *session);
+  }
+}
+
+/// Gives the link the next messages of the room; it holds few at a time, so that a joiner costs the
+/// server no copy of a long scene.
+void SessionTable::SendRoom(std::int64_t now_us, Session* session) {
+  while (session->room_sent < room_.size() && session->link.waiting() < kRoomAhead) {
+    const std::size_t at = session->room_sent;
+    const std::size_t end = std::min(room_.size(), at + kChunkBytesMax);
+    Chunk chunk;
+    chunk.utime = now_us;
+    chunk.offset_bytes = static_cast<std::int32_t>(at);
+    chunk.data.assign(room_.begin() + static_cast<std::ptrdiff_t>(at),
+                      room_.begin() + static_cast<std::ptrdiff_t>(end));
+    session->link.SendReliable(Encode(chunk));
+    session->room_sent = end;
   }
 }
 
@@ -169,22 +194,28 @@ void SessionTable::DropSilent(std::int64_t now_us) {
 /// Returns why the session has to be dropped now, or "". In that case silent_us_ is brought forward
 /// to the earliest time at which it may have to be.
 std::string SessionTable::TooLong(std::int64_t now_us, const Session& session) {
-  const std::int64_t heard = std::max(session.link.last_receive_us(), session.created_us);
   const std::int64_t over_us = session.budget.over_us(now_us);
-  if (session.created_us < now_us - kHalfOpenUs && session.stage != SessionStage::kReady) {
-    return "never got ready";
-  }
-  if (now_us - heard > kPatienceUs) {
+  if (now_us > ReadyByUs(session)) return "never got ready";
+  if (now_us > HeardByUs(session)) {
     return "not heard for " + std::to_string(kPatienceUs / 1000000) + " s";
   }
   if (over_us >= kOverBudgetUs) {
     return "sent more than it may for " + std::to_string(kOverBudgetUs / 1000000) + " s";
   }
-  silent_us_ = std::min({silent_us_, heard + kPatienceUs, now_us + kOverBudgetUs - over_us});
-  if (session.stage != SessionStage::kReady) {
-    silent_us_ = std::min(silent_us_, session.created_us + kHalfOpenUs);
-  }
+  silent_us_ = std::min(
+      {silent_us_, HeardByUs(session), now_us + kOverBudgetUs - over_us, ReadyByUs(session)});
   return "";
+}
+
+std::int64_t SessionTable::HeardByUs(const Session& session) const {
+  const std::int64_t heard_us = std::max(session.link.last_receive_us(), session.created_us);
+  return heard_us + kPatienceUs + (session.stage == SessionStage::kReady ? 0 : load_us_);
+}
+
+std::int64_t SessionTable::ReadyByUs(const Session& session) const {
+  if (session.stage == SessionStage::kReady) return std::numeric_limits<std::int64_t>::max();
+  const auto bytes = static_cast<std::int64_t>(room_.size());
+  return session.created_us + kHalfOpenUs + kUsPerRoomByte * bytes + load_us_;
 }
 
 void SessionTable::Drop(const SessionId& id, const std::string& why) {

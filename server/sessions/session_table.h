@@ -40,9 +40,10 @@ struct SessionEvent {
 
 class SessionTable {
  public:
-  /// `scene`, `net` and `entropy` must outlive this object. `room`: the encoded Room for joiners;
+  /// `scene`, `net` and `entropy` must outlive this object. `room`: the encoded Room for joiners,
+  /// who get it compressed;
   /// `allowed`: limit for traffic from each; `bytes_per_s`: limit for traffic to each, 0: none.
-  SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed, Net& net,
+  SessionTable(const Scene& scene, const Bytes& room, const TrafficRate& allowed, Net& net,
                Entropy& entropy, double bytes_per_s = 0);
 
   enum class Verdict { kTaken, kMalformed, kNoRight, kOverBudget };
@@ -57,7 +58,7 @@ class SessionTable {
   void DropSilent(std::int64_t now_us);
   /// Marks a session to be dropped by the next DropSilent. The first reason counts.
   void Leave(Session& session, const std::string& why);
-  /// Sends the room to sessions admitted since the last call.
+  /// Sends the room to admitted sessions, as fast as they acknowledge it.
   void Advance(std::int64_t now_us);
   /// Returns the events since the last call, in order. To be called after each of the above.
   std::vector<SessionEvent> TakeEvents() { return std::exchange(events_, {}); }
@@ -126,9 +127,14 @@ class SessionTable {
   std::string TooLong(std::int64_t now_us, const Session& session);
   void Drop(const SessionId& id, const std::string& why);
   void Note(SessionEvent::Kind kind, const Session& session, const std::string& why = "");
+  void SendRoom(std::int64_t now_us, Session* session);
+  /// Returns when the session must have said something again, and be ready, us.
+  std::int64_t HeardByUs(const Session& session) const;
+  std::int64_t ReadyByUs(const Session& session) const;
 
   const Scene& scene_;
-  const Bytes room_;
+  const Bytes room_;            // compressed
+  const std::int64_t load_us_;  // time in which a slow machine unpacks and parses it
   const TrafficRate allowed_;
   const double bytes_per_s_;
   Net& net_;
@@ -141,7 +147,7 @@ class SessionTable {
   std::vector<Session*> by_peer_;
   std::vector<int> peer_of_player_;
   std::vector<SessionEvent> events_;
-  bool admitted_ = false;       // some session was, since the last Advance
+  bool admitted_ = false;       // some session was not sent all of the room yet
   bool leaving_ = false;        // some session is
   std::int64_t silent_us_ = 0;  // time of the next check for timeouts
 };

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "client/client.h"
+#include "common/base/compress.h"
 #include "common/net/datagram.h"
 #include "common/net/memory.h"
 #include "common/sync/method.h"
 #include "server/server.h"
+#include "tests/support/allocations/count_allocations.h"
 
 namespace seam {
 namespace client_join_test {
@@ -153,6 +155,39 @@ TEST_F(ClientJoin, ARefusalThatComesAfterTheWelcomeIsTooLate) {
   EXPECT_FALSE(client_.closed());
   EXPECT_EQ(client_.peer(), 1);
   EXPECT_EQ(client_.stats().dropped_malformed, 0);
+}
+
+TEST_F(ClientJoin, ARoomThatDoesNotUnpackIsRefusedInOneLine) {
+  const Bytes room = Encode(Room());
+  Bytes damaged = Compress(room), longer = Compress(room);
+  damaged[damaged.size() / 2] ^= 1;
+  longer.push_back(0);
+  const Bytes bomb = Compress(Bytes(kRoomBytesMax + 1, '#'));
+  ASSERT_LT(bomb.size(), 1000u);
+  for (const Bytes& sent : {room, damaged, longer, bomb, Compress(Bytes(1000, 'x'))}) {
+    Client client(Config(), *net_, recorder_, entropy_);
+    now_us_ += 1000000;
+    client.Tick(now_us_, 0);
+    Address from;
+    Bytes datagram;
+    DatagramHeader header;
+    while (server_->Receive(&from, &datagram)) ASSERT_TRUE(ReadHeader(datagram, &header));
+    Link server(header.session);
+    Welcome welcome;
+    welcome.peer = 1;
+    welcome.room_bytes = static_cast<std::int32_t>(sent.size());
+    welcome.key = 7;
+    Chunk chunk;
+    chunk.data = sent;
+    server.SendReliable(Encode(welcome));
+    server.SendReliable(Encode(chunk));
+    server.Flush(now_us_, [&](ByteView out) { server_->Send({2, 1}, out); });
+    const std::size_t before = AllocatedBytes();
+    client.Tick(now_us_ + 10000, 0);
+    EXPECT_LT(AllocatedBytes() - before, 200000u);
+    EXPECT_EQ(client.fatal(), "the server's room does not decode");
+    EXPECT_EQ(client.replica(), nullptr);
+  }
 }
 
 TEST(ClientJoinWatch, WatchersWithoutANameAreNumbered) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "common/base/random.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/thin_net.h"
 
@@ -89,6 +90,29 @@ TEST(ThinLine, UpwardsAndBothWays) {
     Check("crossing", "buffer", {0, kb});
     Check("crossing", "buffer", {kb, kb});
   }
+}
+
+TEST(ThinLine, ALongSceneIsJoinedHoweverLongItTakes) {
+  std::string text = LoadScene("scenes/crossing.toml").text + "\n";
+  Random random(1);  // comments that do not get shorter: the scene takes 20 s
+  while (text.size() < 350000) text += "# " + std::to_string(random.Next()) + "\n";
+  ClusterConfig config;
+  config.scene_text = text;
+  config.impair = "perfect";
+  config.drive = Drive::kBot;
+  config.duration_s = 5;
+  config.client_net = [&](std::size_t i, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
+    const int kb = i == 0 ? 64 : 0;
+    return std::make_unique<ThinNet>(std::move(net), Way(kb), Way(kb), 7 + i);
+  };
+  Cluster cluster(config);
+  cluster.Run();
+  ASSERT_TRUE(cluster.client(0)->running());
+  EXPECT_GT(cluster.now_us(), 15000000 + 5000000) << "it is no test of patience";
+  EXPECT_EQ(cluster.client(0)->rejoins(), 0);
+  EXPECT_EQ(cluster.server().accounts()[0].sessions, 1) << "no join was given up";
+  EXPECT_EQ(cluster.recording().room.scene_text, text);
+  EXPECT_EQ(cluster.recording().bus_gaps, 0);
 }
 
 }  // namespace thin_line_test

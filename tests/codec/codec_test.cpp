@@ -19,9 +19,9 @@ namespace seam {
 namespace codec_test {
 
 using Messages =
-    ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Rest, PackedStates,
-                     PackedInputs, Grants, Release, ExactStates, ImpactReport, TouchReport,
-                     EditOrder, Meta, View, Impacts, Strands, Stats, Event, Bye>;
+    ::testing::Types<Hello, Welcome, Chunk, Room, ScenePart, Ping, Pong, Inputs, States, Rest,
+                     PackedStates, PackedInputs, Grants, Release, ExactStates, ImpactReport,
+                     TouchReport, EditOrder, Meta, View, Impacts, Strands, Stats, Event, Bye>;
 
 template <class Message>
 class Codec : public ::testing::Test {};
@@ -208,11 +208,20 @@ TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
   Strands strands;
   random.Fill(strands, kStrandPointsMax);
   EXPECT_LE(Encode(strands).size(), kBusMessageBytesMax);
+  ScenePart part;
+  part.session = 1;
+  part.parts = 2;
+  part.data.assign(kScenePartBytes, 0);
+  EXPECT_LE(Encode(part).size(), kBusMessageBytesMax);
   Room room;
-  room.scene_text.assign(kSceneTextBytesMax, '#');
+  room.scene_text.assign(kBusSceneBytesMax, '#');
   room.scene_name = room.mode = room.reconcile = room.predict = std::string(kLabelBytesMax, 'x');
   room.impair.assign(kImpairBytesMax, 'x');
   EXPECT_LE(Encode(room).size(), kBusMessageBytesMax);
+  room.scene_text.assign(kSceneTextBytesMax, '#');
+  const Bytes longest = Encode(room);
+  EXPECT_LE(longest.size(), kRoomBytesMax);
+  EXPECT_TRUE(std::holds_alternative<Room>(Decode(longest)));
 }
 
 TEST(CodecBounds, AMessageThatBreaksABoundIsNotValid) {
@@ -297,11 +306,11 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"meta_t", 0x854f240a2ce02096u},          {"ping_t", 0x5033c4912646ec19u},
       {"pong_t", 0x54224f4828f2f0bau},          {"ready_t", 0x4d0d41c1f105b12fu},
       {"release_t", 0x9abeee4bbddaf2f3u},       {"rest_t", 0x74a2fc2deefa7466u},
-      {"room_t", 0x9d06db812b0fd058u},          {"snapshot_t", 0x5041ad92d1002765u},
-      {"states_t", 0x59ebd56a2b361895u},        {"stats_t", 0xfa9c7b02adbdd4ebu},
-      {"strands_t", 0xc61a1fa141f00542u},       {"view_t", 0x8e3b87bafb80c4b7u},
-      {"welcome_t", 0x01d175a91807bb13u},       {"packed_states_t", 0x9e508524d7c14130u},
-      {"packed_inputs_t", 0x7e50cd24d7c14120u},
+      {"room_t", 0x9d06db812b0fd058u},          {"scene_part_t", 0x0a6cbaba0e401b6bu},
+      {"snapshot_t", 0x5041ad92d1002765u},      {"states_t", 0x59ebd56a2b361895u},
+      {"stats_t", 0xfa9c7b02adbdd4ebu},         {"strands_t", 0xc61a1fa141f00542u},
+      {"view_t", 0x8e3b87bafb80c4b7u},          {"welcome_t", 0x01d175a91807bb13u},
+      {"packed_states_t", 0x9e508524d7c14130u}, {"packed_inputs_t", 0x7e50cd24d7c14120u},
   };
   std::map<std::string, std::uint64_t> hashes;
   std::set<std::uint64_t> different;

@@ -172,12 +172,14 @@ std::int64_t Cluster::Sum(std::int64_t (Replica::*count)() const) {
 void Cluster::RunToTick(std::int64_t tick) {
   std::int64_t last_progress_us = now_us_;
   std::int64_t last_tick = server_->tick();
+  double last_share = 0;
   while (server_->tick() < tick) {
     Instant();
-    if (server_->tick() != last_tick) {
-      last_tick = server_->tick();
-      last_progress_us = now_us_;
-    }
+    double share = 0;  // of the room, that the clients have
+    for (const Peer& peer : clients_) share += peer.client ? peer.client->room_share() : 0;
+    if (server_->tick() != last_tick || share > last_share) last_progress_us = now_us_;
+    last_tick = server_->tick();
+    last_share = share;
     if (now_us_ - last_progress_us > kStandstillUs) {
       throw OperatorError(scene_.name + ": no tick within 30 s of virtual time: can its players " +
                           "join over the network \"" + config_.impair + "\"?");

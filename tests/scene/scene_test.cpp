@@ -191,7 +191,10 @@ TEST(Scene, RefusesTextsThatNoMessageOrStackCanHold) {
     }
     return false;
   };
-  EXPECT_TRUE(says("#" + std::string(50000, 'x') + "\n", "at most 50000 bytes"));
+  constexpr std::size_t kLongest = 4000000;
+  EXPECT_TRUE(says("#" + std::string(kLongest - 1, 'x') + "\n",
+                   "s.toml:1: a scene may have at most 4000000 bytes; this one has more"));
+  EXPECT_TRUE(says("#" + std::string(kLongest - 2, 'x') + "\n", "there is no [[part]]"));
   EXPECT_TRUE(says("a = " + std::string(40000, '['), "nested too deeply"));
   EXPECT_TRUE(says("a = " + std::string(40000, '{'), "nested too deeply"));
   std::string dots = "a";

@@ -35,11 +35,11 @@ class RandomMessages {
   }
   void Fill(Ready& m) { Common(m); }
   void Fill(Welcome& m) {
-    Common(m), Set(m.peer, 1, 31), Set(m.player, -1, 31), Set(m.room_bytes, 1, 60000);
+    Common(m), Set(m.peer, 1, 31), Set(m.player, -1, 31), Set(m.room_bytes, 1, kPackedRoomBytesMax);
     m.key = static_cast<std::int64_t>(random_.Next());
   }
   void Fill(Chunk& m) {
-    Common(m), Set(m.offset_bytes, 0, 59000), Vector(m.data, Count(1, kChunkBytesMax), 0, 255);
+    Common(m), Set(m.offset_bytes, 0, 4000000), Vector(m.data, Count(1, kChunkBytesMax), 0, 255);
   }
   void Fill(Room& m) {
     Common(m), m.protocol = Int32(), m.room = Name(), m.scene_name = Text(64), m.mode = Text(64);
@@ -47,6 +47,10 @@ class RandomMessages {
     m.seed = static_cast<std::int64_t>(random_.Next()), Set(m.tick_hz, 10, 960);
     Set(m.send_hz, 1, m.tick_hz), Sequence(m);
     m.predict = Text(64), Set(m.input_delay_ticks, 0, kInputDelayTicksMax);
+  }
+  void Fill(ScenePart& m) {
+    Common(m), Sequence(m), m.session = Integer(1, INT64_MAX - 1), Set(m.parts, 1, kScenePartsMax);
+    m.part = m.parts - 1, Vector(m.data, Count(1, 200), 0, 255);
   }
   void Fill(Ping& m) {
     Common(m), Set(m.revision, -1, INT32_MAX);

@@ -6,8 +6,8 @@
 
 namespace seam {
 
-/// A scene must fit one message of the bus (60 kB) and one Room.
-constexpr std::size_t kSceneBytesMax = 50000;
+/// Length of a scene. A parser needs about a second for 1 MB.
+constexpr std::size_t kSceneBytesMax = 4000000;
 /// Depth of nested brackets; the format needs at most 5.
 constexpr int kSceneNestingMax = 12;
 /// Number of dots in one key.

@@ -51,6 +51,14 @@ TEST(RoomState, ARoomIsSavedAgainAfterItWasLoaded) {
   ExpectSameCourse(&second, 100);
 }
 
+TEST(RoomState, ARoomWithTheLongestSceneIsSavedAndLoaded) {
+  std::string text = Arena().text + "\n#";
+  text.append(kSceneTextBytesMax - text.size(), 'x');
+  LoneRoom room(ParseScene(text, "arena.toml"));
+  room.StepTo(30);
+  ExpectSameCourse(&room, 30);
+}
+
 TEST(RoomState, ATriggerThatIsOccupiedIsNotEnteredAgain) {
   LoneRoom room(Arena());
   room.StepTo(80);
