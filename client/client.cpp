@@ -264,10 +264,7 @@ void Client::StepOnce(std::int64_t now_us) {
     report.utime = now_us;
     if (!released_) link_->SendReliable(Encode(report));
   }
-  for (States& states : replica_->TakeStates()) {
-    states.utime = now_us;
-    if (!released_) SendStates(Encode(states));
-  }
+  if (!released_) SendStates(now_us);
   TellRest(now_us);
   PublishShown(now_us);
 }

@@ -16,6 +16,7 @@
 #include "client/room_timeline.h"
 #include "client/scene_cache.h"
 #include "common/base/entropy.h"
+#include "common/codec/packed/states_packer.h"
 #include "common/codec/packed/states_unpacker.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
@@ -165,7 +166,8 @@ class Client {
   // client_send.cpp
   /// True if the path to the server carries a datagram now.
   bool LineReady(std::int64_t now_us);
-  void SendStates(const Bytes& states);
+  /// Sends the states of the last step.
+  void SendStates(std::int64_t now_us);
   /// Returns the states that are due to the server, in thousandths of its full path's rate;
   /// -1: it is not full.
   std::int16_t LineLoad(std::int64_t now_us);
@@ -238,7 +240,9 @@ class Client {
   std::int16_t line_permille_ = -1;
   std::int64_t discarded_ = 0;  // datagrams discarded by the net, as counted in stats_
   Stats stats_;
-  std::optional<StatesUnpacker> unpacker_;  // for this link's packed states
+  // For this link's packed states, once its scene is known.
+  std::optional<StatesUnpacker> unpacker_;
+  std::optional<StatesPacker> packer_;
 };
 
 }  // namespace seam

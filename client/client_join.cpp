@@ -37,6 +37,7 @@ void Client::Join(std::int64_t now_us) {
   } while (session_ == 0);
   link_ = std::make_unique<Link>(session_);
   unpacker_.reset();
+  packer_.reset();
   token_.reset();
   token_fresh_ = false;
   replica_.reset();

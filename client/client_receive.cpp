@@ -75,6 +75,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     }
   } else if (const auto* inputs = std::get_if<PackedInputs>(&any)) {
     OnInputs(*inputs);
+  } else if (const auto* reset = std::get_if<Reset>(&any)) {
+    if (packer_) packer_->Reset(static_cast<std::uint16_t>(reset->number));
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     if (peer_ < 0) return OnRefusal(now_us, bye->reason);
     if (asked_names_us_ >= 0) return GiveUpName(bye->reason);
@@ -95,15 +97,10 @@ void Client::OnStates(const States& states) {
 /// Unpacks states before the start, too: the server counts on those that have arrived.
 void Client::OnPacked(const PackedStates& packed) {
   const std::vector<States>* all = nullptr;
-  if (scene_ != nullptr) {
-    if (!unpacker_) {
-      unpacker_.emplace(
-          PackedMotion(scene_->gravity.x(), scene_->gravity.y(), scene_->solver.tick_hz));
-    }
-    all = unpacker_->Take(packed);
-  }
+  if (unpacker_) all = unpacker_->Take(packed);
   if (all == nullptr) {
     ++stats_.dropped_malformed;
+    link_->SendUnreliable(Encode(StatesUnpacker::Refusal(packed)));
     return;
   }
   for (const States& states : *all) OnStates(states);
@@ -251,7 +248,11 @@ void Client::Build(std::int64_t now_us) {
     SceneCache own;
     SceneCache& scenes = config_.scenes != nullptr ? *config_.scenes : own;
     scene_ = scenes.Of(room_.scene_text, room_.scene_name + ".toml");
-    if (scene_->solver.tick_hz != room_.tick_hz) {
+    const Scene& scene = *scene_;
+    const PackedMotion motion(scene.gravity.x(), scene.gravity.y(), scene.solver.tick_hz);
+    unpacker_.emplace(motion);
+    packer_.emplace(motion);
+    if (scene.solver.tick_hz != room_.tick_hz) {
       throw OperatorError("its tick rate is not its scene's");
     }
     if (config_.drive == Drive::kScript) {

@@ -13,9 +13,14 @@ bool Client::LineReady(std::int64_t now_us) {
 }
 
 /// States that the path cannot carry now are left out, as if they were lost: newer ones follow.
-void Client::SendStates(const Bytes& states) {
-  offered_bytes_ += static_cast<double>(states.size());
-  if (line_ready_) link_->SendUnreliable(states);
+void Client::SendStates(std::int64_t now_us) {
+  for (const std::int64_t number : link_->TakeAckedNumbers()) packer_->Acknowledge(number);
+  for (const States& states : replica_->TakeStates()) packer_->Add(states);
+  for (const StatesPacker::Message& message : packer_->Take(now_us)) {
+    const Bytes bytes = Encode(message.packed);
+    offered_bytes_ += static_cast<double>(bytes.size());
+    if (line_ready_) link_->SendUnreliable(bytes, {{kListedSlot, message.number}});
+  }
 }
 
 std::int16_t Client::LineLoad(std::int64_t now_us) {
@@ -39,9 +44,9 @@ void Client::SendInputs(std::int64_t now_us) {
   const bool rides = link_->Sends(now_us) || (due && EditsWait());
   const int count = feed_.Take(track, link_->acked(player_), replica_->tick(), now_us, rides);
   if (count == 0) return;
-  Inputs inputs = track.Export(player_, count);
-  inputs.utime = now_us;
-  link_->SendUnreliable(Encode(inputs), {{player_, track.newest()}});
+  InputsPacker packer;
+  packer.Add(track.Export(player_, count));
+  link_->SendUnreliable(Encode(packer.Finish()), {{player_, track.newest()}});
 }
 
 void Client::Flush(std::int64_t now_us) {

@@ -134,18 +134,22 @@ class Server {
   /// Sends the free names to a client; a client asks for them when its name is no player's.
   void OnHello(std::int64_t now_us, Session& session);
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
+  void OnPacked(std::int64_t now_us, Session& session, const PackedInputs& packed);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
   void RelayInputs(std::int64_t now_us);
   void RelayInputs(std::int64_t now_us, const std::vector<int>& players, Session& session);
   void FindRelevantPlayers();
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
-  void OnStates(std::int64_t now_us, Session& session, const States& states);
-  void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
-  void OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact);
   void OnRelease(std::int64_t now_us, Session& session, const Release& release);
   template <class Report>
   void OnReport(const Session& session, const Report& report);
   void OnProposal(Session& session, const EditOrder& proposal);
+
+  // server_states.cpp
+  void OnPacked(std::int64_t now_us, Session& session, const PackedStates& packed);
+  void OnStates(std::int64_t now_us, Session& session, const States& states);
+  void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
+  void OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact);
 
   // server.cpp
   /// Acts on the events of sessions: joined, ready, left.

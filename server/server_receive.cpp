@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "server/authority_source.h"
 #include "server/server.h"
@@ -44,10 +46,16 @@ void Server::Deliver(std::int64_t now_us, Session& session, ByteView bytes) {
 void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   ++stats_.decoded;
   const AnyMessage any = Decode(bytes);
-  if (const auto* states = std::get_if<States>(&any)) {
+  if (const auto* packed = std::get_if<PackedStates>(&any)) {
+    OnPacked(now_us, session, *packed);
+  } else if (const auto* packed_inputs = std::get_if<PackedInputs>(&any)) {
+    OnPacked(now_us, session, *packed_inputs);
+  } else if (const auto* states = std::get_if<States>(&any)) {
     OnStates(now_us, session, *states);
   } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
     OnInputs(now_us, session, *inputs);
+  } else if (const auto* reset = std::get_if<Reset>(&any)) {
+    session.packer.Reset(static_cast<std::uint16_t>(reset->number));
   } else if (const auto* ping = std::get_if<Ping>(&any)) {
     OnPing(now_us, session, *ping);
   } else if (const auto* rest = std::get_if<Rest>(&any)) {
@@ -149,6 +157,15 @@ Inputs Server::TakeFresh(std::int64_t now_us, const Inputs& inputs) {
     fresh.buttons.push_back(input.buttons);
   }
   return fresh;
+}
+
+void Server::OnPacked(std::int64_t now_us, Session& session, const PackedInputs& packed) {
+  const std::optional<std::vector<Inputs>> all = UnpackInputs(packed);
+  if (!all) {
+    ++stats_.counters.dropped_malformed;
+    return;
+  }
+  for (const Inputs& inputs : *all) OnInputs(now_us, session, inputs);
 }
 
 void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs) {
@@ -256,54 +273,6 @@ void Server::FindRelevantPlayers() {
       broadcast_.EachSimulating(m, hears);
     }
   }
-}
-
-void Server::OnStates(std::int64_t now_us, Session& session, const States& states) {
-  if (session.stage != SessionStage::kReady) {
-    ++stats_.counters.dropped_right;
-    return;
-  }
-  const States& kept = filter_.Keep(now_us, session.peer, states);
-  if (kept.id.empty()) return;
-  if (authority_.WatchesAgreement()) {
-    replica_.EachDifference(
-        kept, [this](int body, const BodyState& off) { authority_.NoteTold(body, off); });
-  }
-  stats_.counters.dropped_stale += replica_.Receive(kept).stale;
-  if (rule_source_ != nullptr) rule_source_->NoteStates(kept);
-  broadcast_.Relay(now_us, kept, session.peer);
-  broadcast_.Publish(kept);
-}
-
-void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {
-  if (session.stage != SessionStage::kReady) {
-    ++stats_.counters.dropped_right;
-    return;
-  }
-  const Rest kept = filter_.Keep(now_us, session.peer, rest);
-  if (kept.id.empty()) return;
-  replica_.Receive(kept);
-  broadcast_.TellRest(kept, session.peer);
-}
-
-void Server::OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact) {
-  ExactStates kept = filter_.KeepExact(session.peer, exact);
-  if (kept.id.empty()) return;
-  kept.utime = now_us;
-  const BodyState off = replica_.TakeOver(kept);
-  const bool seen = off.position.norm() > AuthorityManager::kJump ||
-                    off.velocity.norm() > AuthorityManager::kJumpVelocity;
-  if (seen) ++stats_.jumps;
-  for (const std::int32_t id : kept.id) {
-    authority_.NoteCopyError(replica_.world().BodyOfId(id), off);
-  }
-  const Bytes bytes = Encode(kept);
-  sessions_.ForEachReady(session.peer, [&](Session& other) {
-    const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int32_t id) {
-      return authority_.Awaits(other.peer, replica_.world().BodyOfId(id));
-    });
-    if (awaits) sessions_.SendUrgentTo(other, bytes);
-  });
 }
 
 void Server::OnRelease(std::int64_t now_us, Session& session, const Release& release) {

@@ -71,7 +71,8 @@
   X(Event, event_t, kBusPeer, "event", m.utime, m.session, m.sequence, m.peer, m.tick, m.text)     \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                      \
   X(PackedStates, packed_states_t, kEdge, "", m.data)                                              \
-  X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)
+  X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)                                              \
+  X(Reset, reset_t, kEdge, "", m.number)
 
 namespace seam {
 

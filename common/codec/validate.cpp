@@ -153,6 +153,8 @@ bool Valid(const States& m) {
 
 bool Valid(const PackedInputs& m) { return Within(m.bits.size(), 1, kPackedBytesMax); }
 
+bool Valid(const Reset&) { return true; }
+
 bool Valid(const PackedStates& m) { return Within(m.data.size(), 1, kPackedBytesMax); }
 
 bool Valid(const Rest& m) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/codec/packed/states_packer.h"
+#include "common/codec/packed/states_unpacker.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/sync/inputs/input_feed.h"
@@ -40,7 +41,8 @@ struct Session {
         link(session.number),
         budget(allowed),
         send_queue(bytes_per_s),
-        packer(motion) {
+        packer(motion),
+        unpacker(motion) {
     send_queue.SetPath(link.rate().bytes_per_s(), false);
   }
 
@@ -70,7 +72,8 @@ struct Session {
   bool leaving = false;  ///< to be dropped at the next opportunity
   bool goodbye = false;  ///< the client itself said so
   std::string leaving_why;
-  StatesPacker packer;  ///< states to send with the next flush
+  StatesPacker packer;      ///< states to send with the next flush
+  StatesUnpacker unpacker;  ///< of the client's states
 
   /// Returns the load of the client's machine or, if greater, of the path to it; below 0: unknown.
   /// The planner takes a thin line as it takes a slow machine.

@@ -13,6 +13,7 @@
 #include "server/rules/rules.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/rewriting_net.h"
+#include "tests/support/rewritten_states.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {
@@ -97,15 +98,16 @@ TEST(Damage, AnImpactOfAToldVelocityIsRefused) {
     config.scene_text = kOwn;
     config.impair = impair;
     std::int64_t told = 0;
+    RewrittenStates rewritten(ParseScene(kOwn, "own.toml"));
     config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
       if (client != 0) return net;
       return std::unique_ptr<Net>(
-          std::make_unique<RewritingNet>(std::move(net), [&told](std::int64_t, Bytes* message) {
-            AnyMessage any = Decode(*message);
-            if (auto* states = std::get_if<States>(&any)) {
+          std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
+            rewritten.Rewrite(message, [](States* states) {
               for (auto& vx : states->vx) vx = static_cast<std::int16_t>(110 * kQuantaPerSpeed);
-              *message = Encode(*states);
-            } else if (auto* report = std::get_if<ImpactReport>(&any)) {
+            });
+            AnyMessage any = Decode(*message);
+            if (auto* report = std::get_if<ImpactReport>(&any)) {
               for (float& dv : report->dv) dv = 150;
               told += static_cast<std::int64_t>(report->dv.size());
               *message = Encode(*report);

@@ -11,6 +11,7 @@
 #include "tests/lab/cluster.h"
 #include "tests/support/pendulums.h"
 #include "tests/support/rewriting_net.h"
+#include "tests/support/rewritten_states.h"
 #include "tests/support/soak.h"
 
 namespace seam {
@@ -67,12 +68,13 @@ TEST(ExactHandOver, ExactStatesFromANonHolderAreIgnored) {
   config.scene_text = Pendulums(2);
   config.impair = "perfect";
   int forged = 0;
+  SentStates sent;
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
     if (client != 0) return net;
     return std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
-      const AnyMessage any = Decode(*message);
-      if (!std::holds_alternative<States>(any)) return true;
-      const States& states = std::get<States>(any);
+      const States* const told = sent.In(*message);
+      if (told == nullptr) return true;
+      const States& states = *told;
       ExactStates exact;
       exact.tick = states.tick;
       exact.revision = states.revision;

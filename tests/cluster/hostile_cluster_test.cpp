@@ -8,6 +8,7 @@
 #include "tests/support/live_session.h"
 #include "tests/support/pendulums.h"
 #include "tests/support/rewriting_net.h"
+#include "tests/support/rewritten_states.h"
 #include "tests/support/session_guest.h"
 
 namespace seam {
@@ -148,16 +149,19 @@ TEST(Hostile, AJointedBodyDoesNotFallFreelyEvenIfItsHolderSaysSo) {
     config.impair = "perfect";
     config.duration_s = 4;
     int forged = 0;
+    const Scene scene = ParseScene(config.scene_text, config.scene);
+    std::vector<std::unique_ptr<RewrittenStates>> rewritten;  // by client
     config.client_net = [&](std::size_t, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
-      return std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
-        AnyMessage any = Decode(*message);
-        States* const states = std::get_if<States>(&any);
-        if (states == nullptr || !lies) return true;
-        for (std::int8_t& flags : states->flags) {
-          forged += (flags & kStateAsleep) == 0 ? 1 : 0;
-          if ((flags & kStateAsleep) == 0) flags |= kStateFalls;
-        }
-        *message = Encode(*states);
+      rewritten.push_back(std::make_unique<RewrittenStates>(scene));
+      RewrittenStates* const own = rewritten.back().get();
+      return std::make_unique<RewritingNet>(std::move(net), [&, own](std::int64_t, Bytes* message) {
+        if (!lies) return true;
+        own->Rewrite(message, [&](States* states) {
+          for (std::int8_t& flags : states->flags) {
+            forged += (flags & kStateAsleep) == 0 ? 1 : 0;
+            if ((flags & kStateAsleep) == 0) flags |= kStateFalls;
+          }
+        });
         return true;
       });
     };

@@ -10,6 +10,7 @@
 #include "server/rules/rules.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/rewriting_net.h"
+#include "tests/support/rewritten_states.h"
 #include "tests/support/soak.h"
 
 namespace seam {
@@ -156,12 +157,13 @@ TEST(PressedCrate, ForgedReportsAreCountedAndDamageNothing) {
   ClusterConfig config = With(kDiscs, "perfect", 1);
   int forged = 0;
   std::int64_t tick = 0;
+  SentStates sent;
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
     if (client != 0) return net;
     return std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
-      const AnyMessage any = Decode(*message);
-      if (!std::holds_alternative<States>(any) || tick < 20 || tick > 40) return true;
-      const States& states = std::get<States>(any);
+      const States* const told = sent.In(*message);
+      if (told == nullptr || tick < 20 || tick > 40) return true;
+      const States& states = *told;
       ImpactReport report;
       report.tick = states.tick;
       report.revision = states.revision;

@@ -285,7 +285,7 @@ TEST(Release, ForgedReleasesAreCountedAndTakeNothingFromOthers) {
   int forged = 0;
   Tamper(&config, [&](std::int64_t, Bytes* message) {
     const AnyMessage any = Decode(*message);
-    if (room == nullptr || !std::holds_alternative<States>(any)) return true;
+    if (room == nullptr || !std::holds_alternative<PackedStates>(any)) return true;
     const AuthorityTable& table = room->server().replica().authority();
     for (int m = 0; m < table.count(); ++m) {
       if (table.at(m).authority != kBob) continue;

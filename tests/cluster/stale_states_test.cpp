@@ -18,13 +18,13 @@ TEST(StaleStates, AReplayedMessageReachesNeitherOtherClientsNorTheBus) {
   config.scene = "pendulums.toml";
   config.scene_text = Pendulums(4);
   config.impair = "perfect";
-  config.duration_s = 1.5;
+  config.duration_s = 4;
   Bytes first;
   int sent = 0, replayed = 0;
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
     if (client != 0) return net;
     return std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
-      if (!std::holds_alternative<States>(Decode(*message))) return true;
+      if (!std::holds_alternative<PackedStates>(Decode(*message))) return true;
       if (first.empty()) first = *message;
       if (++sent % 3 != 0) return true;
       *message = first;

@@ -21,7 +21,7 @@ namespace codec_test {
 using Messages =
     ::testing::Types<Hello, Welcome, Chunk, Room, ScenePart, Ping, Pong, Inputs, States, Rest,
                      PackedStates, PackedInputs, Grants, Release, ExactStates, ImpactReport,
-                     TouchReport, EditOrder, Meta, View, Impacts, Strands, Stats, Event, Bye>;
+                     TouchReport, EditOrder, Meta, View, Impacts, Strands, Stats, Event, Bye, Reset>;
 
 template <class Message>
 class Codec : public ::testing::Test {};

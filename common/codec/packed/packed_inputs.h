@@ -12,7 +12,8 @@
 
 namespace seam {
 
-/// Server -> client: all inputs of other players that the client does not have yet. As plain Inputs
+/// Both directions: all inputs that the receiver does not have yet, of other players or of the
+/// client's own. As plain Inputs
 /// (60 per second and player) most bytes would be repeated values and message headers: 82 bytes
 /// each with framing, 310 kB/s for a client among 63 others. Written by InputsPacker, read by
 /// UnpackInputs.

@@ -9,10 +9,16 @@
 
 namespace seam {
 
-/// Server -> client: States, coded as differences from acknowledged states. Written by
-/// StatesPacker, read by StatesUnpacker.
+/// Both directions: States, coded as differences from acknowledged states. Written by StatesPacker,
+/// read by StatesUnpacker.
 struct PackedStates {
   std::vector<std::uint8_t> data;  ///< 1..kPackedBytesMax bytes
+};
+
+/// The answer to a PackedStates that StatesUnpacker refused, at once: its sender counts no state up
+/// to that message as known (StatesPacker::Reset).
+struct Reset {
+  std::int16_t number = 0;  ///< the lowest 16 bits of the message's number
 };
 
 /// Most bytes of data in one PackedStates: with the 10 bytes before, it must fit kMessageBytesMax.

@@ -106,6 +106,7 @@ void StatesPacker::Begin(const StatesHeader& header) {
 
 void StatesPacker::BeginGroup(const StatesHeader& header) {
   group_ = true;
+  peer_ = header.peer;
   bits_.Put(1, 1);
   bits_.PutGolomb(static_cast<std::uint32_t>(header.peer), 4);
   const std::int64_t ticks = header.tick - context_.tick;
@@ -113,6 +114,10 @@ void StatesPacker::BeginGroup(const StatesHeader& header) {
   context_.tick = header.tick;
   context_.id = -1;
   context_.id_gap = 0;
+}
+
+bool StatesPacker::Continues(const StatesHeader& header, std::int32_t id) const {
+  return group_ && header.peer == peer_ && header.tick == context_.tick && id > context_.id;
 }
 
 void StatesPacker::End() {
@@ -210,7 +215,7 @@ void StatesPacker::Add(const States& states) {
   const StatesHeader header = HeaderOf(states);
   const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
-  bool begun = false;
+  bool begun = !states.id.empty() && Continues(header, states.id.front());
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     AddEntry(header, BodyAt(states, i), &begun);
   }
@@ -219,13 +224,14 @@ void StatesPacker::Add(const States& states) {
 void StatesPacker::Add(const StatesHeader& header, const WireBody* begin, const WireBody* end) {
   const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
-  bool begun = false;
+  bool begun = begin != end && Continues(header, begin->id);
   for (; begin != end; ++begin) AddEntry(header, *begin, &begun);
 }
 
 std::vector<StatesPacker::Message> StatesPacker::Take(std::int64_t now_us) {
   End();
   for (const Message& message : ready_) in_flight_.push_back({message.number, now_us});
+  while (in_flight_.size() > kSentMost) in_flight_.pop_front();
   return std::exchange(ready_, {});
 }
 
@@ -245,8 +251,11 @@ void StatesPacker::FindLostStates(std::int64_t until_us) {
       if (KnownOf(id).count < sent.count) owed_.push_back({id, sent.count, 0, kResendUs});
     }
   }
-  if (owed_.size() == before) return;
-  // Merges entries of one body: the last lost state counts, the timer continues.
+  if (owed_.size() != before) MergeOwed();
+}
+
+/// Merges entries of one body: the last lost state counts, the timer continues.
+void StatesPacker::MergeOwed() {
   std::stable_sort(owed_.begin(), owed_.end(),
                    [](const Owed& a, const Owed& b) { return a.id < b.id; });
   std::size_t left = 0;
@@ -279,7 +288,24 @@ std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64
   return again;
 }
 
+void StatesPacker::Reset(std::uint16_t number) {
+  const auto ahead = static_cast<std::uint16_t>(number - static_cast<std::uint16_t>(number_));
+  const std::int64_t refused = number_ + static_cast<std::int16_t>(ahead);
+  if (refused > number_ - (open_ ? 1 : 0) || refused <= refused_) return;
+  refused_ = refused;
+  for (std::size_t id = 0; id < place_.size(); ++id) {
+    if (place_[id] < 0) continue;
+    Known& known = known_[static_cast<std::size_t>(place_[id])];
+    if (known.number > refused) continue;
+    known.number = -1;
+    known.count = 0;
+    owed_.push_back({static_cast<std::int32_t>(id), known.sent, 0, kResendUs});
+  }
+  MergeOwed();
+}
+
 void StatesPacker::Acknowledge(std::int64_t number) {
+  if (number <= refused_) return;
   std::vector<Sent>* const bodies = StatesSentIn(number);
   if (bodies == nullptr) return;
   for (const Sent& sent : *bodies) {

@@ -40,6 +40,9 @@ class StatesPacker {
                                      const Wanted& wanted);
   /// Marks a message as arrived.
   void Acknowledge(std::int64_t number);
+  /// The receiver refused a message, whatever acknowledgements say: no state up to it counts as
+  /// known, and all are lost (TakeLost). `number`: its lowest 16 bits; ignored if not yet sent.
+  void Reset(std::uint16_t number);
 
  private:
   struct Sent {
@@ -63,6 +66,8 @@ class StatesPacker {
   };
   void Begin(const StatesHeader& header);
   void BeginGroup(const StatesHeader& header);
+  /// True if a body may be added to the open group: the same peer and tick, and a higher id.
+  bool Continues(const StatesHeader& header, std::int32_t id) const;
   /// Adds a body, in a new message if the open one is full. `*begun`: the open group is for these
   /// bodies; if not, begins a group and sets it.
   void AddEntry(const StatesHeader& header, const WireBody& state, bool* begun);
@@ -76,14 +81,17 @@ class StatesPacker {
   std::vector<Sent>* StatesSentIn(std::int64_t number);
   /// Adds to owed_ the unacknowledged states that were sent by `until_us`.
   void FindLostStates(std::int64_t until_us);
+  void MergeOwed();
 
   const PackedMotion motion_;
   std::vector<Message> ready_;
-  std::int64_t number_ = -1;  // number of the open message, else of the last
+  std::int64_t number_ = -1;   // number of the open message, else of the last
+  std::int64_t refused_ = -1;  // no acknowledgement up to this message counts
   bool open_ = false;         // a message is being written
   bool group_ = false;        // the open message has an open group
   BitWriter bits_;
   PackedContext context_;
+  std::int32_t peer_ = 0;  // of the open group
   std::int32_t revision_ = 0;
   std::int64_t composition_ = 0;
   std::deque<std::vector<Sent>> sent_;    // states in successive messages up to number_

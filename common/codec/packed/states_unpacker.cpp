@@ -73,7 +73,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   const std::int64_t gap =
       as_before ? context.id_gap : std::int64_t{bits->GetGolomb(context.id < 0 ? 8 : 2)} + 1;
   const std::int64_t id = context.id + gap;
-  if (id >= kIdsMax) return false;
+  if (id >= ids_) return false;
   context.id_gap = context.id < 0 ? 1 : static_cast<std::int32_t>(gap);
   context.id = static_cast<std::int32_t>(id);
   if (bits->Get(1) == 0) context.back = bits->GetGolomb(4);
@@ -146,7 +146,13 @@ States* StatesUnpacker::Begin(const States& header, const WireBody& first) {
   return &states;
 }
 
-const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed) {
+Reset StatesUnpacker::Refusal(const PackedStates& packed) {
+  BitReader bits(ByteView(packed.data));
+  return {static_cast<std::int16_t>(static_cast<std::uint16_t>(bits.Get(16)))};
+}
+
+const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed, std::int32_t ids) {
+  ids_ = std::min(ids, kIdsMax);
   BitReader bits(ByteView(packed.data));
   const auto low = static_cast<std::uint16_t>(newest_);
   const auto wire = static_cast<std::uint16_t>(bits.Get(16));

@@ -15,11 +15,14 @@ class StatesUnpacker {
  public:
   explicit StatesUnpacker(const PackedMotion& motion) : motion_(motion) {}
 
+  /// Returns the Reset that asks the sender of a refused message to begin anew.
+  static Reset Refusal(const PackedStates& packed);
+
   /// Returns the valid States in the message, in order; they live until the next call. nullptr when
   /// it is malformed or refers to a state that never came: it then counts as lost. Keeps at most
   /// kPackedKept states per body, usually only those since the reference state of its newest
-  /// differences.
-  const std::vector<States>* Take(const PackedStates& packed);
+  /// differences. Refuses bodies with an id from `ids` on: memory grows with the largest one.
+  const std::vector<States>* Take(const PackedStates& packed, std::int32_t ids = kIdsMax);
   /// Returns the number of states kept, over all bodies.
   std::size_t kept() const;
 
@@ -45,6 +48,7 @@ class StatesUnpacker {
 
   const PackedMotion motion_;
   PackedContext context_;
+  std::int32_t ids_ = kIdsMax;       // ids in this message are below
   std::int64_t newest_ = 0;          // largest message number so far
   std::vector<std::int32_t> place_;  // by id: index in kept_; -1: nothing came
   std::vector<Body> kept_;
