@@ -265,6 +265,9 @@ void Client::StepOnce(std::int64_t now_us) {
     if (!released_) link_->SendReliable(Encode(report));
   }
   if (!released_) SendStates(now_us);
+  Differing differing{replica_->TakeDiffering()};
+  if (differing.mechanism.size() > kDifferingMax) differing.mechanism.resize(kDifferingMax);
+  if (!differing.mechanism.empty()) link_->SendUnreliable(Encode(differing));
   TellRest(now_us);
   PublishShown(now_us);
 }

@@ -75,6 +75,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     }
   } else if (const auto* inputs = std::get_if<PackedInputs>(&any)) {
     OnInputs(*inputs);
+  } else if (const auto* differing = std::get_if<Differing>(&any)) {
+    if (replica_ != nullptr) replica_->NoteDiffering(*differing);
   } else if (const auto* reset = std::get_if<Reset>(&any)) {
     if (packer_) packer_->Reset(static_cast<std::uint16_t>(reset->number));
   } else if (const auto* bye = std::get_if<Bye>(&any)) {

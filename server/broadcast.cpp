@@ -73,7 +73,10 @@ void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
     for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {
       const auto end = next + grants.followers[i];
       const int m = replica_.authority().IndexOf(grants.mechanism[i]);
-      if (m >= 0) followers_[m].assign(next, end);
+      if (m >= 0) {
+        followers_[m].assign(next, end);
+        NoteUnsettled(m);
+      }
       next = end;
     }
   }

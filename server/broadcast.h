@@ -35,7 +35,8 @@ class Broadcast {
         interest_(scene, config_, replica),
         grant_audience_(replica, interest_),
         rest_audience_(replica),
-        followers_(replica.table(), AddFollowers) {}
+        followers_(replica.table(), AddFollowers),
+        unsettled_until_(replica.table(), MechanismRule::kFresh) {}
 
   /// True if views are published and something listens to the bus.
   bool ShowsViews() const { return views_ && publisher_.listening(); }
@@ -72,6 +73,13 @@ class Broadcast {
   /// True if a rest commit in the block is pending for the peer.
   bool RestIsPendingFor(int peer, const RestBlock& at) const {
     return rest_audience_.IsPendingFor(peer, at);
+  }
+  /// Relays every state of a mechanism to all that simulate it, for kSettleS.
+  void NoteUnsettled(int mechanism) {
+    unsettled_until_[mechanism] = replica_.tick() + kSettleS * config_.tick_hz;
+  }
+  void NoteAllUnsettled() {
+    for (int m = 0; m < unsettled_until_.size(); ++m) NoteUnsettled(m);
   }
   /// Forwards states to the other peers: to each all states of bodies that it follows, and of the
   /// rest the states that it needs (NewestStates). States not sent at once are queued for
@@ -136,6 +144,7 @@ class Broadcast {
     int mechanism = 0;
     News news = News::kNobody;
     bool to_followers = true;
+    bool refresh = true;  ///< due also to those that come to the same state by themselves
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
   void RequeueLost(std::int64_t now_us, Session& session);
@@ -165,6 +174,9 @@ class Broadcast {
   /// True if the body's followers, too, are sent the server's states of it in the name of its
   /// silent holder.
   bool SendsToFollowers(std::int64_t now_us, int holder, int body);
+  /// True if the peer comes to the mechanism's states by itself.
+  bool Agrees(int peer, int mechanism) const;
+  bool Unsettled(int mechanism) const { return replica_.tick() < unsettled_until_[mechanism]; }
   /// True if every client is sent everything: the mode does not use relevance.
   bool Plain() const { return !config_.policy->SelectsTraffic(); }
 
@@ -184,6 +196,7 @@ class Broadcast {
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
   bool peer_became_ready_ = true;            // a peer became ready: followers_ is out of date
   MechanismColumn<std::vector<int>> followers_;  // peers, in large rooms only
+  MechanismColumn<std::int64_t> unsettled_until_;  // tick
   std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_
 };

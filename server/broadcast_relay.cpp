@@ -9,11 +9,19 @@
 
 namespace seam {
 
+bool Broadcast::Agrees(int peer, int mechanism) const {
+  if (!replica_.CopiesAgree(mechanism) || !Simulates(peer, mechanism)) return false;
+  if (simulators_ != Policy::Simulators::kNear) return true;
+  const Session* const session = sessions_.Find(peer);
+  return session != nullptr && session->player >= 0;  // a spectator predicts nothing
+}
+
 std::optional<Urgency> Broadcast::DueTo(int peer, const Entry& entry) const {
   const bool has = Simulates(peer, entry.mechanism);
   const Relevance relevance = has ? Relevance::kClose : interest_.Of(peer, entry.mechanism);
   if (relevance == Relevance::kClose) {
-    if (entry.to_followers) return Urgency::kFollowed;
+    const bool due = entry.refresh || !Agrees(peer, entry.mechanism);
+    if (entry.to_followers && due) return Urgency::kFollowed;
   } else if (relevance == Relevance::kNear && entry.news >= News::kNear) {
     return Urgency::kNear;
   } else if (relevance == Relevance::kFar && entry.news == News::kAll) {
@@ -42,12 +50,14 @@ void Broadcast::FindDueOfAny(int but_peer) {
 void Broadcast::FindDue(int but_peer) {
   for (const Entry& entry : entries_) {
     const AuthorityRecord& record = replica_.authority().at(entry.mechanism);
-    if (entry.to_followers && record.authority != but_peer) {
+    const bool to_followers =
+        entry.to_followers && (entry.refresh || !replica_.CopiesAgree(entry.mechanism));
+    if (to_followers && record.authority != but_peer) {
       AddDue(record.authority, entry, Urgency::kFollowed);
     }
     for (const int peer : followers_[entry.mechanism]) {
       const bool follows = record.authority != peer && record.secondaries.Has(peer);
-      if (entry.to_followers && follows && peer != but_peer) {
+      if (to_followers && follows && peer != but_peer) {
         AddDue(peer, entry, Urgency::kFollowed);
       }
     }
@@ -102,7 +112,8 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     const int body = told[i].body;
     if (body < 0) continue;  // the body is gone
     const bool to_followers = !for_silent || SendsToFollowers(now_us, states.peer, body);
-    entries_.push_back({states.id[i], told[i].mechanism, told[i].news, to_followers});
+    const bool refresh = for_silent || told[i].refresh || Unsettled(told[i].mechanism);
+    entries_.push_back({states.id[i], told[i].mechanism, told[i].news, to_followers, refresh});
   }
   hearing_.clear();
   if (interest_.small() || interest_.unknown()) {

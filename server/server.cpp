@@ -162,6 +162,12 @@ void Server::StepOnce(std::int64_t now_us) {
   replica_.Step();
   ApplyQueued(now_us);  // edits of this very tick
   for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);
+  std::vector<int> differing;
+  for (const std::int32_t id : replica_.TakeDiffering()) {
+    const int m = replica_.authority().IndexOf(id);
+    if (m >= 0) differing.push_back(m);
+  }
+  if (!differing.empty()) TellDiffering(differing);
   RunSeats(now_us);
   RemoveOutside(now_us);
   UpdateAuthority(now_us);
@@ -212,6 +218,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     const Edit edit = replica_.next_queued();
     const bool hung = replica_.world().topology().hanging().has_value();
     replica_.ApplyNextEdit();
+    broadcast_.NoteAllUnsettled();
     bounds_.NoteApplied(edit);
     if (const std::optional<EditOrder> order = edits_->NoteApplied(edit, now_us)) {
       broadcast_.Publish(*order);

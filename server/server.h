@@ -146,6 +146,9 @@ class Server {
   void OnProposal(Session& session, const EditOrder& proposal);
 
   // server_states.cpp
+  void OnDiffering(const Session& session, const Differing& differing);
+  /// Sends every state of the mechanism for a while, and lets its holder do so.
+  void TellDiffering(const std::vector<int>& mechanisms);
   void OnPacked(std::int64_t now_us, Session& session, const PackedStates& packed);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);

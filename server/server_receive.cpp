@@ -54,6 +54,8 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
     OnStates(now_us, session, *states);
   } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
     OnInputs(now_us, session, *inputs);
+  } else if (const auto* differing = std::get_if<Differing>(&any)) {
+    OnDiffering(session, *differing);
   } else if (const auto* reset = std::get_if<Reset>(&any)) {
     session.packer.Reset(static_cast<std::uint16_t>(reset->number));
   } else if (const auto* ping = std::get_if<Ping>(&any)) {

@@ -1,6 +1,8 @@
 /// Server, received states: of moving bodies, at rest, and exact ones at a hand-over.
 
 #include <algorithm>
+#include <map>
+#include <vector>
 
 #include "server/authority_source.h"
 #include "server/server.h"
@@ -34,6 +36,35 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   if (rule_source_ != nullptr) rule_source_->NoteStates(kept);
   broadcast_.Relay(now_us, kept, session.peer);
   broadcast_.Publish(kept);
+}
+
+void Server::OnDiffering(const Session& session, const Differing& differing) {
+  std::vector<int> mechanisms;
+  for (const std::int32_t id : differing.mechanism) {
+    const int m = replica_.authority().IndexOf(id);
+    const bool ready = session.stage == SessionStage::kReady;
+    if (m >= 0 && ready && broadcast_.Simulates(session.peer, m)) {
+      mechanisms.push_back(m);
+    } else {
+      ++(m < 0 ? stats_.counters.dropped_stale : stats_.counters.dropped_right);
+    }
+  }
+  TellDiffering(mechanisms);
+}
+
+void Server::TellDiffering(const std::vector<int>& mechanisms) {
+  std::map<int, Differing> by_holder;
+  for (const int m : mechanisms) {
+    broadcast_.NoteUnsettled(m);
+    if (!replica_.RefreshesOnly(m)) continue;
+    const AuthorityTable& table = replica_.authority();
+    Differing& told = by_holder[table.at(m).authority];
+    if (told.mechanism.size() < kDifferingMax) told.mechanism.push_back(table.id(m));
+  }
+  for (const auto& [holder, told] : by_holder) {
+    Session* const session = sessions_.Find(holder);
+    if (session != nullptr) session->link.SendUnreliable(Encode(told));
+  }
 }
 
 void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {

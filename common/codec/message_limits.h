@@ -34,6 +34,9 @@ static_assert(36 + 12 * kGrantsMax + 2 * kGrantFollowersMax <= kMessageBytesMax)
 /// Most mechanisms in one Release message: 26 + 8 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kReleasesMax = 80;
 static_assert(26 + 8 * kReleasesMax <= kMessageBytesMax);
+/// Most mechanisms in one Differing message: 10 + 4 bytes each must fit kMessageBytesMax.
+constexpr std::size_t kDifferingMax = 80;
+static_assert(10 + 4 * kDifferingMax <= kMessageBytesMax);
 /// Most bodies in one Rest message: 50 + 20 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kRestBodiesMax = 54;
 /// Most blocks of bodies; a ping compares one of the blocks (RestBlock).

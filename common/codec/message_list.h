@@ -72,7 +72,8 @@
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                      \
   X(PackedStates, packed_states_t, kEdge, "", m.data)                                              \
   X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)                                              \
-  X(Reset, reset_t, kEdge, "", m.number)
+  X(Reset, reset_t, kEdge, "", m.number)                                                           \
+  X(Differing, differing_t, kEdge, "", m.mechanism)
 
 namespace seam {
 

@@ -155,6 +155,10 @@ bool Valid(const PackedInputs& m) { return Within(m.bits.size(), 1, kPackedBytes
 
 bool Valid(const Reset&) { return true; }
 
+bool Valid(const Differing& m) {
+  return Within(m.mechanism.size(), 1, kDifferingMax) && Ids(m.mechanism);
+}
+
 bool Valid(const PackedStates& m) { return Within(m.data.size(), 1, kPackedBytesMax); }
 
 bool Valid(const Rest& m) {

@@ -23,7 +23,7 @@ std::int64_t LongestLag(const Recording& recording) {
 }
 
 /// Counts the ids that are in only one of the two lists. Requires both ascending.
-std::int64_t Differing(const std::vector<PartId>& there, const std::vector<PartId>& shown) {
+std::int64_t DifferingIds(const std::vector<PartId>& there, const std::vector<PartId>& shown) {
   std::int64_t both = 0;
   auto a = there.begin();
   for (const PartId id : shown) {
@@ -64,7 +64,7 @@ void MeasureChanges(const Recording& recording, const RevisionHistory& revisions
   std::int64_t lost = 0;
   for (const auto& [key, views] : by_revision) {
     const auto revision = revisions.At(key);
-    for (const View* view : views) lost += Differing(revision->ids, view->id);
+    for (const View* view : views) lost += DifferingIds(revision->ids, view->id);
   }
   measures->lost = lost;
 }

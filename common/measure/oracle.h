@@ -87,10 +87,10 @@ struct OracleOptions {
 };
 
 /// True if the room's method is compared with the oracle with barriers. A method that rolls back
-/// has a barrier at every send tick, as has mode central where clients predict all, and rebuilding
+/// has barriers at fixed ticks, as has mode central where clients predict all, and rebuilding
 /// the world changes the rounding. All other methods are compared with the oracle without barriers.
 bool JudgedByBarriers(const Room& room);
-/// Returns options with a barrier at every send tick of the room, for any method.
+/// Returns options with the barriers of the room's peers, for any method.
 OracleOptions WithBarriers(const Room& room);
 /// Returns the options of the oracle for the room's method, by JudgedByBarriers.
 OracleOptions JudgeOf(const Room& room);

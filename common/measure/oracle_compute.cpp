@@ -12,6 +12,7 @@
 #include "common/physics/world.h"
 #include "common/scene/expected.h"
 #include "common/sync/method.h"
+#include "common/sync/mode.h"
 
 namespace seam {
 namespace {
@@ -45,8 +46,11 @@ void RequireMemory(std::int64_t kept, const Recording& recording) {
                       std::to_string(recording.last_tick) + " ticks with changing bodies");
 }
 
-/// Returns the ticks between two sends of a peer in a recorded room.
-int SendEvery(const Room& room) {
+/// Returns the ticks between two barriers of a peer in a recorded room. Before protocol 13 each
+/// send tick was one.
+int BarrierEveryOf(const Room& room) {
+  constexpr std::int32_t kApart = 13;
+  if (room.protocol >= kApart) return BarrierEvery(std::max(1, room.tick_hz));
   return std::max(1, std::max(1, room.tick_hz) / std::max(1, room.send_hz));
 }
 
@@ -56,7 +60,7 @@ bool JudgedByBarriers(const Room& room) { return PolicyOf(room).TakesBarriers(0)
 
 OracleOptions WithBarriers(const Room& room) {
   OracleOptions options;
-  options.barrier_every = SendEvery(room);
+  options.barrier_every = BarrierEveryOf(room);
   options.barrier_after_edits = PolicyOf(room).GoesBack(0);
   return options;
 }

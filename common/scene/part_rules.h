@@ -12,6 +12,11 @@
 
 namespace seam {
 
+struct Scene;
+
+/// True if the server has rules to evaluate: triggers, scripts, charges or health.
+bool NeedsRules(const Scene& scene);
+
 /// Resource limits of one script.
 struct ScriptLimits {
   std::int64_t instructions = 200000;  ///< in a tick; other work is converted to instructions

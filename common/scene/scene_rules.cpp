@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/scene/charges/charge.h"
 #include "common/scene/part_rules.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
@@ -189,6 +190,12 @@ void CheckPermissions(const Scene& scene, const std::string& file) {
     if (owned.owner < 0 || Allows(owned.rules->push, owned.owner)) continue;
     fail(owned.line, "part '" + owned.name + "': its owner may not push it");
   }
+}
+
+bool NeedsRules(const Scene& scene) {
+  return !scene.triggers.empty() || !scene.scripts.empty() || !scene.charges.empty() ||
+         std::any_of(scene.parts.begin(), scene.parts.end(),
+                     [](const Part& part) { return part.rules->health > 0; });
 }
 
 }  // namespace seam

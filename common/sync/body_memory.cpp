@@ -53,6 +53,13 @@ bool BodyMemory::Coupled(int mechanism) const {
   return mechanisms_[mechanism].last_coupled_tick >= world_.tick() - config_.tick_hz / kCoupledPart;
 }
 
+void BodyMemory::NoteDiffering(int mechanism) {
+  MechanismTrack& track = mechanisms_[mechanism];
+  if (world_.tick() - track.differed_tick < RefreshEvery(config_.tick_hz)) return;
+  track.differed_tick = world_.tick();
+  differing_.push_back(world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].id);
+}
+
 bool BodyMemory::Struck(int body) const {
   return world_.tick() - track(body).last_impact_tick < config_.tick_hz;
 }
@@ -211,11 +218,16 @@ void BodyMemory::Persist(StateArchive& a) {
     a.Flag(&track->placed);
     a.Real(&track->priority);
     a.Tick(&track->asleep_since);
+    a.Tick(&track->sent_tick);
+    a.Int(&track->sent_epoch, -1, INT32_MAX);
     a.Tick(&track->told_tick);
     a.Int(&track->changed_at, 0, world_.topology().revision());
     a.Flag(&track->at_rest);
   });
-  a.Exactly(&mechanisms_, [&](MechanismTrack* track) { a.Tick(&track->last_coupled_tick); });
+  a.Exactly(&mechanisms_, [&](MechanismTrack* track) {
+    a.Tick(&track->last_coupled_tick);
+    a.Tick(&track->unsettled_until);
+  });
 }
 
 }  // namespace seam

@@ -36,6 +36,8 @@ struct BodyTrack {
   bool placed = true;              ///< its pose is known
   float priority = 0;              ///< grows until the body is sent
   std::int64_t asleep_since = -1;  ///< first tick at which a send found it asleep; -1: awake
+  std::int64_t sent_tick = kLongAgo;  ///< world's tick when its state was last sent
+  std::int32_t sent_epoch = -1;       ///< epoch of that state
   std::int64_t told_tick = -1;     ///< newest tick for which this peer sent its state as authority
                                    ///< and no future input can change it
   int changed_at = 0;              ///< number of edits when it last changed
@@ -47,6 +49,8 @@ struct BodyTrack {
 struct MechanismTrack {
   std::int64_t last_coupled_tick = kLongAgo;  ///< last tick at which it touched one of another
                                               ///< authority
+  std::int64_t unsettled_until = kLongAgo;    ///< tick up to which every send has its states
+  std::int64_t differed_tick = kLongAgo;      ///< tick of the last report that it differs
 };
 
 class BodyMemory {
@@ -68,6 +72,21 @@ class BodyMemory {
   const BodyState* ComparablePast(int body, std::int64_t tick) const;
   /// True if the mechanism touches one of another authority, or did a moment ago.
   bool Coupled(int mechanism) const;
+  /// True if a grant, an edit or a report has changed the mechanism within kSettleS.
+  bool Unsettled(int mechanism) const {
+    return world_.tick() < mechanisms_[mechanism].unsettled_until;
+  }
+  void NoteUnsettled(int mechanism) {
+    mechanisms_[mechanism].unsettled_until = world_.tick() + kSettleS * config_.tick_hz;
+  }
+  void NoteAllUnsettled() {
+    for (int m = 0; m < mechanisms_.size(); ++m) NoteUnsettled(m);
+  }
+  /// Reports that a received state differs from this peer's copy, at most kRefreshHz times a
+  /// second.
+  void NoteDiffering(int mechanism);
+  /// Returns the ids of the mechanisms reported since the last call.
+  std::vector<std::int32_t> TakeDiffering() { return std::exchange(differing_, {}); }
   /// True if the body had a major impact within the last second.
   bool Struck(int body) const;
 
@@ -128,6 +147,7 @@ class BodyMemory {
   Snapshots snapshots_;
   BodyColumn<BodyTrack> bodies_;
   MechanismColumn<MechanismTrack> mechanisms_;
+  std::vector<std::int32_t> differing_;  // ids for TakeDiffering
   BodyColumn<Noted> noted_;
   std::vector<int> open_;     // bodies that Record checks: all unparked ones but those that have
                               // lain still for the whole recorded past

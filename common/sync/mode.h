@@ -1,12 +1,28 @@
 #pragma once
 /// Synchronisation settings of a room: mode, reconciler and rates, as flags and messages name them.
 
+#include <cstdint>
 #include <string>
 
 #include "common/sync/blend/reconcile.h"
 #include "common/sync/policy/policy.h"
 
 namespace seam {
+
+/// Barriers a second (World::Barrier). Peers that are to agree bit for bit must rebuild their
+/// worlds at the same ticks; fewer make a replay longer, more cost a rebuild each.
+constexpr int kBarrierHz = 30;
+/// Returns the ticks between two barriers; it does not depend on the rate of States.
+constexpr int BarrierEvery(int tick_hz) { return tick_hz > kBarrierHz ? tick_hz / kBarrierHz : 1; }
+/// States a second of a body to receivers that come to the same state by themselves
+/// (Policy::CopiesAgree). Lower leaves a copy that went another way wrong for longer.
+constexpr int kRefreshHz = 4;
+/// For so long after a grant, an edit or a report that a copy differs they get every state, s: an
+/// order or grant reaches all within it. Shorter leaves peers apart after a change; longer sends
+/// what all know.
+constexpr int kSettleS = 1;
+/// Returns the ticks between two such states.
+constexpr int RefreshEvery(int tick_hz) { return tick_hz > kRefreshHz ? tick_hz / kRefreshHz : 1; }
 
 /// Rate of the critically damped return of the view to the simulated pose, 1/s, and its bounds.
 constexpr float kSmoothRate = 10, kSmoothRateMin = 1, kSmoothRateMax = 60;
@@ -28,6 +44,10 @@ struct SyncConfig {
 
   /// Ticks between two States messages of a peer.
   int send_every() const { return tick_hz / send_hz > 0 ? tick_hz / send_hz : 1; }
+  /// True if States are collected after this tick, or it is a barrier.
+  bool IsLookTick(std::int64_t tick) const {
+    return tick % send_every() == 0 || tick % BarrierEvery(tick_hz) == 0;
+  }
 };
 
 /// Default of mode buffer.

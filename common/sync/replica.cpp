@@ -73,7 +73,7 @@ void Replica::Step() {
   memory_.ClearUpdated();
   world_.Step();
   memory_.RecordContacts(roles_.table());
-  if (config_.policy->SendsCompleteTicks() && next % config_.send_every() == 0) reach_.Look();
+  if (config_.policy->SendsCompleteTicks() && config_.IsLookTick(next)) reach_.Look();
   rest_->AfterStep();
   impact_reporter_.Note();
   touches_.Note();
@@ -172,6 +172,7 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   queue_->Hurry(tick());
   ApplyEdits();  // the grants refer to the topology after the edits
   GrantsApplied applied = roles_.Apply(grants);
+  NoteDiffering({grants.mechanism});  // a new holder's or follower's copies may
   // Before activities follow the roles: the holder's last simulated states.
   for (ExactStates& exact : MakeExact(applied.let_go, 0)) released_.push_back(std::move(exact));
   // In a large room most grants that a client receives are between other peers.
@@ -193,6 +194,13 @@ std::vector<int> Replica::BodiesOf(const std::vector<int>& mechanisms) const {
   }
   std::sort(bodies.begin(), bodies.end());
   return bodies;
+}
+
+void Replica::NoteDiffering(const Differing& differing) {
+  for (const std::int32_t id : differing.mechanism) {
+    const int m = roles_.table().IndexOf(id);
+    if (m >= 0) memory_.NoteUnsettled(m);
+  }
 }
 
 void Replica::ReleaseAll() {

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/codec/packed/packed_states.h"
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/correct/corrector.h"
@@ -74,6 +75,14 @@ class Replica {
   const AuthorityTable& authority() const { return roles_.table(); }
   /// The server plans here; clients only apply grants.
   AuthorityTable& authority() { return roles_.table(); }
+  /// See Roles.
+  bool CopiesAgree(int mechanism) const { return roles_.CopiesAgree(mechanism); }
+  bool RefreshesOnly(int mechanism) const { return roles_.RefreshesOnly(mechanism); }
+  /// Returns the ids of mechanisms of which received states differ from this peer's copies, for
+  /// their authority.
+  std::vector<std::int32_t> TakeDiffering() { return memory_.TakeDiffering(); }
+  /// Another peer's copies differ from the states of these: every send has them for kSettleS.
+  void NoteDiffering(const Differing& differing);
   /// Call after Set on authority(). Updates activities to the roles.
   void RolesChanged() {
     FollowRoles();

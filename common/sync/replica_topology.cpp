@@ -50,7 +50,9 @@ void Replica::ApplyNextEdit() {
   if (change && config_.policy->SendsCompleteTicks())
     reach_.Look();  // indexes mechanisms by number
   replay_.Edited(next.edit, change.has_value());
-  if (!has_queued()) replay_.GoOn();
+  if (has_queued()) return;
+  replay_.GoOn();
+  memory_.NoteAllUnsettled();
 }
 
 void Replica::FindEdits() {

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "common/physics/part_places.h"
+#include "common/scene/character.h"
+#include "common/scene/part_rules.h"
 #include "common/sync/reach/driven.h"
 
 namespace seam {
@@ -42,6 +44,36 @@ const std::vector<bool>& Roles::Own() const {
     own_ = DrivenMechanisms(world_, own_player_, false);
   }
   return own_;
+}
+
+void Roles::LookAtScene() const {
+  const int revision = world_.topology().revision();
+  if (looked_at_revision_ == revision) return;
+  looked_at_revision_ = revision;
+  has_rules_ = NeedsRules(world_.scene());
+  characters_.assign(static_cast<std::size_t>(table_.count()), false);
+  for (const Character& character : world_.scene().characters) {
+    for (const PartId part : character.parts) {
+      const int m = part < 0 ? -1 : MechanismOf(world_, part);
+      if (m >= 0) characters_[static_cast<std::size_t>(m)] = true;
+    }
+  }
+}
+
+bool Roles::CopiesAgree(int mechanism) const {
+  if (!config_.policy->CopiesAgree()) return false;
+  LookAtScene();
+  return !characters_[static_cast<std::size_t>(mechanism)];
+}
+
+bool Roles::RefreshesOnly(int mechanism) const {
+  const Scene& scene = world_.scene();
+  const int bodies = world_.body_count();
+  if (bodies > scene.follow_bodies || !CopiesAgree(mechanism)) return false;
+  const AuthorityRecord& record = table_.at(mechanism);
+  // In a room of server_follow bodies the server follows all if anybody sees its copies.
+  const bool followed = record.secondaries.Has(0) || bodies <= scene.server_follow;
+  return record.authority > 0 && followed && !has_rules_;
 }
 
 bool Roles::Shares() const {

@@ -50,6 +50,13 @@ class Roles {
   /// True if another peer simulates any awake body that this peer simulates; always true outside
   /// mode buffer.
   bool Shares() const;
+  /// True if a peer that simulates the mechanism comes to its authority's states by itself
+  /// (Policy::CopiesAgree). A character's step and way to a seat are not in its states, so that a
+  /// peer which begins to simulate it does not.
+  bool CopiesAgree(int mechanism) const;
+  /// True if a client has authority and every peer simulates the mechanism, so that the authority
+  /// sends it only kRefreshHz times a second. Not where rules look at each state at the server.
+  bool RefreshesOnly(int mechanism) const;
   /// True if this peer is to propose an edit found by physics: the authority of the first affected
   /// part in a mechanism, or with rollback the server if it follows that mechanism. Of anchored
   /// parts: the server, or each peer where the server does not feel all impacts.
@@ -77,6 +84,11 @@ class Roles {
   PeerSet silent_;
   mutable std::vector<bool> own_;  // rebuilt for each revision, by mechanism
   mutable int own_of_revision_ = -1;
+  void LookAtScene() const;
+  // Looked up for each revision.
+  mutable bool has_rules_ = false;
+  mutable std::vector<bool> characters_;  // by mechanism: has a character's part
+  mutable int looked_at_revision_ = -1;
 };
 
 }  // namespace seam

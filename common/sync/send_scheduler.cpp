@@ -78,6 +78,11 @@ std::vector<States> SendScheduler::Take() { return std::exchange(outgoing_, {});
 bool SendScheduler::Due(int body) {
   BodyTrack& track = memory_.track(body);
   if (track.at_rest) return false;  // a Rest message carries it
+  const int m = world_.mechanism(body);
+  if (roles_.IsAuthority(m) && roles_.RefreshesOnly(m) && !memory_.Unsettled(m)) {
+    const bool anew = track.sent_epoch != roles_.table().at(m).epoch;
+    return anew || world_.tick() - track.sent_tick >= RefreshEvery(config_.tick_hz);
+  }
   if (world_.awake(body)) {
     track.asleep_since = -1;
     return true;
@@ -125,7 +130,10 @@ WireBody SendScheduler::Describe(int body, const BodyState& state, bool asleep) 
 }
 
 WireBody SendScheduler::Tell(int body, std::int64_t tick) {
-  memory_.track(body).priority = 0;
+  BodyTrack& track = memory_.track(body);
+  track.priority = 0;
+  track.sent_tick = world_.tick();
+  track.sent_epoch = roles_.table().at(world_.mechanism(body)).epoch;
   BodyState state = world_.Read(body);
   bool asleep = !world_.awake(body);
   if (asleep) {

@@ -1,7 +1,8 @@
 #pragma once
 /// Chooses the own bodies for a peer's next States. A client sends those of the highest priority,
-/// at most kBodiesPerSend; the others wait and gain priority. Bodies falling asleep are sent a few
-/// times, and no more once they are committed to rest (RestCommit).
+/// at most kBodiesPerSend; the others wait and gain priority. Where every peer comes to the same
+/// state by itself (Roles::RefreshesOnly), a body is due kRefreshHz times a second. Bodies falling
+/// asleep are sent a few times, and no more once they are committed to rest (RestCommit).
 
 #include <vector>
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "common/base/geometry.h"
+#include "common/sync/mode.h"
 #include "common/sync/quantize.h"
 #include "common/sync/reach/reach.h"
 #include "common/sync/state_limits.h"
@@ -54,6 +55,15 @@ bool NewestStates::IsNews(const Body& body, const WireBody& told, const Reckonin
   return off > rule.off;
 }
 
+/// `before`: tick of the state before the latest.
+bool NewestStates::IsRefresh(const Body& body, std::int64_t before) const {
+  const WireBody &now = body.heard, &told = body.followed;
+  if (told.tick < 0 || told.epoch != now.epoch) return true;
+  if (((told.flags ^ now.flags) & kStateAsleep) != 0) return true;
+  const std::int64_t every = RefreshEvery(tick_hz_);
+  return now.tick - told.tick >= every || 2 * (now.tick - before) >= every;
+}
+
 const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, double repeat_s) {
   const std::size_t count = states.id.size();
   told_.assign(count, Told{});
@@ -65,7 +75,10 @@ const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, 
     told.mechanism = world_.mechanism(told.body);
     Body& body = bodies_[told.body];
     body.header = header;
+    const std::int64_t before = body.heard.tick;
     body.heard = BodyAt(states, i);
+    told.refresh = IsRefresh(body, before);
+    if (told.refresh) body.followed = body.heard;
     if (body.reach < 0) body.reach = ReachOf(world_, told.body);
     News& news = together_[told.mechanism];
     if (IsNews(body, body.far, kFarReckoning, repeat_s)) {

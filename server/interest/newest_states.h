@@ -51,6 +51,9 @@ class NewestStates {
   struct Told {
     int body = -1, mechanism = -1;  ///< -1: the body is gone
     News news = News::kNobody;
+    /// Due to receivers that come to the same state by themselves: kRefreshHz times a second, and
+    /// whatever comes less often.
+    bool refresh = false;
   };
   /// Takes a message; returns one element per entry. Entries of one mechanism get the same `news`,
   /// since its bodies are displayed together.
@@ -69,8 +72,10 @@ class NewestStates {
   struct Body {
     StatesHeader header;        // of the latest
     WireBody heard, near, far;  // the latest; the last due to near, and to far receivers
+    WireBody followed;          // the last refresh
     float reach = -1;           // m, from its origin to its farthest point; -1: not known yet
   };
+  bool IsRefresh(const Body& body, std::int64_t before) const;
   bool IsNews(const Body& body, const WireBody& told, const ReckoningRule& rule,
               double repeat_s) const;
 

@@ -10,29 +10,18 @@ namespace {
 
 std::int8_t KindOfType(const std::string& name) {
   static const std::unordered_map<std::string, std::int8_t> kinds = {
-      {"states_t", kTrafficStates},
-      {"packed_states_t", kTrafficStates},
-      {"reset_t", kTrafficStates},
-      {"inputs_t", kTrafficInputs},
-      {"packed_inputs_t", kTrafficInputs},
-      {"rest_t", kTrafficRest},
-      {"grants_t", kTrafficGrants},
-      {"release_t", kTrafficHandOver},
-      {"exact_states_t", kTrafficHandOver},
-      {"edit_t", kTrafficEdits},
-      {"snapshot_t", kTrafficJoining},
-      {"hello_t", kTrafficJoining},
-      {"challenge_t", kTrafficJoining},
-      {"join_t", kTrafficJoining},
-      {"welcome_t", kTrafficJoining},
-      {"chunk_t", kTrafficJoining},
-      {"ready_t", kTrafficJoining},
-      {"bye_t", kTrafficJoining},
-      {"ping_t", kTrafficClock},
-      {"pong_t", kTrafficClock},
-      {"meta_t", kTrafficRules},
-      {"impact_report_t", kTrafficRules},
-      {"touch_report_t", kTrafficRules}};
+      {"states_t", kTrafficStates},       {"packed_states_t", kTrafficStates},
+      {"reset_t", kTrafficStates},        {"differing_t", kTrafficStates},
+      {"inputs_t", kTrafficInputs},       {"packed_inputs_t", kTrafficInputs},
+      {"rest_t", kTrafficRest},           {"grants_t", kTrafficGrants},
+      {"release_t", kTrafficHandOver},    {"exact_states_t", kTrafficHandOver},
+      {"edit_t", kTrafficEdits},          {"snapshot_t", kTrafficJoining},
+      {"hello_t", kTrafficJoining},       {"challenge_t", kTrafficJoining},
+      {"join_t", kTrafficJoining},        {"welcome_t", kTrafficJoining},
+      {"chunk_t", kTrafficJoining},       {"ready_t", kTrafficJoining},
+      {"bye_t", kTrafficJoining},         {"ping_t", kTrafficClock},
+      {"pong_t", kTrafficClock},          {"meta_t", kTrafficRules},
+      {"impact_report_t", kTrafficRules}, {"touch_report_t", kTrafficRules}};
   const auto found = kinds.find(name);
   return found == kinds.end() ? kTrafficOther : found->second;
 }

@@ -17,11 +17,7 @@ constexpr std::int64_t kSilentTicksMax = 30;
 
 }  // namespace
 
-bool Rules::Needed(const Scene& scene) {
-  return !scene.triggers.empty() || !scene.scripts.empty() || !scene.charges.empty() ||
-         std::any_of(scene.parts.begin(), scene.parts.end(),
-                     [](const Part& part) { return part.rules->health > 0; });
-}
+bool Rules::Needed(const Scene& scene) { return NeedsRules(scene); }
 
 Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands, RuleSource* source)
     : world_(world),

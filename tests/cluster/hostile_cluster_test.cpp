@@ -174,8 +174,8 @@ TEST(Hostile, AJointedBodyDoesNotFallFreelyEvenIfItsHolderSaysSo) {
         falls += (flags & kStateFalls) != 0 ? 1 : 0;
       }
     }
-    EXPECT_GT(told, 100);
-    EXPECT_EQ(forged > 100, lies);
+    EXPECT_GT(told, 50);
+    EXPECT_EQ(forged > 50, lies);
     EXPECT_EQ(falls, 0) << "of " << told;
   }
 }

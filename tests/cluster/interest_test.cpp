@@ -125,11 +125,13 @@ motor = {player = "bob", speed = 5, torque = 1}
 )";
 }
 
-CountingNet::Counts CountAtAnn(int follow, double bytes_per_s = kClientBytesPerS, int hear = 400) {
+CountingNet::Counts CountAtAnn(int follow, double bytes_per_s = kClientBytesPerS, int hear = 400,
+                               const char* reconcile = "") {
   CountingNet::Counts counts;
   ClusterConfig config;
   config.scene = "plain";
   config.scene_text = Plain(follow, hear);
+  config.reconcile = reconcile;
   config.drive = Drive::kBot;
   config.impair = "delay=20ms";
   config.client_bytes_per_s = bytes_per_s;
@@ -145,10 +147,10 @@ CountingNet::Counts CountAtAnn(int follow, double bytes_per_s = kClientBytesPerS
 
 constexpr int kBeside = 1, kNear = 2, kFar = 3, kDriven = 5, kBob = 1;
 
-TEST(Interest, SendsFollowedBodiesAlwaysAndOthersWhenTheReckoningErrs) {
+TEST(Interest, SendsFollowedBodiesFourTimesASecondAndOthersWhenTheReckoningErrs) {
   const CountingNet::Counts counts = CountAtAnn(1);
-  // In five seconds at 30 sends a second, and a few that were under way.
-  EXPECT_NEAR(counts.states.at(kBeside), 150, 8);
+  // In five seconds, and one that was under way.
+  EXPECT_NEAR(counts.states.at(kBeside), 5 * kRefreshHz, 2);
   EXPECT_NEAR(counts.states.at(kNear), 5 / kStateRepeatS, 3) << "it spins on as it did";
   EXPECT_GT(counts.states.at(kDriven), 20) << "a bot drives it";
   EXPECT_NEAR(counts.states.at(kFar), 5 / kFarReckoning.least, 4) << "and this one";
@@ -156,7 +158,9 @@ TEST(Interest, SendsFollowedBodiesAlwaysAndOthersWhenTheReckoningErrs) {
 
 TEST(Interest, FollowedBodiesComeFirstWithinTheBudget) {
   constexpr int kBudget = 1500;
-  const CountingNet::Counts all = CountAtAnn(1), few = CountAtAnn(1, kBudget);
+  // Under a rule whose followers get every send: a few states a second would not fill it.
+  const CountingNet::Counts all = CountAtAnn(1, kClientBytesPerS, 400, "fade"),
+                            few = CountAtAnn(1, kBudget, 400, "fade");
   EXPECT_LT(few.bytes, kBudget * 5 + 2 * kDatagramBytesMax) << "in five seconds, with a burst";
   EXPECT_GT(all.bytes, kBudget * 8u) << "without a budget it would be more";
   EXPECT_GT(few.states.at(kBeside), few.states.at(kDriven));
@@ -176,6 +180,40 @@ TEST(Interest, ADistantBodyIsSentSeldom) {
   EXPECT_LT(told, all.states.at(kFar));
   EXPECT_EQ(few.states.at(kBeside), all.states.at(kBeside));
   EXPECT_NEAR(few.states.at(kDriven), all.states.at(kDriven), 2) << "25 m away";
+}
+
+TEST(Interest, EachReceiverThatDoesNotComeToAStateByItselfGetsEverySend) {
+  // In a small room all get everything: a player who simulates it seldom, a spectator of mode
+  // central, a player who predicts only what it drives, and one under another rule with each send.
+  struct Case {
+    const char *mode, *reconcile, *predict;
+    std::size_t client;
+    int sends_per_s;
+  };
+  for (const Case& of :
+       {Case{"buffer", "rollback", "", 0, kRefreshHz}, Case{"buffer", "fade", "", 0, 30},
+        Case{"central", "", "all", 0, kRefreshHz}, Case{"central", "", "own", 0, 30},
+        Case{"central", "", "all", 2, 30}}) {
+    SCOPED_TRACE(std::string(of.mode) + " " + of.reconcile + of.predict);
+    CountingNet::Counts counts;
+    ClusterConfig config;
+    config.scene = "plain";
+    config.scene_text = Plain(9);
+    config.mode = of.mode;
+    config.reconcile = of.reconcile;
+    config.predict = of.predict;
+    config.impair = "delay=20ms";
+    config.spectators = 1;
+    config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
+      return client == of.client ? std::make_unique<CountingNet>(std::move(net), &counts)
+                                 : std::move(net);
+    };
+    Cluster cluster(config);
+    cluster.RunToTick(120);
+    counts = {};
+    cluster.RunToTick(120 + 4 * 60);
+    EXPECT_NEAR(counts.states.at(kBeside), 4 * of.sends_per_s, 0.1 * 4 * of.sends_per_s + 1);
+  }
 }
 
 /// A body's x in a client's view at a tick, m.

@@ -92,12 +92,14 @@ TEST(PackedUplink, AClientReadsAgainAfterAMessageThatItCouldNotRead) {
   }
 }
 
-/// A room of `side` m with 196 discs that never rest, all ann's.
+/// A room of `side` m with 196 discs that never rest, all ann's; she sends each of them in each
+/// send, because the server does not follow them.
 std::string Discs(double side) {
   const std::string gap = std::to_string(side / 14);
   return R"(
 gravity = [0, 0]
 duration = 6
+server_follow = 0
 [solver]
 sleep = false
 [[player]]

@@ -31,12 +31,15 @@ class NewestStatesTest : public ::testing::Test {
     states.x = {static_cast<std::int16_t>(std::lround(512 * x))};
     states.vx = {static_cast<std::int16_t>(std::lround(256 * vx))};
     states.y = states.angle = states.vy = states.spin = {0};
-    return newest_.Take(states, repeat_s)[0].news;
+    const NewestStates::Told& told = newest_.Take(states, repeat_s)[0];
+    refresh_ = told.refresh;
+    return told.news;
   }
 
   World world_;
   BodyTable bodies_{world_};
   NewestStates newest_;
+  bool refresh_ = false;  // of the last Tell
 };
 
 TEST_F(NewestStatesTest, TheFirstStateGoesToAllAndAnExpectedOneToNobody) {
@@ -108,6 +111,27 @@ TEST(NewestStates, BouncesOfAFallingBodyAreRelevant) {
   EXPECT_GE(flights, 100);
   // At a bounce the state of its tick, and the first of the flight after it.
   EXPECT_LE(told, 2 * 4 + 2 + 3 * bounces);
+}
+
+TEST_F(NewestStatesTest, ARefreshIsDueFourTimesASecondHoweverItMoves) {
+  int refreshes = 0;
+  for (int tick = 0; tick < 120; tick += 2) {
+    Tell(tick, 0.01 * tick * (tick % 4), tick % 3);  // nothing like its dead reckoning
+    refreshes += refresh_ ? 1 : 0;
+  }
+  EXPECT_EQ(refreshes, 8);
+  Tell(120, 0, 0, 2);
+  EXPECT_TRUE(refresh_) << "a new holder";
+  Tell(122, 0, 0, 2);
+  EXPECT_FALSE(refresh_);
+}
+
+TEST_F(NewestStatesTest, AStateThatComesSeldomIsPassedOnWhateverItsDistance) {
+  int tick = 0;
+  for (const int later : {15, 13, 17, 9, 8, 15, 14}) {
+    Tell(tick += later, 0, 0);
+    EXPECT_TRUE(refresh_) << later;
+  }
 }
 
 }  // namespace newest_states_test

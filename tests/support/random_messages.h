@@ -77,6 +77,7 @@ class RandomMessages {
   }
   void Fill(States& m) { Fill(m, Count(0, kStatesBodiesMax)); }
   void Fill(PackedStates& m) { Vector(m.data, Count(1, kPackedBytesMax), 0, 255); }
+  void Fill(Differing& m) { Vector(m.mechanism, Count(1, kDifferingMax), 0, kIdsMax - 1); }
   void Fill(Reset& m) { Set(m.number, INT16_MIN, INT16_MAX); }
   void Fill(PackedInputs& m) { Vector(m.bits, Count(1, kPackedBytesMax), 0, 255); }
   void Fill(Rest& m, std::size_t count) {

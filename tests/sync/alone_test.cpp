@@ -39,8 +39,10 @@ repeat = {count = [8, 4], step = [1.3, 0.8]}
 constexpr int kTicks = 150;
 
 /// Hash of a client that holds everything.
-std::uint64_t HashOf(bool followed) {
-  Replica client(ParseScene(kTumble, "tumble.toml"), MakeSyncConfig("buffer", "rollback"), 1, 0);
+std::uint64_t HashOf(bool followed, int send_hz = 30) {
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.send_hz = send_hz;
+  Replica client(ParseScene(kTumble, "tumble.toml"), config, 1, 0);
   AuthorityRecord record;
   record.authority = 1;
   record.epoch = 1;
@@ -53,12 +55,11 @@ std::uint64_t HashOf(bool followed) {
 }
 
 std::uint64_t HashOfWorld(bool barriers) {
-  const SyncConfig config = MakeSyncConfig("buffer", "rollback");
   World world(ParseScene(kTumble, "tumble.toml"));
   world.Barrier();  // all begin with one
   while (world.tick() < kTicks) {
     world.Step();
-    if (barriers && world.tick() % config.send_every() == 0) world.Barrier();
+    if (barriers && world.tick() % BarrierEvery(60) == 0) world.Barrier();
   }
   return world.Hash();
 }
@@ -68,8 +69,12 @@ TEST(SharedBarriers, AMechanismSimulatedByOnePeerStepsWithoutBarriers) {
   EXPECT_EQ(HashOf(false), HashOfWorld(false));
 }
 
-TEST(SharedBarriers, AFollowedMechanismHasABarrierAtEverySendTick) {
+TEST(SharedBarriers, AFollowedMechanismHasABarrierThirtyTimesASecond) {
   EXPECT_EQ(HashOf(true), HashOfWorld(true));
+}
+
+TEST(SharedBarriers, TheRateOfStatesDoesNotMoveThem) {
+  for (const int send_hz : {1, 4, 20, 60}) EXPECT_EQ(HashOf(true, send_hz), HashOfWorld(true));
 }
 
 }  // namespace alone_test

@@ -21,6 +21,12 @@ struct Reset {
   std::int16_t number = 0;  ///< the lowest 16 bits of the message's number
 };
 
+/// Client -> server -> authority: received states of these mechanisms differ from the sender's own
+/// simulation.
+struct Differing {
+  std::vector<std::int32_t> mechanism;  ///< 1..kDifferingMax mechanism ids
+};
+
 /// Most bytes of data in one PackedStates: with the 10 bytes before, it must fit kMessageBytesMax.
 constexpr std::size_t kPackedBytesMax = 1140;
 static_assert(10 + kPackedBytesMax <= kMessageBytesMax);

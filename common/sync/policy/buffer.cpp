@@ -18,6 +18,7 @@ class Buffer : public Policy {
   bool PlansAuthority() const override { return true; }
   bool PlansFollowers() const override { return true; }
   bool GoesBack(int) const override { return rolls_back_; }
+  bool CopiesAgree() const override { return rolls_back_; }
   bool SendsCompleteTicks() const override { return rolls_back_; }
   bool TrustsSleep() const override { return rolls_back_; }
   bool Reckons() const override { return true; }

@@ -22,6 +22,7 @@ class Central : public Policy {
   bool GoesBack(int self) const override { return self > 0; }
   /// The server never goes back, but clients that predict everything reproduce its bits.
   bool TakesBarriers(int self) const override { return self > 0 || all_; }
+  bool CopiesAgree() const override { return all_; }
   bool TrustsSleep() const override { return true; }
   bool RunsAhead() const override { return true; }
   bool SelectsTraffic() const override { return true; }

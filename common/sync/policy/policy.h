@@ -64,9 +64,12 @@ class Policy {
   virtual bool StampsInputs(int self) const { return GoesBack(self); }
   /// True if a late input, or a state that differs, makes the peer go back and step again.
   virtual bool GoesBack(int self) const;
-  /// True if the peer's world is rebuilt at every send tick. Two worlds come to the same bits only
-  /// if both are rebuilt at the same ticks.
+  /// True if the peer's world is rebuilt at every barrier tick (BarrierEvery). Two worlds come to
+  /// the same bits only if both are rebuilt at the same ticks.
   virtual bool TakesBarriers(int self) const { return GoesBack(self); }
+  /// True if a peer that simulates a copy comes to its authority's state by itself, from the same
+  /// inputs at the same ticks: it is sent only kRefreshHz states a second.
+  virtual bool CopiesAgree() const { return false; }
   /// True if states, rest and edits are sent only of ticks whose inputs are all known.
   virtual bool SendsCompleteTicks() const { return false; }
   /// True if waking and sleep need no agreement between peers: the same inputs lead all to the same

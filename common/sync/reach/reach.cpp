@@ -70,7 +70,8 @@ void Reach::Look() {
     longest = std::max(longest, missing.back().second);
   }
   if (missing.empty()) return;
-  const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
+  const int every = std::max(config_.send_every(), BarrierEvery(config_.tick_hz));
+  const float seconds = static_cast<float>(longest + 2 * every) * world_.dt();
   // Mechanisms are indexed by their place among those present; others meet nothing.
   std::vector<MovingBox> boxes = BoxesOf(world_, drivers_, false);
   std::vector<int> groups;

@@ -165,7 +165,7 @@ void RestCommit::AfterStep() {
     for (const std::vector<int>& island : FindPresentIslands(world_)) HoldIsland(island);
   }
   watch_.Look();
-  if (open && world_.tick() % config_.send_every() == 0) {
+  if (open && world_.tick() % BarrierEvery(config_.tick_hz) == 0) {
     // A body that this peer may still commit is always present.
     for (const std::vector<int>& island : FindPresentIslands(world_)) CommitIsland(island);
   }

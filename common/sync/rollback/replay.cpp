@@ -100,8 +100,8 @@ bool Replay::IsAlone() const {
 }
 
 void Replay::TakeBarrier() {
-  if (!config_.policy->TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0)
-    return;
+  const bool due = world_.tick() % BarrierEvery(config_.tick_hz) == 0;
+  if (!due || !config_.policy->TakesBarriers(roles_.self())) return;
   // A body that has just fallen asleep is rebuilt once as it lies.
   const bool is_alone = IsAlone(), alone = std::exchange(was_alone_, is_alone) && is_alone;
   const std::int64_t every = alone ? config_.tick_hz / kAlonePart : 0;
@@ -182,6 +182,7 @@ void Replay::WriteKnownStates(int body) {
     // Rounds as all corrections do, which add a difference.
     state = PlusScaled(local, Minus(state, local), 1);
     if (!Agrees(Minus(state, local))) {
+      memory_.NoteDiffering(world_.mechanism(body));  // by all inputs known by now
       world_.Write(body, WithinLimits(state, world_.scene().speed_limit), moves);
     }
   }

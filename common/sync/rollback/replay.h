@@ -58,9 +58,9 @@ class Replay {
   void Run();
   /// Calls `call` after each tick of a replay, with the world as just stepped.
   void OnReplayedTick(std::function<void()> call) { on_stepped_again_ = std::move(call); }
-  /// Call after a step. At a send tick, makes that tick a barrier. This happens at every send tick,
-  /// needed or not, because worlds that are to agree bit for bit must be rebuilt at the same ticks.
-  /// A world that need not agree with another peer's is only copied, and less often.
+  /// Call after a step. Makes each BarrierEvery-th tick a barrier, needed or not, because worlds
+  /// that are to agree bit for bit must be rebuilt at the same ticks. A world that need not agree
+  /// with another peer's is only copied, and less often.
   void TakeBarrier();
   /// Drops all barriers: a body is new, or the bodies have changed.
   void Forget();
