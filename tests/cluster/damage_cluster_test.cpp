@@ -11,9 +11,9 @@
 #include "common/codec/quanta.h"
 #include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
+#include "tests/cluster/rewritten_states.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/rewriting_net.h"
-#include "tests/support/rewritten_states.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {

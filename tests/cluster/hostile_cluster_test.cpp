@@ -4,11 +4,11 @@
 
 #include "common/net/datagram.h"
 #include "common/net/link.h"
+#include "tests/cluster/rewritten_states.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/live_session.h"
 #include "tests/support/pendulums.h"
 #include "tests/support/rewriting_net.h"
-#include "tests/support/rewritten_states.h"
 #include "tests/support/session_guest.h"
 
 namespace seam {

@@ -8,9 +8,9 @@
 #include <variant>
 
 #include "server/rules/rules.h"
+#include "tests/cluster/rewritten_states.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/rewriting_net.h"
-#include "tests/support/rewritten_states.h"
 #include "tests/support/soak.h"
 
 namespace seam {

@@ -9,7 +9,7 @@
 
 #include "common/codec/packed/states_packer.h"
 #include "common/codec/packed/states_unpacker.h"
-#include "tests/support/balls.h"
+#include "tests/codec/balls.h"
 
 namespace seam {
 namespace packed_reset_test {

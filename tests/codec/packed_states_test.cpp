@@ -11,7 +11,7 @@
 #include "common/codec/packed/states_packer.h"
 #include "common/codec/packed/states_unpacker.h"
 #include "common/codec/validate.h"
-#include "tests/support/balls.h"
+#include "tests/codec/balls.h"
 #include "tests/support/soak.h"
 
 namespace seam {
