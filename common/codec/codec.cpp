@@ -1,6 +1,7 @@
 #include "common/codec/codec.h"
 
 #include <tuple>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -105,6 +106,11 @@ constexpr std::size_t kEncodedBytesMax<Room> = kRoomBytesMax;
 /// Place and size of `session` in an encoded message: after the type hash and utime.
 constexpr std::ptrdiff_t kSessionFieldAt = 16, kSessionFieldBytes = 8;
 
+/// Size of a view's message without its field `session` and its bodies; it ends with their number.
+constexpr std::size_t kViewHeadBytes = 50;
+/// The bytes of an age, the last field of each body, which protocol 12 did not have.
+constexpr std::size_t kViewAgeBytes = 4;
+
 std::uint64_t ReadUint64(const std::uint8_t* from) {
   std::uint64_t value = 0;
   for (int i = 0; i < 8; ++i) value = value << 8 | from[i];
@@ -130,6 +136,9 @@ Bytes EncodeAs(const Message& message) {
     if (message.session == 0) {
       bytes.erase(bytes.begin() + kSessionFieldAt,
                   bytes.begin() + kSessionFieldAt + kSessionFieldBytes);
+      if constexpr (std::is_same_v<Message, View>) {
+        bytes.resize(bytes.size() - kViewAgeBytes * message.id.size());
+      }
       WriteUint64(kHashWithoutSession<Message>, bytes.data());
     }
   }
@@ -161,12 +170,17 @@ std::uint64_t WireHash() {
   return static_cast<std::uint64_t>(Wire<Message>::Type::getHash());
 }
 
-/// Decodes a message that lacks the field `session`: puts a 0 there.
+/// Decodes a message that lacks the field `session`: puts a 0 there, and ages of 0 behind a view.
 template <class Message>
 AnyMessage DecodeWithoutSession(ByteView bytes) {
-  if (bytes.size < static_cast<std::size_t>(kSessionFieldAt)) return {};
+  constexpr bool is_view = std::is_same_v<Message, View>;
+  if (bytes.size < (is_view ? kViewHeadBytes : std::size_t{kSessionFieldAt})) return {};
   thread_local Bytes whole;  // reuses memory
   whole.assign(bytes.data, bytes.data + bytes.size);
+  if constexpr (is_view) {
+    const std::size_t bodies = whole[kViewHeadBytes - 2] * 256u + whole[kViewHeadBytes - 1];
+    whole.resize(whole.size() + kViewAgeBytes * bodies, 0);
+  }
   whole.insert(whole.begin() + kSessionFieldAt, kSessionFieldBytes, 0);
   WriteUint64(WireHash<Message>(), whole.data());
   return DecodeAs<Message>(whole);

@@ -18,9 +18,9 @@ constexpr std::int32_t kIdsMax = 1 << 18;
 /// Most bodies in one States message: 58 + 21 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kStatesBodiesMax = 48;
 static_assert(58 + 21 * kStatesBodiesMax <= kMessageBytesMax);
-/// Most bodies in one View message: 58 + 31 bytes each within kBusMessageBytesMax.
-constexpr std::size_t kViewBodiesMax = 1900;
-static_assert(58 + 31 * kViewBodiesMax <= kBusMessageBytesMax);
+/// Most bodies in one View message: 58 + 35 bytes each within kBusMessageBytesMax.
+constexpr std::size_t kViewBodiesMax = 1700;
+static_assert(58 + 35 * kViewBodiesMax <= kBusMessageBytesMax);
 
 /// Most parts of a view: 65 535 bodies in messages of kViewBodiesMax need 35.
 constexpr std::int32_t kViewPartsMax = 40;

@@ -284,7 +284,7 @@ struct View {
   std::vector<std::int8_t> role;        ///< kRole...
   std::vector<std::int16_t> authority;  ///< the authority as this peer knows it
   std::vector<float> x, y, angle;       ///< m, m, rad (unwrapped): as displayed
-  std::vector<float> vx, vy, spin;      ///< m/s, m/s, rad/s: simulated
+  std::vector<float> vx, vy, spin, age;  ///< m/s, m/s, rad/s: simulated; ticks: pose before `tick`
 };
 constexpr std::int8_t kRoleRemote = 0;
 constexpr std::int8_t kRoleSecondary = 1;

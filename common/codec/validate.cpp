@@ -26,6 +26,10 @@ bool Block(int blocks, int block) {
 }
 bool Peer(std::int32_t peer) { return Within(peer, 0, kPeersMax - 1); }
 
+/// Most bodies in one View of protocol 12, which had no ages.
+constexpr std::size_t kViewBodiesReadMax = 1900;
+static_assert(kViewBodiesMax <= kViewBodiesReadMax);
+
 template <class... Vectors>
 bool Lengths(std::size_t length, const Vectors&... vectors) {
   return ((vectors.size() == length) && ...);
@@ -235,10 +239,11 @@ bool Valid(const Meta& m) {
 bool Valid(const View& m) {
   return Time(m.utime) && m.sequence >= 0 && m.revision >= 0 && Peer(m.peer) && Tick(m.tick) &&
          Within(m.parts, 1, kViewPartsMax) && Within(m.part, 0, m.parts - 1) &&
-         m.id.size() <= kViewBodiesMax &&
-         Lengths(m.id.size(), m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
+         m.id.size() <= kViewBodiesReadMax &&
+         Lengths(m.id.size(), m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin, m.age) &&
          Ascending(m.id) && AllWithin(m.role, kRoleRemote, kRoleAuthority) &&
-         AllWithin(m.authority, 0, kPeersMax - 1) && Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+         AllWithin(m.authority, 0, kPeersMax - 1) &&
+         Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin) && AllWithin(m.age, 0, kTickMax);
 }
 
 bool Valid(const Impacts& m) {

@@ -34,10 +34,14 @@ struct Measures {
   // view, and on the other players' screens. Empty without a response or without clock times.
   std::optional<double> response_own_ms, response_server_ms, response_other_ms;
   std::optional<double> seen;  ///< share of body-seconds in which a person would notice an error
+  // Overlap of clients' own bodies with others' beyond the oracle's: 99 % of the ticks of pairs
+  // that overlap, in the view or in the oracle, are below. Empty if no pair does.
+  std::optional<double> overlap_p99_m;
   // Kinetic energy of any peer in windows of a second, as displayed and by its velocities, as a
   // multiple of the oracle's. The hottest body is compared with the oracle's hottest.
   std::optional<double> energy_ratio_min, energy_ratio_max, hottest_ratio;
   double stutter_mps2 = 0;     ///< RMS of the second difference minus the oracle's
+  double stutter_shown_mps2 = 0;  ///< the same, minus the oracle's at the tick that is shown
   std::int64_t backsteps = 0;  ///< displayed moves against the body's velocity
   // Displayed poses against those in the authority's view. Empty without a view to compare with.
   std::optional<double> seam_rms_m;

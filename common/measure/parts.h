@@ -20,7 +20,7 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
 
 // `revisions` below: nullptr where bodies never change.
 
-/// smoothness.cpp: sets stutter_mps2 and backsteps.
+/// smoothness.cpp: sets stutter_mps2, stutter_shown_mps2 and backsteps.
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
                        const RevisionHistory* revisions, Measures* measures);
 
@@ -31,11 +31,15 @@ struct ViewTrio {
   const View* earlier = nullptr;
 };
 
-/// smoothness.cpp: returns one squared sample of stutter_mps2, (m/s^2)^2, for body i of trio.now;
-/// nullopt where a view or the oracle lacks one of the ticks, or the body's parts changed. `h`: s
-/// per tick.
+/// The oracle's tick that a view is compared with: the view's, or the one that it shows of a body.
+enum class Truth { kOfTick, kOfMomentShown };
+
+/// smoothness.cpp: returns one squared sample of stutter_shown_mps2 (kOfTick: of stutter_mps2),
+/// (m/s^2)^2, for body i of trio.now; nullopt where a view or the oracle lacks one of the ticks, or
+/// the body's parts changed. `h`: s per tick.
 std::optional<double> StutterSquared(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
-                                     const RevisionHistory* revisions, double h);
+                                     const RevisionHistory* revisions, double h,
+                                     Truth truth = Truth::kOfMomentShown);
 
 /// seam.cpp: sets seam_rms_m and seam_stutter_mps2.
 void MeasureSeam(const Recording& recording, const RevisionHistory* revisions, Measures* measures);

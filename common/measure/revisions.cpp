@@ -1,6 +1,7 @@
 #include "common/measure/revisions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -160,6 +161,14 @@ int IndexOf(const View& view, PartId id) {
 
 BodyState StateIn(const View& view, std::size_t i) {
   return BodyState{{view.x[i], view.y[i]}, view.angle[i], {view.vx[i], view.vy[i]}, view.spin[i]};
+}
+
+double MomentShown(const View& view, std::size_t i) {
+  return static_cast<double>(view.tick) - double{view.age[i]};
+}
+
+std::int64_t TickShown(const View& view, std::size_t i) {
+  return std::llround(MomentShown(view, i));
 }
 
 }  // namespace seam

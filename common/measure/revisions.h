@@ -72,5 +72,10 @@ int IndexOf(const View& view, PartId id);
 const View* FindView(const std::map<std::int64_t, View>& views, std::int64_t tick);
 /// Returns the state of body `i` of a view.
 BodyState StateIn(const View& view, std::size_t i);
+/// Returns the tick whose pose the view shows of body `i`, possibly fractional: by the view's own
+/// word, which the peer derives from its display delay.
+double MomentShown(const View& view, std::size_t i);
+/// Returns the nearest whole tick.
+std::int64_t TickShown(const View& view, std::size_t i);
 
 }  // namespace seam

@@ -1,9 +1,11 @@
 /// Smoothness of displayed motion: stutter that the oracle does not have, and backsteps.
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
+#include "common/sync/state_arithmetic.h"
 
 namespace seam {
 namespace {
@@ -20,6 +22,25 @@ struct Point {
 Point Shown(const View& view, int i) {
   const auto index = static_cast<std::size_t>(i);
   return {view.x[index], view.y[index]};
+}
+
+/// Returns the oracle's state at a moment: linear between two ticks; that of its first tick before
+/// it.
+std::optional<BodyState> TruthAt(const Oracle& oracle, double moment, PartId id) {
+  const double at = std::max(moment, static_cast<double>(oracle.first_tick));
+  const double low = std::floor(at);
+  const auto tick = static_cast<std::int64_t>(low);
+  std::optional<BodyState> state = oracle.At(tick, id);
+  if (!state || at == low) return state;
+  const std::optional<BodyState> after = oracle.At(tick + 1, id);
+  if (!after) return std::nullopt;
+  return PlusScaled(*state, Minus(*after, *state), static_cast<float>(at - low));
+}
+
+/// Returns the tick of a view, or the moment that it shows of body `i`.
+double MomentOf(const View& view, int i, Truth truth) {
+  return truth == Truth::kOfTick ? static_cast<double>(view.tick)
+                                 : MomentShown(view, static_cast<std::size_t>(i));
 }
 
 Point At(const BodyState& state) { return {state.position.x(), state.position.y()}; }
@@ -44,10 +65,12 @@ bool IsOwnBackstep(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
                    const RevisionHistory* revisions) {
   const View &now = *trio.now, &before = *trio.before;
   const PartId id = now.id[i];
-  const std::optional<BodyState> truth = oracle.At(now.tick, id);
-  const std::optional<BodyState> truth_before = oracle.At(now.tick - 1, id);
   const int k = IndexOf(before, id);
-  if (!truth || !truth_before || k < 0 || !Same(oracle, revisions, now, before, id)) return false;
+  if (k < 0 || !Same(oracle, revisions, now, before, id)) return false;
+  const std::optional<BodyState> truth = TruthAt(oracle, MomentShown(now, i), id);
+  const std::optional<BodyState> truth_before =
+      TruthAt(oracle, MomentShown(before, static_cast<std::size_t>(k)), id);
+  if (!truth || !truth_before) return false;
   return IsBackstep(Shown(before, k), {now.x[i], now.y[i]}, now.vx[i], now.vy[i]) &&
          !IsBackstep(At(*truth_before), At(*truth), truth->velocity.x(), truth->velocity.y());
 }
@@ -55,21 +78,21 @@ bool IsOwnBackstep(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
 }  // namespace
 
 std::optional<double> StutterSquared(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
-                                     const RevisionHistory* revisions, double h) {
+                                     const RevisionHistory* revisions, double h, Truth truth) {
   if (trio.before == nullptr || trio.earlier == nullptr) return std::nullopt;
   const View &now = *trio.now, &before = *trio.before, &earlier = *trio.earlier;
   const PartId id = now.id[i];
-  const std::int64_t tick = now.tick;
-  const std::optional<BodyState> truth = oracle.At(tick, id);
-  const std::optional<BodyState> truth_before = oracle.At(tick - 1, id);
-  const std::optional<BodyState> truth_earlier = oracle.At(tick - 2, id);
-  const int k = IndexOf(before, id), j = IndexOf(earlier, id);
-  if (!truth || !truth_before || !truth_earlier || k < 0 || j < 0) return std::nullopt;
+  const int l = static_cast<int>(i), k = IndexOf(before, id), j = IndexOf(earlier, id);
+  if (k < 0 || j < 0) return std::nullopt;
   if (!Same(oracle, revisions, now, before, id) || !Same(oracle, revisions, before, earlier, id)) {
     return std::nullopt;
   }
-  const Point p = {now.x[i], now.y[i]}, q = Shown(before, k), r = Shown(earlier, j);
-  const Point o = At(*truth), n = At(*truth_before), m = At(*truth_earlier);
+  const auto due = TruthAt(oracle, MomentOf(now, l, truth), id);
+  const auto due_before = TruthAt(oracle, MomentOf(before, k, truth), id);
+  const auto due_earlier = TruthAt(oracle, MomentOf(earlier, j, truth), id);
+  if (!due || !due_before || !due_earlier) return std::nullopt;
+  const Point p = Shown(now, l), q = Shown(before, k), r = Shown(earlier, j);
+  const Point o = At(*due), n = At(*due_before), m = At(*due_earlier);
   const double ax = (p.x - 2 * q.x + r.x) - (o.x - 2 * n.x + m.x);
   const double ay = (p.y - 2 * q.y + r.y) - (o.y - 2 * n.y + m.y);
   return (ax * ax + ay * ay) / (h * h * h * h);
@@ -78,19 +101,22 @@ std::optional<double> StutterSquared(const ViewTrio& trio, std::size_t i, const 
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
                        const RevisionHistory* revisions, Measures* measures) {
   const double h = TickSeconds(recording);
-  MeanSquare stutter;
+  MeanSquare stutter, stutter_shown;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
       const ViewTrio trio = {&view, FindView(views, tick - 1), FindView(views, tick - 2)};
       if (trio.before == nullptr) continue;
       for (std::size_t i = 0; i < view.id.size(); ++i) {
         if (IsOwnBackstep(trio, i, oracle, revisions)) ++measures->backsteps;
-        const auto squared = StutterSquared(trio, i, oracle, revisions, h);
+        const auto squared = StutterSquared(trio, i, oracle, revisions, h, Truth::kOfTick);
         if (squared) stutter.Add(*squared);
+        const auto shown = StutterSquared(trio, i, oracle, revisions, h);
+        if (shown) stutter_shown.Add(*shown);
       }
     }
   }
   measures->stutter_mps2 = stutter.RootOrZero();
+  measures->stutter_shown_mps2 = stutter_shown.RootOrZero();
 }
 
 }  // namespace seam

@@ -32,6 +32,8 @@ const char* const kColumns[] = {"scene",
                                 "cpu_us_per_s",
                                 "inputs_late",
                                 "error_served_m",
+                                "overlap_p99_m",
+                                "stutter_shown_mps2",
                                 "valid"};
 /// Number of leading columns with text, aligned to the left.
 constexpr std::size_t kTextColumns = 5;
@@ -72,6 +74,8 @@ std::vector<std::string> Values(const MeasuredRun& run) {
                                      Number(m.cpu_us_per_s, m.cpu_us_per_s > 0),
                                      m.inputs_late ? std::to_string(*m.inputs_late) : "",
                                      Number(m.error_served_m),
+                                     Number(m.overlap_p99_m),
+                                     Number(m.stutter_shown_mps2, any),
                                      run.valid.empty() ? run.lacks : run.valid};
   // A session that is not valid has only its identity and the reason.
   for (std::size_t i = kIdentityColumns; !run.valid.empty() && i + 1 < values.size(); ++i) {

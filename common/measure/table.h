@@ -22,7 +22,8 @@ struct MeasuredRun {
 /// Returns the column names, without a line end:
 /// scene,run,mode,reconcile,impair,seed,error_others_m,error_own_m,path_error_rms_m,view_age_ms,
 /// response_own_ms,response_other_ms,seen,error_rms_m,error_p95_m,error_max_m,stutter_mps2,
-/// backsteps,rebound,bytes_per_s,cpu_us_per_s,valid
+/// backsteps,rebound,bytes_per_s,cpu_us_per_s,inputs_late,error_served_m,overlap_p99_m,
+/// stutter_shown_mps2,valid
 /// In mode central, the column reconcile holds the clients' prediction: own or all.
 std::string CsvHeader();
 

@@ -243,13 +243,13 @@ bool RecordingBuilder::Keep(View& part) {
     return true;
   }
   View whole = std::move(parts.front());
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const View& next = parts[i];
-    Append(&whole.id, next.id);
-    Append(&whole.role, next.role);
-    Append(&whole.authority, next.authority);
-    for (const auto field : {&View::x, &View::y, &View::angle, &View::vx, &View::vy, &View::spin}) {
-      Append(&(whole.*field), next.*field);
+  for (auto next = parts.begin() + 1; next != parts.end(); ++next) {
+    Append(&whole.id, next->id);
+    Append(&whole.role, next->role);
+    Append(&whole.authority, next->authority);
+    for (const auto field :
+         {&View::x, &View::y, &View::angle, &View::vx, &View::vy, &View::spin, &View::age}) {
+      Append(&(whole.*field), (*next).*field);
     }
   }
   whole.parts = 1;

@@ -315,6 +315,8 @@ View Display::MakeView(const Roles& roles, bool all) const {
     view.vx.push_back(s.velocity.x());
     view.vy.push_back(s.velocity.y());
     view.spin.push_back(s.spin);
+    const bool delayed = !config_.policy->Reckons() && roles.RoleOf(m) == kRoleRemote;
+    view.age.push_back(delayed ? static_cast<float>(delayed_.age()) : 0.0f);
   });
   return view;
 }

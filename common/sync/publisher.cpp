@@ -69,6 +69,7 @@ void Publisher::Publish(const View& message) {
     piece.vx = Slice(message.vx, a, b);
     piece.vy = Slice(message.vy, a, b);
     piece.spin = Slice(message.spin, a, b);
+    piece.age = Slice(message.age, a, b);
     Number(piece);
   }
 }

@@ -248,6 +248,9 @@ TEST(CodecBounds, AMessageThatBreaksABoundIsNotValid) {
   EXPECT_TRUE(broken([](View& v) { v.authority[2] = kPeersMax; }));
   EXPECT_TRUE(broken([](View& v) { v.spin.pop_back(); }));
   EXPECT_TRUE(broken([](View& v) { v.vx[1] = std::nanf(""); }));
+  EXPECT_TRUE(broken([](View& v) { v.age.push_back(0); }));
+  EXPECT_TRUE(broken([](View& v) { v.age[0] = -0.5f; }));
+  EXPECT_TRUE(broken([](View& v) { v.age[0] = std::nanf(""); }));
 }
 
 TEST(CodecBounds, EpochsHaveThirtyTwoBitsAndAreNeverNegative) {

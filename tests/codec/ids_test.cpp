@@ -50,7 +50,7 @@ View OneView(std::int32_t id) {
   view.id = {3, id};
   view.role = {0, 0};
   view.authority = {0, 1023};
-  view.x = view.y = view.angle = view.vx = view.vy = view.spin = {5, 6};
+  view.x = view.y = view.angle = view.vx = view.vy = view.spin = view.age = {5, 6};
   return view;
 }
 

@@ -85,6 +85,7 @@ View ViewOf(const World& world, int peer) {
     view.vx.push_back(state.velocity.x());
     view.vy.push_back(state.velocity.y());
     view.spin.push_back(state.spin);
+    view.age.push_back(0);
   }
   return view;
 }

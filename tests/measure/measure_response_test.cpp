@@ -96,7 +96,7 @@ void Show(Recording* run, const Oracle& oracle, int peer, std::int64_t late_us,
     view.x = {static_cast<float>(pose.position.x())};
     view.y = {static_cast<float>(pose.position.y())};
     view.angle = {0};
-    view.vx = view.vy = view.spin = {0};
+    view.vx = view.vy = view.spin = view.age = {0};
     run->views[peer][tick] = view;
     run->view_us[peer][tick] = 1000000 + tick * kTickUs + late_us;
   }

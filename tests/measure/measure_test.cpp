@@ -140,7 +140,7 @@ TEST(Measure, TicksAndBodiesTheOracleDoesNotHaveAreLeftOut) {
   oracle.first_tick = 1000;
   const Measures m = Measure(run, oracle);
   EXPECT_EQ(m.compared, 0);
-  EXPECT_EQ(CsvLine({"r", run.room, m, "", "", 0, 0}), ",r,oracle,,,0,,,,,,,,,,,,,,,,0,,");
+  EXPECT_EQ(CsvLine({"r", run.room, m, "", "", 0, 0}), ",r,oracle,,,0,,,,,,,,,,,,,,,,0,,,,");
 }
 
 // ---- oracles and tables
@@ -197,7 +197,8 @@ TEST(Table, HasExactlyTheAgreedColumns) {
             "scene,run,mode,reconcile,impair,seed,error_others_m,error_own_m,path_error_rms_m,"
             "view_age_ms,response_own_ms,response_other_ms,seen,"
             "error_rms_m,error_p95_m,error_max_m,stutter_mps2,"
-            "backsteps,rebound,bytes_per_s,cpu_us_per_s,inputs_late,error_served_m,valid");
+            "backsteps,rebound,bytes_per_s,cpu_us_per_s,inputs_late,error_served_m,"
+            "overlap_p99_m,stutter_shown_mps2,valid");
   MeasuredRun run;
   run.run = "a \"b\"";
   run.room.scene_name = "crossing";
@@ -218,14 +219,16 @@ TEST(Table, HasExactlyTheAgreedColumns) {
   run.measures.bytes_per_s = 4096;
   run.measures.inputs_late = 3;
   run.measures.error_served_m = 0.125;
+  run.measures.overlap_p99_m = 0.0625;
+  run.measures.stutter_shown_mps2 = 3;
   EXPECT_EQ(
       CsvLine(run),
       "crossing,\"a "
       "\"\"b\"\"\",buffer,retrospect,\"delay=50ms,loss=1%\",-3,0.25,,,150,,,0.75,0.0123457,0.5,2,"
-      "1.23457e+06,12,0.5,4096,,3,0.125,");
+      "1.23457e+06,12,0.5,4096,,3,0.125,0.0625,3,");
   run.valid = "no edit";
   EXPECT_EQ(CsvLine(run), "crossing,\"a \"\"b\"\"\",buffer,retrospect,\"delay=50ms,loss=1%\",-3" +
-                              std::string(18, ',') + "no edit");
+                              std::string(20, ',') + "no edit");
   EXPECT_NE(FormatTable({run}, false).find("not valid: no edit"), std::string::npos);
 }
 

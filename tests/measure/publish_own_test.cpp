@@ -58,7 +58,8 @@ Recording Cut(const Recording& all, const Recording& to) {
       kept.id.clear();
       kept.role.clear();
       kept.authority.clear();
-      for (auto* column : {&kept.x, &kept.y, &kept.angle, &kept.vx, &kept.vy, &kept.spin}) {
+      for (auto* column :
+           {&kept.x, &kept.y, &kept.angle, &kept.vx, &kept.vy, &kept.spin, &kept.age}) {
         column->clear();
       }
       for (std::size_t i = 0; i < view.id.size(); ++i) {
@@ -72,6 +73,7 @@ Recording Cut(const Recording& all, const Recording& to) {
         kept.vx.push_back(view.vx[i]);
         kept.vy.push_back(view.vy[i]);
         kept.spin.push_back(view.spin[i]);
+        kept.age.push_back(view.age[i]);
       }
       view = kept;
     }

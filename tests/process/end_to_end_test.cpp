@@ -233,6 +233,8 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
                                             "cpu_us_per_s",
                                             "inputs_late",
                                             "error_served_m",
+                                            "overlap_p99_m",
+                                            "stutter_shown_mps2",
                                             "valid"};
   EXPECT_EQ(rows[0], columns);
   std::map<std::string, std::map<std::string, double>> number;

@@ -36,7 +36,7 @@ void WriteSession(LogWriter* log, std::int64_t session, const std::string& mode,
     view.role = {kRoleAuthority};
     view.authority = {0};
     view.x = {x};
-    view.y = view.angle = view.vx = view.vy = view.spin = {0};
+    view.y = view.angle = view.vx = view.vy = view.spin = view.age = {0};
     log->Publish(ChannelName("r", "view", 0), tick, Encode(view));
   }
 }

@@ -33,7 +33,7 @@ View MakeView(int peer, std::int64_t tick, std::size_t count = 2, std::int32_t f
   view.role.assign(count, kRoleAuthority);
   view.authority.assign(count, static_cast<std::int16_t>(peer));
   view.x = view.y = view.angle = std::vector<float>(count, static_cast<float>(tick));
-  view.vx = view.vy = view.spin = view.x;
+  view.vx = view.vy = view.spin = view.age = view.x;
   return view;
 }
 

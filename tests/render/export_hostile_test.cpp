@@ -28,7 +28,7 @@ void WriteHostileLog(const std::string& path) {
   view.id = {0};
   view.role = {kRoleAuthority};
   view.authority = {0};
-  view.x = view.y = view.angle = view.vx = view.vy = view.spin = {0};
+  view.x = view.y = view.angle = view.vx = view.vy = view.spin = view.age = {0};
   Event event;
   event.text = kHostile;
   const auto publish = [&](const char* kind, int peer, const Bytes& bytes) {

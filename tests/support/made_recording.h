@@ -46,6 +46,7 @@ inline View MakeView(int peer, std::int64_t tick, const BodyState& body) {
     view.vx.push_back(state.velocity.x());
     view.vy.push_back(state.velocity.y());
     view.spin.push_back(state.spin);
+    view.age.push_back(0);
   }
   return view;
 }

@@ -108,7 +108,7 @@ class BadInput : public ::testing::Test {
     view.id = {0};
     view.role = {kRoleAuthority};
     view.authority = {0};
-    view.x = view.y = view.angle = view.vx = view.vy = view.spin = {0.0f};
+    view.x = view.y = view.angle = view.vx = view.vy = view.spin = view.age = {0.0f};
     LogWriter(to / "roomless.lcm").Publish("SEAM.r.view.0", 0, Encode(view));
     LogWriter(to / "viewless.lcm").Publish("SEAM.r.scene", 0, Encode(room));
     LogWriter sceneless(to / "sceneless.lcm");

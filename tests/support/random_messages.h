@@ -147,6 +147,7 @@ class RandomMessages {
     Set(m.part, 0, m.parts - 1), Ids(m.id, count), Vector(m.role, count, 0, 2);
     Vector(m.authority, count, 0, 31), Floats(m.x, count), Floats(m.y, count);
     Floats(m.angle, count), Floats(m.vx, count), Floats(m.vy, count), Floats(m.spin, count);
+    m.age.assign(count, 0);  // without a session, ages are not encoded
   }
   void Fill(View& m) { Fill(m, Count(0, 60)); }
   void Fill(Impacts& m, std::size_t count) {

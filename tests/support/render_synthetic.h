@@ -120,6 +120,7 @@ inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer
         view.vx.push_back(state.velocity.x());
         view.vy.push_back(state.velocity.y());
         view.spin.push_back(state.spin);
+        view.age.push_back(owner == peer ? 0 : static_cast<float>(late_ticks));
       }
       recording.views[peer][tick] = view;
     }

@@ -3,6 +3,7 @@
 #include "common/measure/parts.h"
 #include "common/measure/screen/blows.h"
 #include "common/measure/screen/noticed.h"
+#include "common/measure/screen/overlaps.h"
 #include "common/measure/screen/path_error.h"
 
 namespace seam {
@@ -56,7 +57,10 @@ void MeasureScreens(const Recording& recording, const Oracle& oracle,
     }
   }
   blows.Notice(&seconds);
-  if (revisions != nullptr) NoticeLinks(recording, oracle, *revisions, &seconds);
+  if (revisions != nullptr) {
+    NoticeLinks(recording, oracle, *revisions, &seconds);
+    NoticeOverlaps(recording, oracle, *revisions, screen, &seconds, measures);
+  }
   errors.Report(h, measures);
   measures->seen = seconds.Share();
 }

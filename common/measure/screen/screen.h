@@ -23,7 +23,8 @@ void MeasurePointError(const Recording& recording, const Oracle& oracle, Screen&
 /// served.cpp: sets error_served_m and inputs_late, in modes where they apply.
 void MeasureServed(const Recording& recording, Screen& screen, Measures* measures);
 
-/// screen.cpp: sets path_error_rms_m, view_age_ms and seen, from the views of all clients.
+/// screen.cpp: sets path_error_rms_m, view_age_ms, seen and overlap_p99_m, from the views of all
+/// clients.
 void MeasureScreens(const Recording& recording, const Oracle& oracle,
                     const RevisionHistory* revisions, Screen& screen, Measures* measures);
 

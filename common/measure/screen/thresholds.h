@@ -32,6 +32,9 @@ constexpr double kKinkReach = 0.1;
 /// Least noticed stretch, as a share of the length of a mechanism's link.
 constexpr double kStretch = 0.03;
 
+/// Least noticed overlap of two bodies beyond the oracle's, m, and its least duration, s.
+constexpr double kOverlapFloor = 0.05, kOverlapLong = 0.08;
+
 /// Least speed of a moving body, m/s. Seconds in which a body does not move are not counted.
 constexpr double kMovesMin = 0.1;
 

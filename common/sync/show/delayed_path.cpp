@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "common/base/geometry.h"
 #include "common/sync/state_arithmetic.h"
@@ -10,25 +9,15 @@
 namespace seam {
 namespace {
 
-constexpr std::size_t kAges = 90;      // ages used for the delay
 constexpr double kSlewPerTick = 0.02;  // ticks of delay per tick: 2 % slower or faster
 /// Largest turn between two ticks that is told from angles, rad/s: the engine clamps spins at 94.
 constexpr float kSpinDrivenMax = 90.0f;
 
 }  // namespace
 
-void DisplayDelay::AddAge(std::int64_t age_ticks) {
-  ages_.push_back(std::max<std::int64_t>(0, age_ticks));
-  if (ages_.size() > kAges) ages_.pop_front();
-}
-
 double DisplayDelay::Advance() {
   if (ages_.empty()) return std::max(delay_, 0.0);
-  std::vector<std::int64_t> sorted(ages_.begin(), ages_.end());
-  const std::size_t rank = (sorted.size() - 1) * 19 / 20;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
-                   sorted.end());
-  const double target = static_cast<double>(sorted[rank] + 2 * interval_ticks_);
+  const double target = static_cast<double>(ages_.Most() + 2 * interval_ticks_);
   if (delay_ < 0) delay_ = target;
   delay_ += std::clamp(target - delay_, -kSlewPerTick, kSlewPerTick);
   return delay_;

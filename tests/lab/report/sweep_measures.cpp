@@ -26,6 +26,8 @@ const std::vector<SweepMeasure>& SweepMeasures() {
       Column("response-own", "response, own screen", "ms", false, "response_own_ms"),
       Column("response-other", "response, others' screens", "ms", false, "response_other_ms"),
       Column("seen", "seen, share of body-seconds", "1 is all", false, "seen"),
+      Column("overlap", "overlap of own and others' bodies beyond the oracle's, p99", "m", false,
+             "overlap_p99_m"),
       Column("error", "error, RMS", "m", true, "error_rms_m"),
       Column("seam", "seam: peer against authority, RMS", "m", true, "seam_rms_m"),
       Column("stutter", "stutter, RMS", "m/s²", true, "stutter_mps2"),

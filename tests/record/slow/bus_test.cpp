@@ -84,7 +84,7 @@ View MakeView(std::int32_t sequence, std::size_t bodies) {
   view.role.assign(bodies, kRoleAuthority);
   view.authority.assign(bodies, 1);
   view.x = view.y = view.angle = std::vector<float>(bodies, static_cast<float>(sequence));
-  view.vx = view.vy = view.spin = view.x;
+  view.vx = view.vy = view.spin = view.age = view.x;
   return view;
 }
 
