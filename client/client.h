@@ -44,6 +44,7 @@ struct ClientConfig {
   std::string script_of;  ///< kScript: the scene's player with the script to play
   std::int64_t key = 0;   ///< from an earlier Welcome, to get the same place back; 0: none
   float smooth_rate = kSmoothRate;  ///< SyncConfig::smooth_rate
+  std::optional<int> show_age_ticks;  ///< SyncConfig::show_age_ticks; nullopt: the scene's
   Publish publish = Publish::kAll;
   bool shows = false;  ///< replica()'s view is displayed: all of it has to be up to date
   bool watch = false;  ///< join as a spectator; else a name that is not a player's is fatal

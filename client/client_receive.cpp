@@ -202,6 +202,7 @@ void Client::MakeReplica(const Topology* become) {
   sync.tick_hz = room_.tick_hz;
   sync.send_hz = room_.send_hz;
   sync.smooth_rate = config_.smooth_rate;
+  sync.show_age_ticks = config_.show_age_ticks.value_or(scene_->show_age_ticks);
   sync.seed = room_.seed;
   sync.input_delay_ticks = room_.input_delay_ticks;
   const Topology topology = become != nullptr ? *become : Topology(*scene_);

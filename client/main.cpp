@@ -36,6 +36,7 @@ struct Flags {
   std::string impair = "perfect";
   std::int64_t seed = 1;
   std::string smooth = "on";
+  int show_age = -1;  // ticks; -1: the scene's
   double duration_s = 0;
   double join_s = 10;
   double throttle = 1;
@@ -59,6 +60,10 @@ void Define(Command& app, Flags& f) {
   app.Option("--smooth", f.smooth,
              "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
       .OneOfOrRange({"on", "off"}, kSmoothRateMin, kSmoothRateMax);
+  app.Option("--show-age", f.show_age,
+             "show others' bodies at most so many ticks ago, as far as they are known (default: "
+             "the scene's show_age; 0: in the present)")
+      .Range(0, kShowAgeTicksMax);
   app.Option("--duration", f.duration_s, "seconds to run (0: until stopped)").Range(0.0, 1e6);
   app.Option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
       .Range(0.1, 1e6);
@@ -104,6 +109,7 @@ ClientConfig Configure(const Flags& f) {
   config.watch = f.watch;
   config.room = f.room;
   config.smooth_rate = ParseSmoothRate(f.smooth);
+  if (f.show_age >= 0) config.show_age_ticks = f.show_age;
   config.publish = ParsePublish(f.publish);
   config.shows = f.show || f.drive == "keyboard";
   if (f.drive == "bot") {

@@ -14,6 +14,7 @@ struct ViewNote {
   std::optional<double> age_ms;             ///< mean over the recording (Playback::ViewAgeMs)
   std::optional<double> jitter_ms;          ///< as last reported (PeerReport)
   std::optional<std::int64_t> corrections;  ///< visible ones so far; empty without an oracle
+  std::optional<double> shown_ms;  ///< greatest age by the view itself; empty in the present
 };
 
 /// Finds each panel's visible corrections in its recording.

@@ -18,6 +18,11 @@ constexpr int kTickHzMin = 10, kTickHzMax = 960;
 constexpr int kSendHzMax = 240;
 /// Longest delay from reading an input to its tick: 0.2 s at 60 Hz. With more, driving fails.
 constexpr int kInputDelayTicksMax = 12;
+/// Greatest age of others' displayed bodies that may be asked for, ticks: half a second at 60 Hz.
+/// A peer's past reaches a second back.
+constexpr int kShowAgeTicksMax = 30;
+/// The greatest age if nothing else is asked for, ticks.
+constexpr int kShowAgeTicks = 0;
 /// Longest session, s.
 constexpr double kDurationMax = 1e6;
 

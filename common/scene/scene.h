@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/limits.h"
 #include "common/scene/feature.h"
 #include "common/scene/motion/collision_filter.h"
 #include "common/scene/types.h"
@@ -222,6 +223,7 @@ struct Scene {
   /// authority.
   int server_follow = 256;
   int input_delay_ticks = 0;                              ///< from sampling an input to its tick
+  int show_age_ticks = kShowAgeTicks;                     ///< of others' displayed bodies, at most
   float speed_limit = 120;                                ///< m/s: faster states are implausible
   Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states outside are implausible
   std::vector<Part> parts;

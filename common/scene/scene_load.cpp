@@ -103,7 +103,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
        "bounds",  "solver",        "part",      "bricks",      "character",   "joint",
        "thrust",  "water",         "player",    "seat",        "watch",       "camera",
        "trigger", "script",        "grouping",  "input_delay", "expect",      "follow",
-       "strand",  "server_follow", "propeller", "charges",     "planner"});
+       "strand",  "server_follow", "propeller", "charges",     "planner",     "show_age"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -111,6 +111,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   scene.follow_bodies = root.Integer("follow", {0, 65535}, scene.follow_bodies);
   scene.buffer_m = root.Number("buffer", {0, 10000}, scene.buffer_m);
   scene.input_delay_ticks = root.Integer("input_delay", {0, kInputDelayTicksMax}, 0);
+  scene.show_age_ticks = root.Integer("show_age", {0, kShowAgeTicksMax}, scene.show_age_ticks);
   scene.speed_limit = root.Number("speed_limit", {1, kSpeedMax}, scene.speed_limit);
   draft.size_max = root.Number("size_max", {kSizeMin, kSizeMaxMax}, kSizeMaxDefault);
   ReadBounds(root, &scene);

@@ -86,6 +86,14 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory, Act
       reckoner_(world, memory.snapshots(), joints_),
       delayed_(world, memory.snapshots(), config.send_every()),
       seats_(memory.table()),
+      ages_(config, world, memory.table()),
+      shown_(memory.table(),
+             [](int, const BodyOrigin& origin, Shown* before) {
+               if (before == nullptr) return Shown{};
+               Shown shown = *before;
+               if (!origin.same) shown.then = Carried(origin, before->then);
+               return shown;
+             }),
       corrected_until_(memory.table(), MechanismRule::kFresh, 0),
       far_(memory.table(), MechanismRule::kFresh, Nowhere()),
       poses_(memory.table(), BodyRule::kScratch),
@@ -105,7 +113,7 @@ BodyState Display::Visible(int body, BodyState jump) const {
 
 void Display::Moved(int body, const BodyState& by) {
   if (!Negligible(by)) on_corrected_(body, by);
-  smoother_.Moved(body, Visible(body, by));
+  if (!shown_[body].past) smoother_.Moved(body, Visible(body, by));
   corrected_until_[world_.mechanism(body)] = glides_ + kCorrectedTicks;
 }
 
@@ -113,22 +121,31 @@ void Display::Edited(const BodyRemap& change) {
   joints_.Rebuild();
   if (config_.policy->IsOracle()) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
+    if (shown_[static_cast<int>(body)].past) continue;
     smoother_.Moved(static_cast<int>(body), change.jumps[body]);
   }
 }
 
-void Display::Glide(const Roles& roles) {
+void Display::Reset(int body) {
+  smoother_.Reset(body);
+  shown_[body] = Shown{};
+  shown_[body].since = world_.tick() + 1;
+}
+
+void Display::Glide(const Roles& roles, std::int64_t missing) {
   ++glides_;
   if (config_.smooth_rate <= 0) return;
   seats_.Look(world_);
+  ShowOthers(roles, missing);
   for (const int first : memory_.unparked()) {
     const int m = world_.mechanism(first);
     const std::vector<int>& bodies = joints_.bodies(m);
     if (bodies.front() != first) continue;
     if (bodies.size() == 1) {
-      smoother_.Advance(first, world_.dt(), world_.Read(first).velocity.norm());
+      smoother_.Advance(first, world_.dt(), Base(first).velocity.norm());
     } else {
-      smoother_.AdvanceTogether(world_, bodies, seats_.IsGentle(m));
+      smoother_.AdvanceTogether(
+          world_, bodies, [this](int body) { return Base(body); }, seats_.IsGentle(m));
     }
   }
   KeepClosed(roles);
@@ -149,7 +166,7 @@ void Display::KeepClosed(const Roles& roles) {
   }
   EachShown(roles, config_.shows_far, [&](int body) {
     if (!joints_.jointed(world_.mechanism(body))) return;
-    smoother_.Set(body, Minus(poses[body], world_.Read(body)));
+    smoother_.Set(body, Minus(poses[body], Base(body)));
   });
 }
 
@@ -180,7 +197,7 @@ void Display::CheckParkedMechanism(int mechanism, const MovingBox& seen) {
   far = Nowhere();
   for (const int body : joints_.bodies(mechanism)) {
     if (!activities_.Unpark(body)) continue;
-    smoother_.Reset(body);
+    Reset(body);
     back_.push_back(body);
   }
 }
@@ -209,6 +226,7 @@ void Display::Leave(int body) {
   still.spin = 0;
   world_.Write(body, still, false);
   activities_.Park(body);
+  shown_[body] = Shown{};
   far_[m] = FarBox(m);
 }
 
@@ -258,7 +276,7 @@ BodyState Display::Along(int body, const BodyState& here, const PathSpeed& speed
   jump.spin = 0;
   // Velocity changes by gravity and bounces, and those along a path of the past, are no jumps.
   if (snapshots_.falls(body) || !config_.policy->Reckons()) jump.velocity.setZero();
-  smoother_.Moved(body, jump);
+  if (!shown_[body].past) smoother_.Moved(body, jump);
   return along;
 }
 
@@ -283,7 +301,7 @@ void Display::EachShown(const Roles& roles, bool all, const Visit& visit) const 
 const BodyColumn<BodyState>& Display::ShownPoses(const Roles& roles, bool all) const {
   EachShown(roles, all, [&](int body) {
     BodyState& pose = poses_[body];
-    pose = world_.Read(body);
+    pose = Base(body);
     pose.position += smoother_.offset(body);
     pose.angle += smoother_.angle_offset(body);
   });
@@ -315,8 +333,7 @@ View Display::MakeView(const Roles& roles, bool all) const {
     view.vx.push_back(s.velocity.x());
     view.vy.push_back(s.velocity.y());
     view.spin.push_back(s.spin);
-    const bool delayed = !config_.policy->Reckons() && roles.RoleOf(m) == kRoleRemote;
-    view.age.push_back(delayed ? static_cast<float>(delayed_.age()) : 0.0f);
+    view.age.push_back(static_cast<float>(AgeOf(roles, body)));
   });
   return view;
 }

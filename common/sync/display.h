@@ -17,6 +17,7 @@
 #include "common/sync/show/joint_closer.h"
 #include "common/sync/show/reckoner.h"
 #include "common/sync/show/seat_glide.h"
+#include "common/sync/show/show_age.h"
 #include "common/sync/smoother.h"
 #include "common/sync/snapshots.h"
 #include "common/sync/table/body_column.h"
@@ -33,8 +34,11 @@ class Display {
   /// to its displayed place at `next`. Unless the config shows distant bodies (shows_far), bodies
   /// outside `seen` stay where they are, parked.
   void Drive(std::int64_t next, const MovingBox& seen);
-  /// Call after a step. Lets the visual offsets return by one tick.
-  void Glide(const Roles& roles);
+  /// True if the peer displays others' bodies as they were some ticks ago.
+  bool ShowsPast(const Roles& roles) const;
+  /// Call after a step. Lets the visual offsets return by one tick. `missing`: the newest ticks for
+  /// which some player's input is not known; used if ShowsPast.
+  void Glide(const Roles& roles, std::int64_t missing);
 
   /// Reports that the simulated state of `body` changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
@@ -43,19 +47,31 @@ class Display {
     on_corrected_ = std::move(call);
   }
   /// Shows the body at its new place at once.
-  void Reset(int body) { smoother_.Reset(body); }
+  void Reset(int body);
   /// Closes joints of mechanisms, for the world's current bodies.
   const JointCloser& joints() const { return joints_; }
   /// Records that a state was this many ticks old on arrival.
-  void AddAge(std::int64_t age_ticks) {
-    if (!config_.policy->Reckons()) delayed_.AddAge(age_ticks);
-  }
+  void AddAge(std::int64_t age_ticks) { delayed_.AddAge(age_ticks); }
   /// Returns the displayed bodies with joints closed: all of them, or those that the peer
   /// simulates. utime is left 0.
   View MakeView(const Roles& roles, bool all) const;
 
  private:
+  /// The past moment at which a body is displayed.
+  struct Shown {
+    bool past = false;        // false: it is displayed in the present
+    double moment = 0;        // tick, never runs backwards
+    std::int64_t since = -1;  // tick from which the body's past is known
+    BodyState then;           // its state at that moment, as known when displayed
+  };
   void Edited(const BodyRemap& change);
+  /// Returns the state that is displayed of a body but for its visual offset: now, or in the past.
+  BodyState Base(int body) const;
+  BodyState PastAt(const Roles& roles, int body, double moment) const;
+  void ShowPast(const Roles& roles, int body, double due);
+  void ShowPresent(int body);
+  void ShowOthers(const Roles& roles, std::int64_t missing);
+  bool IsDelayed(const Roles& roles, int body) const;
   BodyState Visible(int body, BodyState jump) const;
   BodyState Along(int body, const BodyState& here, const PathSpeed& speed, const BodyState& state);
   void KeepClosed(const Roles& roles);
@@ -64,6 +80,8 @@ class Display {
   /// Returns the displayed poses of all bodies, or of mechanisms that the peer simulates;
   /// velocities are the simulated ones.
   const BodyColumn<BodyState>& ShownPoses(const Roles& roles, bool all) const;
+  /// Returns the age of the mechanism's displayed poses, ticks.
+  double AgeOf(const Roles& roles, int body) const;
   /// Calls `visit(body)` for each body that ShownPoses covers, ascending.
   template <class Visit>
   void EachShown(const Roles& roles, bool all, const Visit& visit) const;
@@ -82,6 +100,8 @@ class Display {
   Reckoner reckoner_;
   DelayedPath delayed_;
   SeatGlide seats_;
+  ShowAge ages_;
+  BodyColumn<Shown> shown_;
   std::function<void(int, const BodyState&)> on_corrected_ = [](int, const BodyState&) {};
   std::int64_t glides_ = 0;                        // number of Glide calls
   MechanismColumn<std::int64_t> corrected_until_;  // in glides: joints may be torn until then

@@ -37,6 +37,9 @@ struct SyncConfig {
   int send_hz = 30;                 ///< States per second from each peer; <= tick_hz
   float smooth_rate = kSmoothRate;  ///< rate at which hidden corrections return, 1/s; 0: none are
                                     ///< hidden
+  /// Others' bodies are displayed at most this long ago (ShowAge), ticks, 0..kShowAgeTicksMax; 0:
+  /// in the present. Without smoothing the view is the simulated state.
+  int show_age_ticks = 0;
   /// True if this peer's view of bodies far from all that it simulates is watched. If false, these
   /// bodies stay where they were last displayed.
   bool shows_far = true;

@@ -84,7 +84,7 @@ void Replica::Step() {
   memory_.Record();
   if (activities_.CheckIfDue()) corrector_.FollowRoles(BodiesOf(activities_.changed()));
   replay_.TakeBarrier();
-  display_.Glide(roles_);
+  display_.Glide(roles_, display_.ShowsPast(roles_) ? reach_.LongestMissing() : 0);
   corrector_.ReceiveWaiting();
 }
 

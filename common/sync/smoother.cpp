@@ -34,12 +34,13 @@ void Smoother::Set(int body, const BodyState& beside) {
 
 void Smoother::Reset(int body) { At(body) = VisualOffset{}; }
 
-void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodies, bool gentle) {
+void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodies,
+                               const std::function<BodyState(int)>& base, bool gentle) {
   if (std::all_of(bodies.begin(), bodies.end(), [&](int body) { return At(body).zero(); })) return;
   std::vector<OffsetBody> together;
   together.reserve(bodies.size());
   for (const int body : bodies) {
-    together.push_back({world.mass_point(body), world.Read(body), &At(body)});
+    together.push_back({world.mass_point(body), base(body), &At(body)});
   }
   ReturnTogether(world.dt(), rate_, together, gentle);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Hides corrections: the simulated state jumps, the view glides.
 
+#include <functional>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -29,8 +30,10 @@ class Smoother {
   /// Advances by a frame. `speed` of the body (m/s) widens the cap: a fast body hides a fast glide.
   void Advance(int body, float dt, float speed) { ReturnAlone(dt, rate_, speed, &At(body)); }
   /// Like Advance, for all bodies of a mechanism of several. If one jump has moved all of them
-  /// rigidly, the view returns rigidly. `gentle`: no faster than 2 m/s.
-  void AdvanceTogether(const World& world, const std::vector<int>& bodies, bool gentle = false);
+  /// rigidly, the view returns rigidly. `base`: returns the state that a body is displayed beside.
+  /// `gentle`: no faster than 2 m/s.
+  void AdvanceTogether(const World& world, const std::vector<int>& bodies,
+                       const std::function<BodyState(int)>& base, bool gentle = false);
 
   const Vec2& offset(int body) const;
   float angle_offset(int body) const;

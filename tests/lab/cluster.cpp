@@ -92,6 +92,7 @@ void Cluster::StartClient(std::size_t i) {
   config.script_of = config.name;
   config.key = peer.key;
   config.smooth_rate = config_.smooth_rate;
+  config.show_age_ticks = config_.show_age_ticks;
   peer.entropy =
       std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config_.seed) * 1000 + next_port_);
   peer.client = std::make_unique<Client>(config, *peer.endpoint, recorder_, *peer.entropy);

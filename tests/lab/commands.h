@@ -20,6 +20,7 @@ struct RunCommand {
   std::vector<std::string> set;          ///< --set, each one or several with ';' between them
   std::optional<double> buffer_m;        ///< --buffer
   std::optional<int> input_delay_ticks;  ///< --input-delay
+  std::optional<int> show_age_ticks;     ///< --show-age
   bool floor = true;                     ///< also measure, and compute the floor
 };
 

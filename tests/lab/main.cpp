@@ -45,6 +45,9 @@ Command* DefineRun(Command& app, RunCommand& c) {
   run->Option("--input-delay", c.input_delay_ticks,
               "ticks from an input to its acting (as --set input_delay=N)")
       .Range(0, kInputDelayTicksMax);
+  run->Option("--show-age", c.show_age_ticks,
+              "show others' bodies at most so many ticks ago (as --set show_age=N)")
+      .Range(0, kShowAgeTicksMax);
   run->Switch("--force", c.force, "overwrite the log");
   run->Switch("!--no-floor", c.floor, "do not measure the run and its floor");
   return run;

@@ -50,6 +50,9 @@ int RunLog(const RunCommand& command) {
   if (command.input_delay_ticks) {
     settings.set.push_back(fmt::format("input_delay={}", *command.input_delay_ticks));
   }
+  if (command.show_age_ticks) {
+    settings.set.push_back(fmt::format("show_age={}", *command.show_age_ticks));
+  }
   settings.set = SplitSettings(JoinSettings(settings.set));
   ClusterConfig config = Configure(settings);
   RequireOutput(command.log, command.force, {settings.scene});

@@ -42,9 +42,12 @@ TEST(PanelNote, HasNoCorrectionsWithoutAnOracle) {
 
 TEST(PanelNote, PrintsOnlyKnownValues) {
   EXPECT_EQ(TextOf({}), "");
-  EXPECT_EQ(TextOf({std::nullopt, 9.2, std::nullopt}), "jitter 9 ms");
-  EXPECT_EQ(TextOf({43.4, 9.2, 1}), "view age 43 ms  ·  jitter 9 ms  ·  1 correction");
-  EXPECT_EQ(TextOf({0.0, std::nullopt, 2}), "view age 0 ms  ·  2 corrections");
+  EXPECT_EQ(TextOf({std::nullopt, 9.2, std::nullopt, std::nullopt}), "jitter 9 ms");
+  EXPECT_EQ(TextOf({43.4, 9.2, 1, std::nullopt}),
+            "view age 43 ms  ·  jitter 9 ms  ·  1 correction");
+  EXPECT_EQ(TextOf({43.4, 9.2, 1, 100.0}),
+            "view age 43 ms  ·  others up to 100 ms ago  ·  jitter 9 ms  ·  1 correction");
+  EXPECT_EQ(TextOf({0.0, std::nullopt, 2, std::nullopt}), "view age 0 ms  ·  2 corrections");
 }
 
 TEST(PeerReport, IsTheLatestByTheMomentAndTheWorstForTheServer) {

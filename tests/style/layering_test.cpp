@@ -168,7 +168,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/base/spatial", "common/base"},
       {"common/measure/contents", "common/measure"},
       {"common/measure/screen", "common/measure"},
-      {"common/sync/show", "common/sync(/table)?"},
+      {"common/sync/show", "common/sync(/reach|/table)?"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
       {"client/swarm", "client(/top)?"},
       {"client/top", "none"},

@@ -340,7 +340,7 @@ TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
       shown.push_back(s);
     }
     ASSERT_LT(meter.Worst(shown), 1e-4) << frame;
-    smoother.AdvanceTogether(world, {0, 1, 2});
+    smoother.AdvanceTogether(world, {0, 1, 2}, [&](int body) { return world.Read(body); });
   }
   EXPECT_GT(far, 1);
   EXPECT_LT(smoother.offset(0).norm(), 0.01f);

@@ -47,15 +47,9 @@ std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool 
   return BoxesOf(world, drivers, all);
 }
 
-void Reach::Look() {
+std::vector<std::pair<int, std::int64_t>> Reach::Missing() const {
   const std::int64_t now = world_.tick();
-  looked_ = now;
-  for (const int m : open_) complete_[static_cast<std::size_t>(m)] = kComplete;
-  open_.clear();
-  complete_.resize(world_.composition().mechanisms.size(), kComplete);
-  // By player: length of the unknown past. Nothing is missing of the own player or of absent ones.
   std::vector<std::pair<int, std::int64_t>> missing;
-  std::int64_t longest = 0;
   // Inputs of players that do not matter here arrive rarely and are not needed.
   for (const int player : drivers_.concerned()) {
     const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
@@ -67,11 +61,26 @@ void Reach::Look() {
     const double silent = track.At(newest) == Input{} ? kSilentIdle : kSilent;
     if (newest < now - static_cast<std::int64_t>(silent * config_.tick_hz)) continue;
     missing.emplace_back(player, std::max<std::int64_t>(0, now - newest));
-    longest = std::max(longest, missing.back().second);
   }
+  return missing;
+}
+
+std::int64_t Reach::LongestMissing() const {
+  std::int64_t longest = 0;
+  for (const auto& [player, ticks] : Missing()) longest = std::max(longest, ticks);
+  return longest;
+}
+
+void Reach::Look() {
+  const std::int64_t now = world_.tick();
+  looked_ = now;
+  for (const int m : open_) complete_[static_cast<std::size_t>(m)] = kComplete;
+  open_.clear();
+  complete_.resize(world_.composition().mechanisms.size(), kComplete);
+  const std::vector<std::pair<int, std::int64_t>> missing = Missing();
   if (missing.empty()) return;
   const int every = std::max(config_.send_every(), BarrierEvery(config_.tick_hz));
-  const float seconds = static_cast<float>(longest + 2 * every) * world_.dt();
+  const float seconds = static_cast<float>(LongestMissing() + 2 * every) * world_.dt();
   // Mechanisms are indexed by their place among those present; others meet nothing.
   std::vector<MovingBox> boxes = BoxesOf(world_, drivers_, false);
   std::vector<int> groups;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -25,6 +26,11 @@ class Reach {
   /// Call after a step. Finds mechanisms that may have met during the ticks with missing inputs.
   void Look();
 
+  /// Returns the players whose inputs this peer waits for, with the number of newest ticks that
+  /// lack their inputs. Players that are absent do not count.
+  std::vector<std::pair<int, std::int64_t>> Missing() const;
+  /// Returns the greatest of those numbers; 0 if nothing is missing.
+  std::int64_t LongestMissing() const;
   /// Newest input-complete tick, at most the world's; -1 before the first Look. Requires a Look
   /// since the bodies changed.
   std::int64_t CompleteTick(int mechanism) const {
