@@ -1,5 +1,6 @@
 #include "common/codec/codec.h"
 
+#include <algorithm>
 #include <tuple>
 #include <type_traits>
 #include <unordered_map>
@@ -106,8 +107,8 @@ constexpr std::size_t kEncodedBytesMax<Room> = kRoomBytesMax;
 /// Place and size of `session` in an encoded message: after the type hash and utime.
 constexpr std::ptrdiff_t kSessionFieldAt = 16, kSessionFieldBytes = 8;
 
-/// Size of a view's message without its field `session` and its bodies; it ends with their number.
-constexpr std::size_t kViewHeadBytes = 50;
+/// Sizes of a view's message of protocol 12: up to the number of its bodies, and of each body.
+constexpr std::size_t kViewHeadBytes = 50, kViewBodyBytes = 31;
 /// The bytes of an age, the last field of each body, which protocol 12 did not have.
 constexpr std::size_t kViewAgeBytes = 4;
 
@@ -173,12 +174,13 @@ std::uint64_t WireHash() {
 /// Decodes a message that lacks the field `session`: puts a 0 there, and ages of 0 behind a view.
 template <class Message>
 AnyMessage DecodeWithoutSession(ByteView bytes) {
-  constexpr bool is_view = std::is_same_v<Message, View>;
-  if (bytes.size < (is_view ? kViewHeadBytes : std::size_t{kSessionFieldAt})) return {};
+  if (bytes.size < static_cast<std::size_t>(kSessionFieldAt)) return {};
   thread_local Bytes whole;  // reuses memory
   whole.assign(bytes.data, bytes.data + bytes.size);
-  if constexpr (is_view) {
-    const std::size_t bodies = whole[kViewHeadBytes - 2] * 256u + whole[kViewHeadBytes - 1];
+  if constexpr (std::is_same_v<Message, View>) {
+    // By the size: if the number of bodies that the message gives is another, it does not decode.
+    const std::size_t bodies =
+        (std::max(bytes.size, kViewHeadBytes) - kViewHeadBytes) / kViewBodyBytes;
     whole.resize(whole.size() + kViewAgeBytes * bodies, 0);
   }
   whole.insert(whole.begin() + kSessionFieldAt, kSessionFieldBytes, 0);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "common/base/bytes.h"
 #include "common/measure/measure.h"
@@ -38,18 +40,17 @@ class Physics : public Recorder {
   std::uint64_t value_ = Fnv1a("", 0);
 };
 
-struct Run {
+struct Played {
   Recording recording;
   std::uint64_t physics = 0, world = 0;
-  std::int64_t bytes = 0;
 };
 
-Run RunWith(ClusterConfig config) {
+Played RunWith(ClusterConfig config) {
   Physics physics;
   config.recorder = &physics;
   Cluster cluster(config);
   cluster.Run();
-  Run run;
+  Played run;
   run.recording = cluster.recording();
   run.physics = physics.value();
   run.world = cluster.server().replica().world().Hash();
@@ -62,9 +63,11 @@ Measures MeasuresOf(const Recording& recording) {
 
 TEST(ShowAge, ChangesNoPhysicsAndNoMessageOfIt) {
   for (const char* mode : {"buffer", "central", "strict"}) {
-    for (const char* scene : {"crossing", "scrum"}) {
+    for (const auto& [scene, impair] : {std::pair{"crossing", "demo"}, std::pair{"scrum", "4g"}}) {
       SCOPED_TRACE(std::string(scene) + ", " + mode);
-      const Run now = RunWith(With(scene, mode, 0)), then = RunWith(With(scene, mode, 8));
+      ClusterConfig present = With(scene, mode, 0), past = With(scene, mode, 8);
+      present.impair = past.impair = impair;
+      const Played now = RunWith(present), then = RunWith(past);
       EXPECT_EQ(now.physics, then.physics) << "states, inputs, grants, statistics of bytes";
       EXPECT_EQ(now.world, then.world);
       const Measures a = MeasuresOf(now.recording), b = MeasuresOf(then.recording);

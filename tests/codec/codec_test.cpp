@@ -313,7 +313,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"room_t", 0x9d06db812b0fd058u},          {"scene_part_t", 0x0a6cbaba0e401b6bu},
       {"snapshot_t", 0x5041ad92d1002765u},      {"states_t", 0x59ebd56a2b361895u},
       {"stats_t", 0xfa9c7b02adbdd4ebu},         {"strands_t", 0xc61a1fa141f00542u},
-      {"view_t", 0x8e3b87bafb80c4b7u},          {"welcome_t", 0x01d175a91807bb13u},
+      {"view_t", 0xb8a9d0d37dae25e1u},          {"welcome_t", 0x01d175a91807bb13u},
       {"packed_states_t", 0x9e508524d7c14130u}, {"packed_inputs_t", 0x7e50cd24d7c14120u},
       {"reset_t", 0x136941e6878393ddu},         {"differing_t", 0xfa7867b773f44db4u},
   };

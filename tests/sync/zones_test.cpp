@@ -36,7 +36,8 @@ TEST(Zones, TheTimeToTouchIsThatOfTheLaterOfBothAxes) {
   EXPECT_FLOAT_EQ(TimeToTouch(a, Box({11, 0}, {12, 1}, {-4, 0}), 0), 1) << "10 m at 10 m/s";
   EXPECT_FLOAT_EQ(TimeToTouch(a, Box({11, 0}, {12, 1}, {-4, 0}), 0.5f), 0.95f)
       << "half a metre less";
-  EXPECT_FLOAT_EQ(TimeToTouch(a, Box({11, 4}, {12, 5}, {-4, -2}), 0), 1.5f) << "3 m at 2 m/s";
+  EXPECT_FLOAT_EQ(TimeToTouch(a, Box({11, 3.3f}, {12, 4.3f}, {-4, -2}), 0), 1.15f)
+      << "2.3 m at 2 m/s";
   EXPECT_EQ(TimeToTouch(a, Box({11, 40}, {12, 41}, {-4, -2}), 0), never) << "it passes above";
   EXPECT_EQ(TimeToTouch(a, Box({11, 0}, {12, 1}, {7, 0}), 0), never) << "it is faster";
   EXPECT_EQ(TimeToTouch(a, Box({1, 0}, {2, 1}, {6, 0}), 0), 0) << "they touch, and stay together";
