@@ -21,8 +21,9 @@ constexpr int kInputDelayTicksMax = 12;
 /// Greatest age of others' displayed bodies that may be asked for, ticks: half a second at 60 Hz.
 /// A peer's past reaches a second back.
 constexpr int kShowAgeTicksMax = 30;
-/// The greatest age if nothing else is asked for, ticks.
-constexpr int kShowAgeTicks = 0;
+/// The greatest age if nothing else is asked for, ticks: others' inputs are known by then at 100 ms
+/// there and back.
+constexpr int kShowAgeTicks = 8;
 /// Longest session, s.
 constexpr double kDurationMax = 1e6;
 

@@ -107,9 +107,11 @@ constexpr std::size_t kEncodedBytesMax<Room> = kRoomBytesMax;
 /// Place and size of `session` in an encoded message: after the type hash and utime.
 constexpr std::ptrdiff_t kSessionFieldAt = 16, kSessionFieldBytes = 8;
 
-/// Sizes of a view's message of protocol 12: up to the number of its bodies, and of each body.
-constexpr std::size_t kViewHeadBytes = 50, kViewBodyBytes = 31;
-/// The bytes of an age, the last field of each body, which protocol 12 did not have.
+/// Type hash of views without ages, up to protocol 13.
+constexpr std::uint64_t kHashWithoutAges = 0x8e3b87bafb80c4b7;
+/// Sizes of such a view's message: up to the number of its bodies, and of each body.
+constexpr std::size_t kViewHeadBytes = 58, kViewBodyBytes = 31;
+/// The bytes of an age, the last field of each body.
 constexpr std::size_t kViewAgeBytes = 4;
 
 std::uint64_t ReadUint64(const std::uint8_t* from) {
@@ -171,19 +173,22 @@ std::uint64_t WireHash() {
   return static_cast<std::uint64_t>(Wire<Message>::Type::getHash());
 }
 
-/// Decodes a message that lacks the field `session`: puts a 0 there, and ages of 0 behind a view.
+/// Puts ages of 0 behind the bodies of a view's message that has none. By the size: if the number
+/// of bodies that the message gives is another, it does not decode.
+void AppendAges(Bytes* view) {
+  const std::size_t bodies =
+      (std::max(view->size(), kViewHeadBytes) - kViewHeadBytes) / kViewBodyBytes;
+  view->resize(view->size() + kViewAgeBytes * bodies, 0);
+}
+
+/// Decodes a message that lacks the field `session`: puts a 0 there.
 template <class Message>
 AnyMessage DecodeWithoutSession(ByteView bytes) {
   if (bytes.size < static_cast<std::size_t>(kSessionFieldAt)) return {};
   thread_local Bytes whole;  // reuses memory
   whole.assign(bytes.data, bytes.data + bytes.size);
-  if constexpr (std::is_same_v<Message, View>) {
-    // By the size: if the number of bodies that the message gives is another, it does not decode.
-    const std::size_t bodies =
-        (std::max(bytes.size, kViewHeadBytes) - kViewHeadBytes) / kViewBodyBytes;
-    whole.resize(whole.size() + kViewAgeBytes * bodies, 0);
-  }
   whole.insert(whole.begin() + kSessionFieldAt, kSessionFieldBytes, 0);
+  if constexpr (std::is_same_v<Message, View>) AppendAges(&whole);
   WriteUint64(WireHash<Message>(), whole.data());
   return DecodeAs<Message>(whole);
 }
@@ -195,6 +200,14 @@ AnyMessage DecodeWithSession(ByteView bytes) {
       ReadUint64(bytes.data + kSessionFieldAt) == 0)
     return {};
   return DecodeAs<Message>(bytes);
+}
+
+AnyMessage DecodeWithoutAges(ByteView bytes) {
+  thread_local Bytes whole;  // reuses memory
+  whole.assign(bytes.data, bytes.data + bytes.size);
+  AppendAges(&whole);
+  WriteUint64(WireHash<View>(), whole.data());
+  return DecodeWithSession<View>(whole);
 }
 
 struct Decoder {
@@ -225,6 +238,7 @@ const Decoder* FindDecoder(ByteView bytes) {
 #define SEAM_MESSAGE_DECODER(Struct, ...) AddDecoders<Struct>(&all);
     SEAM_MESSAGES(SEAM_MESSAGE_DECODER)
 #undef SEAM_MESSAGE_DECODER
+    all[kHashWithoutAges] = {DecodeWithoutAges, true, true, kEncodedBytesMax<View>};
     return all;
   }();
   if (bytes.size < 8) return nullptr;

@@ -14,7 +14,7 @@
 namespace seam {
 
 /// Raised when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 13;
+constexpr std::int32_t kProtocolVersion = 14;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 
@@ -284,7 +284,8 @@ struct View {
   std::vector<std::int8_t> role;        ///< kRole...
   std::vector<std::int16_t> authority;  ///< the authority as this peer knows it
   std::vector<float> x, y, angle;       ///< m, m, rad (unwrapped): as displayed
-  std::vector<float> vx, vy, spin, age;  ///< m/s, m/s, rad/s: simulated; ticks: pose before `tick`
+  std::vector<float> vx, vy, spin;      ///< m/s, m/s, rad/s: simulated
+  std::vector<float> age;               ///< ticks, the pose is that of so long before `tick`
 };
 constexpr std::int8_t kRoleRemote = 0;
 constexpr std::int8_t kRoleSecondary = 1;

@@ -46,11 +46,11 @@ void RequireMemory(std::int64_t kept, const Recording& recording) {
                       std::to_string(recording.last_tick) + " ticks with changing bodies");
 }
 
-/// Returns the ticks between two barriers of a peer in a recorded room. Before protocol 13 each
+/// Returns the ticks between two barriers of a peer in a recorded room. Before protocol 14 each
 /// send tick was one.
 int BarrierEveryOf(const Room& room) {
-  constexpr std::int32_t kApart = 13;
-  if (room.protocol >= kApart) return BarrierEvery(std::max(1, room.tick_hz));
+  constexpr std::int32_t kBarriersApart = 14;
+  if (room.protocol >= kBarriersApart) return BarrierEvery(std::max(1, room.tick_hz));
   return std::max(1, std::max(1, room.tick_hz) / std::max(1, room.send_hz));
 }
 

@@ -189,6 +189,10 @@ class World {
   /// contains `from` does not count.
   float FreeWay(int body, const Vec2& from, const Vec2& to) const;
 
+  /// Returns the overlap of two bodies at other poses than their own, m, by their shapes without
+  /// rims; 0 if they do not overlap, or may not collide.
+  float OverlapAt(int a, const BodyState& pose_a, int b, const BodyState& pose_b) const;
+
   /// True if a joint holds the body, to another or to something anchored.
   bool Joined(int body) const;
   /// Returns a state after `seconds` of free flight: gravity moves the body, and it bounces off

@@ -26,6 +26,35 @@ bool Tied(const b2Body& body, const b2Body& other) {
   return false;
 }
 
+/// Returns the overlap of two solid shapes without their rims, m. 0 for any other shapes.
+float ShapeOverlap(const b2Shape& a, const b2Transform& at_a, const b2Shape& b,
+                   const b2Transform& at_b) {
+  const auto circle = [](const b2Shape& s) { return static_cast<const b2CircleShape*>(&s); };
+  const auto polygon = [](const b2Shape& s) { return static_cast<const b2PolygonShape*>(&s); };
+  const bool round_a = a.GetType() == b2Shape::e_circle, round_b = b.GetType() == b2Shape::e_circle;
+  const bool flat_a = a.GetType() == b2Shape::e_polygon, flat_b = b.GetType() == b2Shape::e_polygon;
+  if (!(round_a || flat_a) || !(round_b || flat_b)) return 0;
+  if (round_a && flat_b) return ShapeOverlap(b, at_b, a, at_a);
+  b2Manifold manifold;
+  manifold.pointCount = 0;
+  if (round_a) {
+    b2CollideCircles(&manifold, circle(a), at_a, circle(b), at_b);
+  } else if (round_b) {
+    b2CollidePolygonAndCircle(&manifold, polygon(a), at_a, circle(b), at_b);
+  } else {
+    b2CollidePolygons(&manifold, polygon(a), at_a, polygon(b), at_b);
+  }
+  if (manifold.pointCount == 0) return 0;
+  b2WorldManifold points;
+  points.Initialize(&manifold, at_a, a.m_radius, at_b, b.m_radius);
+  const float rims = (flat_a ? a.m_radius : 0) + (flat_b ? b.m_radius : 0);
+  float deepest = 0;
+  for (int i = 0; i < manifold.pointCount; ++i) {
+    deepest = std::max(deepest, -points.separations[i] - rims);
+  }
+  return deepest;
+}
+
 /// Finds the nearest anchored fixture that collides with one of the body's.
 class FirstAnchored : public b2RayCastCallback {
  public:
@@ -223,6 +252,22 @@ float World::FreeWay(int body, const Vec2& from, const Vec2& to) const {
   FirstAnchored first(*impl_->moving(body).body);
   impl_->world->RayCast(&first, begin, end);
   return first.share;
+}
+
+float World::OverlapAt(int a, const BodyState& pose_a, int b, const BodyState& pose_b) const {
+  const b2Body &body_a = *impl_->moving(a).body, &body_b = *impl_->moving(b).body;
+  if (Tied(body_a, body_b)) return 0;
+  const b2Transform at_a(ToB2(pose_a.position), b2Rot(pose_a.angle));
+  const b2Transform at_b(ToB2(pose_b.position), b2Rot(pose_b.angle));
+  float deepest = 0;
+  b2ContactFilter filter;
+  for (const b2Fixture* fa = body_a.GetFixtureList(); fa != nullptr; fa = fa->GetNext()) {
+    for (const b2Fixture* fb = body_b.GetFixtureList(); fb != nullptr; fb = fb->GetNext()) {
+      if (!filter.ShouldCollide(const_cast<b2Fixture*>(fa), const_cast<b2Fixture*>(fb))) continue;
+      deepest = std::max(deepest, ShapeOverlap(*fa->GetShape(), at_a, *fb->GetShape(), at_b));
+    }
+  }
+  return deepest;
 }
 
 BodyState World::AfterFlight(int body, const BodyState& from, float seconds) const {

@@ -86,7 +86,7 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory, Act
       reckoner_(world, memory.snapshots(), joints_),
       delayed_(world, memory.snapshots(), config.send_every()),
       seats_(memory.table()),
-      ages_(config, world, memory.table()),
+      ages_(config),
       shown_(memory.table(),
              [](int, const BodyOrigin& origin, Shown* before) {
                if (before == nullptr) return Shown{};
@@ -121,8 +121,13 @@ void Display::Edited(const BodyRemap& change) {
   joints_.Rebuild();
   if (config_.policy->IsOracle()) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
-    if (shown_[static_cast<int>(body)].past) continue;
-    smoother_.Moved(static_cast<int>(body), change.jumps[body]);
+    Shown& shown = shown_[static_cast<int>(body)];
+    if (shown.past) {
+      shown.jump = shown.edited < 0 ? change.jumps[body] : PlusScaled(shown.jump, change.jumps[body], 1);
+      shown.edited = world_.tick() + 1;
+    } else {
+      smoother_.Moved(static_cast<int>(body), change.jumps[body]);
+    }
   }
 }
 

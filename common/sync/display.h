@@ -63,6 +63,8 @@ class Display {
     double moment = 0;        // tick, never runs backwards
     std::int64_t since = -1;  // tick from which the body's past is known
     BodyState then;           // its state at that moment, as known when displayed
+    std::int64_t edited = -1;  // tick in which an edit moved it that is not displayed yet
+    BodyState jump;            // by that edit
   };
   void Edited(const BodyRemap& change);
   /// Returns the state that is displayed of a body but for its visual offset: now, or in the past.
@@ -101,6 +103,7 @@ class Display {
   DelayedPath delayed_;
   SeatGlide seats_;
   ShowAge ages_;
+  std::vector<ShownMechanism> shown_mechanisms_;  // memory for ShowOthers, rebuilt each tick
   BodyColumn<Shown> shown_;
   std::function<void(int, const BodyState&)> on_corrected_ = [](int, const BodyState&) {};
   std::int64_t glides_ = 0;                        // number of Glide calls

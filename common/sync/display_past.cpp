@@ -8,6 +8,42 @@
 #include "common/sync/state_arithmetic.h"
 
 namespace seam {
+namespace {
+
+/// Two that touch move as one if one moves by less than this in the other's frame, m, in
+/// kTogetherTicks.
+constexpr float kTogetherWay = 0.05f;
+constexpr int kTogetherTicks = 8;
+
+/// Returns the place of `b` in the frame of `a`.
+Vec2 PlaceIn(const BodyState& a, const BodyState& b) {
+  return Turned(b.position - a.position, -a.angle);
+}
+
+/// Marks the mechanisms, besides the `marked` ones, that touch a marked one and move as one with
+/// it: its load, or what it stands on.
+void MarkTogether(const World& world, const History& history, std::vector<char>* marked) {
+  const std::int64_t now = world.tick();
+  const std::int64_t then = std::max(history.oldest(), now - kTogetherTicks);
+  for (bool more = true; more;) {
+    more = false;
+    for (const Touch& touch : world.touches()) {
+      const auto a = static_cast<std::size_t>(world.mechanism(touch.body_a));
+      const auto b = static_cast<std::size_t>(world.mechanism(touch.body_b));
+      if ((*marked)[a] == (*marked)[b]) continue;
+      const BodyState* const a_then = history.At(then, touch.body_a);
+      const BodyState* const b_then = history.At(then, touch.body_b);
+      if (a_then == nullptr || b_then == nullptr) continue;
+      const BodyState a_now = world.Read(touch.body_a), b_now = world.Read(touch.body_b);
+      const Vec2 moved = PlaceIn(a_now, b_now) - PlaceIn(*a_then, *b_then);
+      if (moved.norm() > kTogetherWay) continue;
+      (*marked)[a] = (*marked)[b] = 1;
+      more = true;
+    }
+  }
+}
+
+}  // namespace
 
 bool Display::ShowsPast(const Roles& roles) const {
   if (config_.show_age_ticks == 0 || config_.smooth_rate <= 0 || roles.self() == 0) return false;
@@ -19,11 +55,9 @@ BodyState Display::Base(int body) const {
   return shown.past && !memory_.parked(body) ? shown.then : world_.Read(body);
 }
 
-/// Returns a body's state at a past moment: simulated where this peer goes back, else between the
-/// states received.
+/// Returns a body's state at a past moment: as simulated here, or between the states received.
 BodyState Display::PastAt(const Roles& roles, int body, double moment) const {
-  const bool replayed = roles.Simulates(body) && config_.policy->GoesBack(roles.self());
-  if (!replayed && snapshots_.has(body)) {
+  if (!roles.Simulates(body) && snapshots_.has(body)) {
     if (!world_.awake(body)) return world_.Read(body);  // at its exact pose of rest
     BodyState state = delayed_.At(body, moment);
     state.angle = UnwrapAngle(state.angle, world_.Read(body).angle);
@@ -33,12 +67,14 @@ BodyState Display::PastAt(const Roles& roles, int body, double moment) const {
   const BodyState* before = memory_.history().At(static_cast<std::int64_t>(low), body);
   if (before == nullptr) return world_.Read(body);
   if (moment == low) return *before;
-  const BodyState* after = memory_.history().At(static_cast<std::int64_t>(low) + 1, body);
-  return PlusScaled(*before, Minus(*after, *before), static_cast<float>(moment - low));
+  const std::int64_t next = static_cast<std::int64_t>(low) + 1;
+  BodyState after = *memory_.history().At(next, body);
+  if (next == shown_[body].edited) after = Minus(after, shown_[body].jump);
+  return PlusScaled(*before, Minus(after, *before), static_cast<float>(moment - low));
 }
 
-/// Displays a body `due` ticks ago, or as near to that as the glide of its moment lets it. Hides
-/// the change of its past since the last tick.
+/// Moves on a body's moment to `due` ticks ago, or as near to that as its glide lets it. Hides the
+/// change of its past since the last tick.
 void Display::ShowPast(const Roles& roles, int body, double due) {
   Shown& shown = shown_[body];
   const auto now = static_cast<double>(world_.tick());
@@ -59,7 +95,6 @@ void Display::ShowPast(const Roles& roles, int body, double due) {
     jump = Minus(PastAt(roles, body, now), world_.Read(body));
   }
   shown.past = true;
-  shown.then = PastAt(roles, body, shown.moment);
   jump.angle = WrapAngle(jump.angle);
   smoother_.Moved(body, Visible(body, jump));
 }
@@ -70,6 +105,7 @@ void Display::ShowPresent(int body) {
   if (!shown.past) return;
   smoother_.Moved(body, Visible(body, Minus(world_.Read(body), shown.then)));
   shown.past = false;
+  shown.edited = -1;
 }
 
 /// True if the world itself has the body in the past, between received states.
@@ -86,14 +122,48 @@ double Display::AgeOf(const Roles& roles, int body) const {
 /// Call after a step, with its tick recorded: chooses the moment at which each body is displayed.
 void Display::ShowOthers(const Roles& roles, std::int64_t missing) {
   if (!ShowsPast(roles)) return;
-  ages_.Look(roles, missing);
+  ages_.Look(missing);
+  shown_mechanisms_.clear();
+  const auto now = static_cast<double>(world_.tick());
+  std::vector<char> own(world_.composition().mechanisms.size(), 0);
+  for (std::size_t m = 0; m < own.size() && roles.own_player() >= 0; ++m) {
+    own[m] = roles.Drives(static_cast<int>(m)) ? 1 : 0;
+  }
+  std::vector<char> with_own = own;
+  MarkTogether(world_, memory_.history(), &with_own);
   for (const int body : memory_.unparked()) {
     const int m = world_.mechanism(body);
-    const bool own = roles.own_player() >= 0 && roles.Drives(m);
-    if (own || IsDelayed(roles, body)) {
-      ShowPresent(body);
+    const auto index = static_cast<std::size_t>(m);
+    const bool past = own[index] == 0 && !IsDelayed(roles, body);
+    if (past) {
+      ShowPast(roles, body, with_own[index] != 0 ? 0 : ages_.due());
     } else {
-      ShowPast(roles, body, ages_.Due(m));
+      ShowPresent(body);
+    }
+    const std::vector<int>& bodies = joints_.bodies(m);
+    if (bodies.front() == body && (own[index] != 0 || past)) {
+      shown_mechanisms_.push_back({&bodies, past ? shown_[body].moment : now});
+    }
+  }
+  KeepApart(
+      world_, now - ages_.due(),
+      [&](int body, double moment) {
+        BodyState pose = shown_[body].past ? PastAt(roles, body, moment) : world_.Read(body);
+        pose.position += smoother_.offset(body);
+        pose.angle += smoother_.angle_offset(body);
+        return pose;
+      },
+      &shown_mechanisms_);
+  for (const ShownMechanism& mechanism : shown_mechanisms_) {
+    for (const int body : *mechanism.bodies) {
+      Shown& shown = shown_[body];
+      if (!shown.past) continue;
+      shown.moment = std::max(shown.moment, mechanism.moment);
+      if (shown.edited >= 0 && shown.moment >= static_cast<double>(shown.edited)) {
+        smoother_.Moved(body, shown.jump);
+        shown.edited = -1;
+      }
+      shown.then = PastAt(roles, body, shown.moment);
     }
   }
 }

@@ -87,7 +87,7 @@ class Roles {
   void LookAtScene() const;
   // Looked up for each revision.
   mutable bool has_rules_ = false;
-  mutable std::vector<bool> characters_;  // by mechanism: has a character's part
+  mutable std::vector<bool> characters_;  // rebuilt, by mechanism: has a character
   mutable int looked_at_revision_ = -1;
 };
 

@@ -113,15 +113,15 @@ TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
   old.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
   Next(10000);
   EXPECT_EQ(client_.fatal(),
-            "the server speaks protocol 2, this client speaks 13: they need the same version");
+            "the server speaks protocol 2, this client speaks 14: they need the same version");
 }
 
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksANewerOne) {
   Next(0);
-  Answer(Refusal("protocol 14 is spoken here, you speak 13"));
+  Answer(Refusal("protocol 15 is spoken here, you speak 14"));
   Next(10000);
   EXPECT_EQ(client_.fatal(),
-            "the server speaks protocol 14, this client speaks 13: they need the same version");
+            "the server speaks protocol 15, this client speaks 14: they need the same version");
 }
 
 TEST_F(ClientJoin, RetriesForThreeSecondsAfterAnyOtherRefusal) {

@@ -216,7 +216,7 @@ TEST(Oracles, OnlyReplayingRulesAreJudgedByTheOracleWithBarriers) {
     EXPECT_EQ(JudgedByBarriers(room), rule.rolls_back) << rule.name;
     room.protocol = kProtocolVersion;
     EXPECT_EQ(JudgeOf(room).barrier_every, rule.rolls_back ? 2 : 0) << rule.name;
-    room.protocol = 12;  // each send tick was a barrier
+    room.protocol = 13;  // each send tick was a barrier
     EXPECT_EQ(JudgeOf(room).barrier_every, rule.rolls_back ? 3 : 0) << rule.name;
   }
   room.reconcile = "rollback";

@@ -189,7 +189,7 @@ TEST_F(ExportProgram, TheTracesStutterIsTheMeasuredOne) {
     const double value = std::stod(line.substr(at + begin.size()));
     all.Add(value * value);
   }
-  const double measured = Measured("stutter_mps2", {});
+  const double measured = Measured("stutter_shown_mps2", {});
   EXPECT_GT(measured, 0.1);
   EXPECT_NEAR(all.RootOrZero(), measured, 1e-5 * measured);
 }

@@ -1,74 +1,35 @@
-/// How long ago bodies are displayed: what the viewer drives, and may soon touch, in the present.
+/// How long ago bodies are displayed, and that what is displayed of different moments is apart.
 
 #include "common/sync/show/show_age.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/scripted_world.h"
 
 namespace seam {
 namespace show_age_test {
 
-/// ann's box, bob's `gap` m to its right, a crate that touches bob's, and one far away.
-class Street {
- public:
-  Street(float gap, int own_player, float bobs_speed = 0)
-      : street(ParseScene(
-            "gravity = [0, 0]\n"
-            "[[player]]\nname = \"ann\"\nvehicle = \"hers\"\n"
-            "[[player]]\nname = \"bob\"\nvehicle = \"his\"\n"
-            "[[part]]\nname = \"hers\"\nbox = [1, 1]\n"
-            "[[part]]\nname = \"his\"\nbox = [1, 1]\nposition = [" +
-                std::to_string(1 + gap) + ", 0]\nvelocity = [" + std::to_string(bobs_speed) +
-                ", 0]\n"
-                "[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [" +
-                std::to_string(2.02f + gap) + ", 0]\nvelocity = [" + std::to_string(bobs_speed) +
-                ", 0]\n"
-                "[[part]]\nname = \"far\"\nbox = [1, 1]\nposition = [900, 0]\n",
-            "street.toml")),
-        bodies(street.world),
-        roles(config, 1, own_player, street.world, bodies) {
-    config.show_age_ticks = 12;
-  }
-  double Due(const std::string& part, std::int64_t missing = 8) {
-    ages.Look(roles, missing);
-    return ages.Due(street.world.mechanism(street.Body(part)));
-  }
-
-  SyncConfig config = MakeSyncConfig("buffer", "rollback");
-  ScriptedWorld street;
-  BodyTable bodies;
-  Roles roles;
-  ShowAge ages{config, street.world, bodies};
-};
-
 TEST(ShowAge, IsTheTimeForWhichInputsAreMissingAndAtMostWhatIsAsked) {
-  for (const char* part : {"his", "crate", "far"}) {
-    EXPECT_EQ(Street(100, 0).Due(part), 8) << part;
-    EXPECT_EQ(Street(100, 0).Due(part, 40), 12) << part;
-    EXPECT_EQ(Street(100, 0).Due(part, 0), 0) << part;
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.show_age_ticks = 12;
+  for (const auto& [missing, due] : {std::pair{8, 8}, std::pair{40, 12}, std::pair{0, 0}}) {
+    ShowAge ages(config);
+    ages.Look(missing);
+    EXPECT_EQ(ages.due(), due);
   }
 }
 
-TEST(ShowAge, IsZeroForWhatTheViewerDrivesAndNearlyForMovingBodiesThatTouchIt) {
-  Street near(0.02f, 0, 20);
-  EXPECT_EQ(near.Due("hers"), 0);
-  EXPECT_NEAR(near.Due("his"), 0.09, 0.001) << "it touches hers; 3 cm take it 0.09 ticks";
-  EXPECT_NEAR(near.Due("crate"), 0.18, 0.001) << "it touches his, which touches hers";
-  EXPECT_EQ(near.Due("far"), 8);
-  Street bobs(0.02f, 1, 20);
-  EXPECT_EQ(bobs.Due("his"), 0) << "he drives the other one";
-  EXPECT_NEAR(bobs.Due("crate"), 0.09, 0.001);
-  EXPECT_EQ(bobs.Due("hers"), 8) << "hers stands";
-  Street watcher(0.02f, -1, 20);
-  for (const char* part : {"hers", "his", "crate", "far"}) EXPECT_EQ(watcher.Due(part), 8) << part;
-}
-
-TEST(ShowAge, OfWhatHardlyMovesMayExceedThatOfWhatItTouches) {
-  // At 0.6 m/s a body moves by 1 cm in a tick, at 6 mm/s by 3 cm in 300.
-  EXPECT_NEAR(Street(0.02f, 0, 0.6f).Due("his"), 3, 0.01);
-  EXPECT_EQ(Street(0.02f, 0, 0.006f).Due("his"), 8);
-  EXPECT_EQ(Street(0.02f, 0, 0).Due("his"), 8) << "it stands";
+TEST(ShowAge, IsNotThatOfARareLateInput) {
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.show_age_ticks = 30;
+  ShowAge ages(config);
+  for (int tick = 0; tick < 90; ++tick) ages.Look(tick % 30 == 7 ? 25 : 6);
+  EXPECT_EQ(ages.due(), 6);
 }
 
 TEST(ShowAge, GlidesAtTheRatesOfItsLimits) {
@@ -77,15 +38,66 @@ TEST(ShowAge, GlidesAtTheRatesOfItsLimits) {
   EXPECT_NEAR(ShowAge::Glide(90, 100, 30), 91 - double{kAgeRise}, 1e-6);
 }
 
-TEST(ShowAge, FallsInProportionToTheTimeThatIsLeft) {
-  // His box is 2 m away and comes at 8 m/s: 0.24 s are 14.6 ticks, to a gap of 5 cm.
-  Street comes(2, 0, -8);
-  const double ticks = (2 - kPressGap) / 8 * 60;
-  EXPECT_NEAR(comes.Due("his"), double{kAgeFall} * ticks, 0.05) << "boxes have a skin";
-  EXPECT_LE(comes.Due("crate"), double{kAgeFall} * ticks + 0.28)
-      << "the two that touch share an age";
-  EXPECT_EQ(Street(2, 0, 8).Due("his"), 8) << "it goes away";
-  EXPECT_EQ(Street(30, 0, -8).Due("his"), 8) << "more time is left than the fall takes";
+/// Boxes of 1 m in a row along x at tick 100, without gravity: each touches the next. Each moves at
+/// its speed (m/s) and has done so in the past.
+class Row {
+ public:
+  explicit Row(std::vector<float> speeds) : speeds_(std::move(speeds)), row_(ParseScene(Text(), "row.toml")) {
+    for (int i = 0; i < static_cast<int>(speeds_.size()); ++i) bodies_.push_back({Body(i)});
+  }
+  /// Returns the ages after KeepApart, of boxes that have these ages before, ticks.
+  std::vector<double> Ages(const std::vector<double>& before) {
+    std::vector<ShownMechanism> shown;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      shown.push_back({&bodies_[i], kNow - before[i]});
+    const auto pose_at = [this](int body, double moment) {
+      BodyState pose = row_.world.Read(body);
+      const float seconds = static_cast<float>(kNow - moment) * row_.world.dt();
+      pose.position -= pose.velocity * seconds;
+      return pose;
+    };
+    const double oldest = kNow - *std::max_element(before.begin(), before.end());
+    KeepApart(row_.world, oldest, pose_at, &shown);
+    std::vector<double> after;
+    for (const ShownMechanism& each : shown) after.push_back(kNow - each.moment);
+    return after;
+  }
+
+ private:
+  static constexpr double kNow = 100;
+  std::string Text() const {
+    std::string text = "gravity = [0, 0]\n";
+    for (std::size_t i = 0; i < speeds_.size(); ++i) {
+      text += "[[part]]\nname = \"" + std::to_string(i) + "\"\nbox = [1, 1]\nposition = [" +
+              std::to_string(i) + ", 0]\nvelocity = [" + std::to_string(speeds_[i]) + ", 0]\n";
+    }
+    return text;
+  }
+  int Body(int i) const { return row_.Body(std::to_string(i)); }
+
+  std::vector<float> speeds_;
+  ScriptedWorld row_;
+  std::vector<std::vector<int>> bodies_;
+};
+
+TEST(KeepApart, ShowsWhatIsPushedSoLateThatTheOverlapIsNotNoticed) {
+  // At 6 m/s a body moves by 10 cm in a tick: 3 cm in .3 ticks. Moments go by quarters.
+  const std::vector<double> ages = Row({6, 6}).Ages({0, 8});
+  EXPECT_EQ(ages[0], 0);
+  EXPECT_NEAR(ages[1], 0.25, 0.01);
+}
+
+TEST(KeepApart, PassesOnFromEachMechanismToTheNext) {
+  const std::vector<double> ages = Row({6, 6, 6}).Ages({0, 8, 8});
+  EXPECT_NEAR(ages[1], 0.25, 0.01);
+  EXPECT_NEAR(ages[2], 0.5, 0.01) << "3 cm in the one that is 3 cm in the first";
+}
+
+TEST(KeepApart, LeavesWhatComesNearerAndWhatStandsOrTurnsItsBack) {
+  EXPECT_EQ(Row({0, -6}).Ages({0, 8}), (std::vector<double>{0, 8})) << "it was farther away";
+  EXPECT_EQ(Row({6, 0}).Ages({0, 8}), (std::vector<double>{0, 8})) << "it stands where it stood";
+  EXPECT_EQ(Row({6, 0.1f}).Ages({0, 8}), (std::vector<double>{0, 8})) << "1.3 cm";
+  EXPECT_EQ(Row({6, 6}).Ages({8, 8}), (std::vector<double>{8, 8})) << "of the same moment";
 }
 
 }  // namespace show_age_test

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <set>
 
 #include "common/base/random.h"
@@ -28,20 +27,6 @@ TEST(Zones, TheGapIsTheDistanceOfTheNearestPoints) {
   EXPECT_FLOAT_EQ(Gap(a, Box({5, 5}, {6, 6})), 5) << "corner to corner: 3, 4, 5";
   EXPECT_FLOAT_EQ(Gap(a, Box({1, 0.5f}, {9, 9})), 0) << "overlapping";
   EXPECT_FLOAT_EQ(Gap(a, Box({0.5f, 0.2f}, {1, 0.4f})), 0) << "inside";
-}
-
-TEST(Zones, TheTimeToTouchIsThatOfTheLaterOfBothAxes) {
-  const MovingBox a = Box({0, 0}, {1, 1}, {6, 0});
-  const float never = std::numeric_limits<float>::infinity();
-  EXPECT_FLOAT_EQ(TimeToTouch(a, Box({11, 0}, {12, 1}, {-4, 0}), 0), 1) << "10 m at 10 m/s";
-  EXPECT_FLOAT_EQ(TimeToTouch(a, Box({11, 0}, {12, 1}, {-4, 0}), 0.5f), 0.95f)
-      << "half a metre less";
-  EXPECT_FLOAT_EQ(TimeToTouch(a, Box({11, 3.3f}, {12, 4.3f}, {-4, -2}), 0), 1.15f)
-      << "2.3 m at 2 m/s";
-  EXPECT_EQ(TimeToTouch(a, Box({11, 40}, {12, 41}, {-4, -2}), 0), never) << "it passes above";
-  EXPECT_EQ(TimeToTouch(a, Box({11, 0}, {12, 1}, {7, 0}), 0), never) << "it is faster";
-  EXPECT_EQ(TimeToTouch(a, Box({1, 0}, {2, 1}, {6, 0}), 0), 0) << "they touch, and stay together";
-  EXPECT_EQ(TimeToTouch(a, Box({0.5f, 0}, {2, 1}, {9, 0}), 0), 0) << "they part, but not yet";
 }
 
 TEST(Zones, TwoMeetWhenTheirRelativeSpeedTakesThemThrough) {

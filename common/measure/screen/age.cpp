@@ -22,11 +22,12 @@ std::optional<Trial> Try(const BodyPath& shown, const BodyPath& truth, double ra
                          const std::vector<std::int64_t>& ticks, std::int64_t age) {
   double dd = 0, db = 0, bb = 0, way = 0;
   for (const std::int64_t tick : ticks) {
-    const std::int64_t at = std::max(tick - age, truth.first());
+    const std::int64_t begin = std::max(truth.first(), shown.first_known());
+    const std::int64_t at = std::max(tick - age, begin);
     if (!truth.Has(at)) return std::nullopt;
     const DoublePose& now = truth.At(at);
     const Place3 d = Between(now, shown.At(tick), radius);
-    const bool further = truth.Has(at - 1) && at == tick - age;
+    const bool further = truth.Has(at - 1) && at == tick - age && at > begin;
     const Place3 b = Between(now, further ? truth.At(at - 1) : now, radius);
     dd += d.squaredNorm();
     db += d.dot(b);

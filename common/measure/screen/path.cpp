@@ -54,6 +54,7 @@ DoublePose BodyPath::At(double tick) const {
 
 void BodyPath::Set(std::int64_t tick, const DoublePose& pose, bool same) {
   if (tick < first_ || tick > last()) return;
+  known_ = known_ < 0 ? tick : std::min(known_, tick);
   if (!same || Find(tick - 1) == nullptr) ++form_;
   samples_[static_cast<std::size_t>(tick - first_)] = {pose, form_};
 }

@@ -21,6 +21,8 @@ class BodyPath {
 
   std::int64_t first() const { return first_; }
   std::int64_t last() const { return first_ + static_cast<std::int64_t>(samples_.size()) - 1; }
+  /// Returns the first tick at which the pose is known; last() + 1 if it never is.
+  std::int64_t first_known() const { return known_ < 0 ? last() + 1 : known_; }
   /// True if the pose is known at the tick.
   bool Has(std::int64_t tick) const;
   /// True if the pose is known in all these ticks, and the body has the same parts.
@@ -42,7 +44,7 @@ class BodyPath {
   };
   const Sample* Find(std::int64_t tick) const;
 
-  std::int64_t first_;
+  std::int64_t first_, known_ = -1;
   std::vector<Sample> samples_;
   int form_ = 0;
 };

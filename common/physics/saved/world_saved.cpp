@@ -82,6 +82,9 @@ Status World::Load(const WorldSnapshot& snapshot) {
   if (!std::is_sorted(snapshot.points.begin(), snapshot.points.end(), PointsAscend)) {
     return Status::Error("its contact points are not in order");
   }
+  const bool push = std::all_of(snapshot.points.begin(), snapshot.points.end(),
+                                [](const auto& point) { return point.normal >= 0; });
+  if (!push) return Status::Error("a contact pulls");
   if (!std::is_sorted(snapshot.touching.begin(), snapshot.touching.end())) {
     return Status::Error("its touches are not in order");
   }

@@ -1,8 +1,6 @@
 #include "common/sync/reach/zones.h"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
 
 #include "common/base/spatial/box_sweep.h"
 #include "common/base/spatial/disjoint_sets.h"
@@ -31,26 +29,6 @@ std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& box
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
-}
-
-float TimeToTouch(const MovingBox& a, const MovingBox& b, float gap) {
-  constexpr float kNever = std::numeric_limits<float>::infinity();
-  float enter = 0, leave = kNever;
-  for (int axis = 0; axis < 2; ++axis) {
-    // Distances of the facing sides: each closes with its speed.
-    const float speed = a.velocity[axis] - b.velocity[axis];
-    const float before = b.min[axis] - a.max[axis] - gap, behind = a.min[axis] - b.max[axis] - gap;
-    for (const auto& [distance, closing] : {std::pair{before, speed}, std::pair{behind, -speed}}) {
-      if (closing > 0) {
-        enter = std::max(enter, distance / closing);
-      } else if (closing < 0) {
-        leave = std::min(leave, distance / closing);
-      } else if (distance > 0) {
-        return kNever;
-      }
-    }
-  }
-  return enter <= leave ? enter : kNever;
 }
 
 std::vector<int> Components(int count, const std::vector<std::pair<int, int>>& pairs) {

@@ -43,10 +43,6 @@ inline bool MayMeet(const MovingBox& a, const MovingBox& b, float seconds) {
   return Gap(a, b) <= (a.velocity - b.velocity).norm() * seconds + slack;
 }
 
-/// Returns the time after which the two, if they go straight on, are within `gap` m of each other,
-/// s: 0 if they are now, infinity if never.
-float TimeToTouch(const MovingBox& a, const MovingBox& b, float gap);
-
 /// Returns all pairs of groups with boxes that may touch: each pair once, the lower group first,
 /// ascending. `seconds_of` (two groups) is the look-ahead for a pair, at most `seconds_max`. Uses a
 /// sweep along x: n log n unless boxes crowd.

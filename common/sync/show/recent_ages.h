@@ -8,13 +8,13 @@
 
 namespace seam {
 
-/// Keeps the last kKept ages.
+/// Keeps the last kAgesKept ages.
 class RecentAges {
  public:
   /// Records an age, ticks. Ages below 0 count as 0.
   void Add(std::int64_t ticks) {
     ages_.push_back(std::max<std::int64_t>(0, ticks));
-    if (ages_.size() > kKept) ages_.pop_front();
+    if (ages_.size() > kAgesKept) ages_.pop_front();
   }
   bool empty() const { return ages_.empty(); }
   /// Returns the age that 19 of 20 do not exceed, ticks. Requires an age.
@@ -26,7 +26,7 @@ class RecentAges {
   }
 
  private:
-  static constexpr std::size_t kKept = 90;
+  static constexpr std::size_t kAgesKept = 90;
   std::deque<std::int64_t> ages_;
 };
 

@@ -1,27 +1,20 @@
 #pragma once
-/// Decides how long ago each mechanism is displayed: a peer knows others' bodies exactly only as
-/// far as it knows their players' inputs, while its own are displayed in the present. After
-/// Sharkey, Ryan and Roberts, "A local perception filter for distributed virtual environments"
-/// (VRAIS 1998), where the past is extrapolated; here it is simulated.
+/// Decides how long ago others' bodies are displayed: a peer knows them exactly only as far as it
+/// knows their players' inputs, while its own are displayed in the present. After Sharkey, Ryan and
+/// Roberts, "A local perception filter for distributed virtual environments" (VRAIS 1998), where
+/// the past is extrapolated; here it is simulated.
 ///
-///      age
-///       |         ________  the age at which inputs are complete, at most --show-age
-///       |        /
-///       |       /  kAgeFall ticks for each tick that is left before it may touch ...
-///       |______/________________ time to contact
-///      ... a mechanism of less age: at first one that the viewer drives, whose age is 0
-///
-/// What hardly moves may be older than what it touches: its past pose overlaps nothing.
+///     ann's, in the present            [ann]
+///     bob's, where it was            [bob]  . . [bob now]     its past pose would lie in ann's:
+///                                       [bob]                 so it is displayed less late
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "common/physics/world.h"
 #include "common/sync/mode.h"
-#include "common/sync/reach/zones.h"
-#include "common/sync/roles.h"
 #include "common/sync/show/recent_ages.h"
-#include "common/sync/table/mechanism_column.h"
 
 namespace seam {
 
@@ -29,34 +22,37 @@ namespace seam {
 /// slower, by that share.
 constexpr float kAgeFall = 0.2f, kAgeRise = 0.2f;
 
+/// The age at which inputs are complete.
 class ShowAge {
  public:
-  /// All must outlive this.
-  ShowAge(const SyncConfig& config, const World& world, const BodyTable& table)
-      : config_(config), world_(world), due_(table, MechanismRule::kFresh, 0) {}
+  /// `config` must outlive this.
+  explicit ShowAge(const SyncConfig& config) : config_(config) {}
 
   /// Call after a step. `missing`: the newest ticks for which an input or state is not known yet.
-  void Look(const Roles& roles, std::int64_t missing);
-  /// Returns the age that the mechanism's displayed poses are to have, ticks.
-  double Due(int mechanism) const { return due_[mechanism]; }
+  void Look(std::int64_t missing);
+  /// Returns the age that displayed poses are to have, ticks.
+  double due() const { return due_; }
   /// Returns the moment to display at tick `now` after `moment` at the tick before: as near to
   /// `due` ticks ago as the rates let it.
   static double Glide(double moment, double now, double due);
 
  private:
-  /// Two mechanisms that may touch, and by how many ticks each may be older than the other.
-  struct Meeting {
-    int a = -1, b = -1;
-    double b_older = 0, a_older = 0;
-  };
-  void FindMeetings(double ticks_max);
-
   const SyncConfig& config_;
-  const World& world_;
   RecentAges missing_;
-  MechanismColumn<double> due_;
-  std::vector<MovingBox> boxes_;  // memory for FindMeetings, by mechanism
-  std::vector<Meeting> meetings_;
+  double due_ = 0;
 };
+
+/// A mechanism on the screen.
+struct ShownMechanism {
+  const std::vector<int>* bodies = nullptr;
+  double moment = 0;  ///< the tick of its poses
+};
+
+/// Moves on the moments of mechanisms whose poses overlap those of a later moment, until they do
+/// so by no more than a viewer would miss, or than now. Only mechanisms of a moment after `oldest`
+/// push others. `pose_at`: returns a body's displayed pose at a moment.
+void KeepApart(const World& world, double oldest,
+               const std::function<BodyState(int body, double moment)>& pose_at,
+               std::vector<ShownMechanism>* shown);
 
 }  // namespace seam

@@ -68,7 +68,7 @@ TEST(LowTickInputs, ReachTheServerInTimeOver4g) {
       SCOPED_TRACE(std::to_string(tick_hz) + " Hz, seed " + std::to_string(seed));
       const Measures m = Played(Sleds(tick_hz, 4), "central", seed);
       EXPECT_EQ(m.inputs_late, 0);
-      EXPECT_LT(m.error_own_m.value_or(9), 0.03) << "0.09 to 1.9 m where one was late";
+      EXPECT_LT(m.error_own_m.value_or(9), 0.05) << "0.09 to 1.9 m where one was late";
     }
   }
 }

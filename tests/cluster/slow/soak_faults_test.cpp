@@ -59,7 +59,12 @@ std::string Perform(const FaultPlan& plan) {
     faults.Act(cluster);
   };
   cluster.Run();
-  if (traces) std::fflush(stdout);
+  if (traces) {
+    for (const Event& event : cluster.recording().events) {
+      std::printf("  tick %lld: %s\n", static_cast<long long>(event.tick), event.text.c_str());
+    }
+    std::fflush(stdout);
+  }
   std::ostringstream out;
   for (const auto& [what, broken] : invariants.broken()) {
     out << what << "; " << broken.times << " times; " << broken.first << "\n";

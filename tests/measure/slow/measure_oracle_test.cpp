@@ -250,7 +250,7 @@ TEST_F(MeasureProgram, PrintsATableAndWritesTheSameAsCsv) {
   EXPECT_EQ(Run({log_.path(), "--csv", other_.path(), "--names", "mine", "--more"}), 0) << output_;
   EXPECT_NE(output_.find("error_rms_m"), std::string::npos);
   EXPECT_NE(output_.find("hand-over"), std::string::npos);
-  const std::string line = "kick,mine,buffer,,perfect,0,0,0,0,0,,,0,0,0,0,0,0,1,,,,,\n";
+  const std::string line = "kick,mine,buffer,,perfect,0,0,0,0,0,,,0,0,0,0,0,0,1,,,,,,0,\n";
   const Bytes csv = other_.Read();
   EXPECT_EQ(std::string(csv.begin(), csv.end()), CsvHeader() + "\n" + line);
   EXPECT_EQ(Run({"--csv", other_.path(), "--append", "--names", "mine", log_.path()}), 0);
