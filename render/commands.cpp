@@ -14,6 +14,7 @@
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
 #include "common/measure/contents/contents.h"
+#include "common/record/damage.h"
 #include "common/scene/assembly.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/palette.h"
@@ -217,7 +218,7 @@ int RenderMain(int argc, const char* const* argv) {
         } else {
           RenderSequence(options);
         }
-        return 0;
+        return StatusAfterReading(0);
       });
 }
 

@@ -45,7 +45,7 @@ int Run(const ExportOptions& options) {
   Write(session, options.format(), &out);
   count.reset();
   out.Finish();
-  return 0;
+  return session.damaged ? 1 : 0;
 }
 
 }  // namespace

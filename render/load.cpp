@@ -4,6 +4,7 @@
 #include "common/base/nearest.h"
 #include "common/base/process.h"
 #include "common/base/progress_count.h"
+#include "common/record/damage.h"
 #include "common/sync/method.h"
 #include "render/scene_recording.h"
 
@@ -16,8 +17,10 @@ std::vector<std::string> ReadBy(const RenderOptions& options) {
 }
 
 Recording ReadLog(const RenderOptions& options, std::size_t i) {
-  return ReadRecording(options.logs[i], options.room,
-                       options.sessions.empty() ? "" : options.sessions[i]);
+  Recording recording = ReadRecording(options.logs[i], options.room,
+                                      options.sessions.empty() ? "" : options.sessions[i]);
+  ReportDamage("seam-render", options.logs[i], recording);
+  return recording;
 }
 
 LoadedLog LoadLog(const RenderOptions& options, std::size_t i) {
@@ -59,6 +62,7 @@ std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
 
 GivenOracle LoadOracle(const std::string& path) {
   const Recording recording = ReadRecording(path);
+  ReportDamage("seam-render", path, recording);
   RequireOracleOf(recording.room, path, recording.room, path);  // checks the mode alone
   return {path, recording.room, OracleFromRecording(recording)};
 }

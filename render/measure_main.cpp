@@ -18,6 +18,7 @@
 #include "common/measure/revisions.h"
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
+#include "common/record/damage.h"
 #include "common/record/loss_timeline.h"
 #include "common/record/recording.h"
 #include "common/record/time_range.h"
@@ -54,10 +55,7 @@ std::string BaseName(const std::string& path) {
 /// Reads a log, and reports its damage on stderr.
 Recording Read(const std::string& path, const std::string& session) {
   Recording recording = ReadRecording(path, "", session);
-  const std::string damage = DamageOf(recording);
-  if (!damage.empty()) {
-    std::fprintf(stderr, "seam-measure: warning: %s: %s\n", path.c_str(), damage.c_str());
-  }
+  ReportDamage("seam-measure", path, recording);
   return recording;
 }
 
@@ -271,6 +269,6 @@ int main(int argc, char** argv) {
           Run(options);
         }
         if (std::fflush(stdout) != 0) throw OperatorError("stdout: disk full?");
-        return 0;
+        return StatusAfterReading(0);
       });
 }

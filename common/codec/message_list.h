@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+#include "common/codec/chain.h"
 #include "common/codec/messages.h"
 #include "common/codec/packed/packed_inputs.h"
 #include "common/codec/packed/packed_states.h"
@@ -69,6 +70,8 @@
     m.jumps, m.dropped_malformed, m.dropped_stale, m.dropped_right, m.dropped_implausible,         \
     m.dropped_budget, m.kind, m.bytes_out, m.bytes_in)                                             \
   X(Event, event_t, kBusPeer, "event", m.utime, m.session, m.sequence, m.peer, m.tick, m.text)     \
+  X(TickChain, chain_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,         \
+    m.messages, m.messages_crc, m.log_events, m.log_crc)                                           \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                      \
   X(PackedStates, packed_states_t, kEdge, "", m.data)                                              \
   X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)                                              \

@@ -292,6 +292,11 @@ bool Valid(const Event& m) {
          IsPrintable(m.text, kTextBytesMax);
 }
 
+bool Valid(const TickChain& m) {
+  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Peer(m.peer) &&
+         TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0;
+}
+
 bool Valid(const Bye& m) { return Time(m.utime) && IsPrintable(m.reason, kImpairBytesMax); }
 
 }  // namespace seam

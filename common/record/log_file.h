@@ -8,9 +8,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "common/base/bytes.h"
 #include "common/base/status.h"
+#include "common/record/chain_check.h"
+#include "common/record/log_place.h"
 #include "common/record/recorder.h"
 
 namespace seam {
@@ -21,12 +24,15 @@ constexpr std::size_t kLogHeaderBytes = 28;
 /// Largest message in a log, normal 60 kB; a header with more counts as damage.
 constexpr std::size_t kLogDataBytesMax = 1000000;
 
-/// Writes logs like those of lcm-logger; lcm-logplayer reads the result.
+/// Writes logs like those of lcm-logger; lcm-logplayer reads the result. Rooms are recorded by
+/// RoomLog, which adds checksums.
 class LogWriter : public Recorder {
  public:
   /// Throws whatever the constructor would, but does not touch the file: for a log that begins
   /// later.
   static void Check(const std::string& path, bool force);
+  /// Returns the file that the constructor would write; the caller closes it. Throws likewise.
+  static std::FILE* Open(const std::string& path, bool force);
   /// Throws OperatorError when the file cannot be created, exists and `force` is not given, or is
   /// no regular file.
   explicit LogWriter(const std::string& path, bool force = false);
@@ -72,6 +78,8 @@ class LogReader {
   /// Throws OperatorError when the file cannot be opened, is no regular file, or has no event at
   /// all ("not an LCM log"). Reads the present contents only, not bytes appended later.
   explicit LogReader(const std::string& path);
+  /// Reads from a place on that RoomLog gave. Throws also when the log is shorter than that.
+  LogReader(const std::string& path, const LogPlace& from);
   ~LogReader();
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;
@@ -81,9 +89,16 @@ class LogReader {
   std::int64_t skipped_bytes() const { return skipped_bytes_; }
   /// Returns the number of stretches of such bytes.
   std::int64_t damaged_places() const { return damaged_places_; }
+  /// Returns the parts of the log with wrong checksums; complete when Next has returned false.
+  std::vector<DamagedRange> damage() const { return check_.Damage(); }
+  /// True if all before the last end of a tick is as RoomLog wrote it.
+  bool intact() const { return check_.intact(); }
+  /// Returns the place in the file behind the last event.
+  std::int64_t place_bytes() const { return at_; }
 
  private:
   struct Header;
+  void Open(const std::string& path);
   std::size_t ReadAt(std::int64_t at, std::uint8_t* to, std::size_t bytes);
   const std::uint8_t* Peek(std::int64_t at, std::size_t bytes);
   bool ReadHeader(std::int64_t at, bool magic_matters, Header* header);
@@ -99,6 +114,7 @@ class LogReader {
   std::int64_t size_bytes_ = 0;
   std::int64_t skipped_bytes_ = 0;
   std::int64_t damaged_places_ = 0;
+  ChainCheck check_;
 };
 
 }  // namespace seam

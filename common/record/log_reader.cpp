@@ -30,15 +30,27 @@ struct LogReader::Header {
   std::int64_t end;  ///< end of the event in the file
 };
 
-LogReader::LogReader(const std::string& path) {
+void LogReader::Open(const std::string& path) {
   file_ = OpenPlainFile(path, FileUse::kRead);
   if (file_ == nullptr) throw OperatorError(path + ": cannot be opened: " + std::strerror(errno));
   struct stat status = {};
   if (fstat(fileno(file_), &status) == 0) size_bytes_ = static_cast<std::int64_t>(status.st_size);
+}
+
+LogReader::LogReader(const std::string& path) {
+  Open(path);
   if (FindHeader(0, size_bytes_) == size_bytes_) {
     std::fclose(file_);
     throw OperatorError(path + ": not an LCM log: no event in it");
   }
+}
+
+LogReader::LogReader(const std::string& path, const LogPlace& from)
+    : at_(from.bytes), check_(from.crc) {
+  Open(path);
+  if (from.bytes <= size_bytes_) return;
+  std::fclose(file_);
+  throw OperatorError(path + ": is shorter than it was");
 }
 
 LogReader::~LogReader() { std::fclose(file_); }
@@ -142,9 +154,14 @@ bool LogReader::Next(LogEvent* event) {
   }
   if (at_ != expected) {
     ++damaged_places_;
+    check_.NoteSkipped();
     skipped_bytes_ += at_ - expected;
   }
   if (at_ == size_bytes_) return false;
+  const std::int64_t start = at_;
+  Bytes head(kLogHeaderBytes);
+  if (const std::uint8_t* bytes = Peek(start, kLogHeaderBytes))
+    head.assign(bytes, bytes + kLogHeaderBytes);
   event->number = header.number;
   event->timestamp_us = header.timestamp_us;
   const std::int64_t body = at_ + static_cast<std::int64_t>(kLogHeaderBytes);
@@ -153,6 +170,7 @@ bool LogReader::Next(LogEvent* event) {
   event->channel.assign(reinterpret_cast<const char*>(bytes), header.channel_bytes);
   event->data.assign(bytes + header.channel_bytes,
                      bytes + header.channel_bytes + header.data_bytes);
+  check_.Note(head, *event);
   at_ = header.end;
   return true;
 }

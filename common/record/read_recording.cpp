@@ -42,6 +42,7 @@ Recording ReadRecording(const std::string& path, const std::string& room,
   }
   Recording recording = std::move(builder.recording());
   recording.skipped_bytes = reader.skipped_bytes();
+  recording.damage = reader.damage();
   recording.sessions = std::move(sessions);
   return recording;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/base/bytes.h"
+#include "common/codec/chain.h"
 
 namespace seam {
 
@@ -17,6 +18,9 @@ class Recorder {
   virtual ~Recorder() = default;
   /// Publishes one encoded message. Never throws; failures are counted in failures().
   virtual void Publish(const std::string& channel, std::int64_t utime, ByteView message) = 0;
+  /// Publishes the end of a peer's tick: the chain over its messages. A log adds the checksum of
+  /// its bytes, and passes them all to the operating system.
+  virtual void EndTick(const std::string& channel, const TickChain& chain);
   virtual std::int64_t failures() const { return 0; }
   /// Returns false if published messages have no receiver and may be skipped.
   virtual bool listening() const { return true; }
@@ -28,5 +32,8 @@ class Recorder {
 std::string ChannelName(const std::string& room, const std::string& kind, int peer = -1);
 /// Returns the room of such a name; "" if the channel is not one of ours.
 std::string RoomOfChannel(const std::string& channel);
+/// Returns the peer that publishes on such a channel: 0, the server, but for the kinds of which
+/// each peer publishes its own. -1 if the channel is not one of ours.
+int PublisherOfChannel(const std::string& channel);
 
 }  // namespace seam

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/codec/messages.h"
+#include "common/record/chain_check.h"
 #include "common/record/log_sessions.h"
 #include "common/record/recorder.h"
 #include "common/record/scene_parts.h"
@@ -42,6 +43,7 @@ struct Recording {
   std::int32_t foreign_protocol = 0;         ///< protocol of an unreadable room; 0: none
   std::int64_t undecodable = 0;              ///< events of SEAM.* that did not decode
   std::int64_t skipped_bytes = 0;            ///< damaged bytes of the log
+  std::vector<DamagedRange> damage;          ///< parts of the log with wrong checksums
   std::int64_t duplicates = 0;               ///< events received twice, kept once
   std::int64_t bus_gaps = 0;                 ///< messages missing by their sequence numbers
   std::map<std::string, std::int64_t> gaps;  ///< the same by channel; channels without gaps absent
@@ -110,6 +112,7 @@ class RecordingBuilder {
   bool Keep(Stats& stats);
   bool Keep(Load& load);
   bool Keep(Event& event);
+  bool Keep(TickChain&) { return true; }  // LogReader has checked it
   bool KeepWhole(View& view);
   void AddScene();
   void DropStrayTicks();

@@ -1,6 +1,7 @@
 #include "common/record/sink.h"
 
 #include "common/base/check.h"
+#include "common/record/log_file.h"
 
 namespace seam {
 namespace {
@@ -14,8 +15,20 @@ Sink::Sink(const std::string& lcm_url, const std::string& record_path, bool forc
            const std::string& room)
     : record_path_(record_path), force_(force) {
   if (!record_path.empty()) LogWriter::Check(record_path, force);
+  Listen(lcm_url, room);
+}
+
+Sink::Sink(const std::string& lcm_url, const std::string& record_path, const LogPlace& place,
+           const std::string& room)
+    : record_path_(record_path),
+      force_(false),
+      log_(std::make_unique<RoomLog>(record_path, place, &disk_)) {
+  Listen(lcm_url, room);
+}
+
+void Sink::Listen(const std::string& lcm_url, const std::string& room) {
   if (lcm_url != "none") bus_ = std::make_unique<Bus>(lcm_url);
-  if (record_path.empty() || bus_ == nullptr) return;
+  if (record_path_.empty() || bus_ == nullptr) return;
   bus_->Subscribe("SEAM\\." + room + "\\..*",
                   [this](const std::string& channel, std::int64_t utime, ByteView message) {
                     // Our own messages come back by loopback; they are in the log already.
@@ -26,23 +39,36 @@ Sink::Sink(const std::string& lcm_url, const std::string& record_path, bool forc
 
 void Sink::OpenLog() {
   try {
-    log_ = std::make_unique<LogWriter>(record_path_, force_);
+    log_ = std::make_unique<RoomLog>(record_path_, force_, &disk_);
   } catch (const OperatorError& error) {
     // Possible despite the check at the start: the file or folder may have changed since.
     not_opened_ = Status::Error(error.what());
   }
 }
 
-void Sink::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
+/// Returns true if there is a log; begins it if it is wanted.
+bool Sink::Ready() {
   if (log_ == nullptr && !record_path_.empty()) {
     if (not_opened_.ok()) OpenLog();
     if (!not_opened_.ok()) ++lost_;
   }
-  if (log_ != nullptr) {
+  return log_ != nullptr;
+}
+
+void Sink::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
+  if (Ready()) {
     own_channels_[channel] = true;
     log_->Publish(channel, utime, message);
   }
   if (bus_ != nullptr) bus_->Publish(channel, utime, message);
+}
+
+void Sink::EndTick(const std::string& channel, const TickChain& chain) {
+  if (Ready()) {
+    own_channels_[channel] = true;
+    log_->EndTick(channel, chain);
+  }
+  if (bus_ != nullptr) bus_->EndTick(channel, chain);
 }
 
 std::int64_t Sink::failures() const {

@@ -6,7 +6,8 @@
 #include <string>
 
 #include "common/record/bus.h"
-#include "common/record/log_file.h"
+#include "common/record/disk_thread.h"
+#include "common/record/room_log.h"
 
 namespace seam {
 
@@ -20,8 +21,13 @@ class Sink : public Recorder {
   /// Throws OperatorError from Bus, or if the file cannot be written.
   Sink(const std::string& lcm_url, const std::string& record_path, bool force,
        const std::string& room);
+  /// Goes on with the log at a place, see RoomLog.
+  Sink(const std::string& lcm_url, const std::string& record_path, const LogPlace& place,
+       const std::string& room);
 
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
+  /// Ends the tick on the bus and in the log, which is then with the operating system.
+  void EndTick(const std::string& channel, const TickChain& chain) override;
   std::int64_t failures() const override;
   bool listening() const override { return bus_ != nullptr || !record_path_.empty(); }
   /// Returns the first failure to write the log; ok if there is none, or no log.
@@ -30,14 +36,21 @@ class Sink : public Recorder {
   void Poll();
   /// Passes the log to the operating system, so that failures() includes a full disk.
   void Flush();
+  /// Returns the end of what is in the log; its begin if there is none.
+  LogPlace place() const { return log_ != nullptr ? log_->place() : LogPlace(); }
+  /// The thread for what waits for the disk.
+  DiskThread& disk() { return disk_; }
 
  private:
+  void Listen(const std::string& lcm_url, const std::string& room);
+  bool Ready();
   void OpenLog();
 
   std::string record_path_;
   bool force_;
   std::unique_ptr<Bus> bus_;
-  std::unique_ptr<LogWriter> log_;  ///< null until it begins
+  DiskThread disk_;
+  std::unique_ptr<RoomLog> log_;  ///< null until it begins
   Status not_opened_;
   std::int64_t lost_ = 0;  ///< messages lost because the log could not be created
   std::map<std::string, bool> own_channels_;

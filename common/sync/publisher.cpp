@@ -1,6 +1,9 @@
 #include "common/sync/publisher.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "common/record/chain_check.h"
 
 namespace seam {
 namespace {
@@ -25,7 +28,20 @@ void Publisher::Number(Message& message) {
   message.session = session_;
   message.sequence = sequence_[channel]++;
   const Bytes bytes = Encode(message);
+  ++chain_.messages;
+  chain_.messages_crc = ChainedCrc(chain_.messages_crc, channel, bytes);
   recorder_.Publish(channel, message.utime, bytes);
+}
+
+void Publisher::EndTick(std::int64_t utime, int peer, std::int64_t tick) {
+  if (!recorder_.listening()) return;
+  const std::string channel = ChannelName(room_, MessageTraits<TickChain>::kKind, peer);
+  chain_.utime = utime;
+  chain_.session = session_;
+  chain_.sequence = sequence_[channel]++;
+  chain_.peer = peer;
+  chain_.tick = tick;
+  recorder_.EndTick(channel, std::exchange(chain_, TickChain()));
 }
 
 template <class Message>

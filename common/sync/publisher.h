@@ -24,6 +24,10 @@ class Publisher {
   void Publish(Message message);
   /// Splits views of more than kViewBodiesMax bodies.
   void Publish(const View& message);
+  /// Publishes a checksum of all that was published since the last call. `peer`: this one.
+  void EndTick(std::int64_t utime, int peer, std::int64_t tick);
+  /// True if something was published since then.
+  bool pending() const { return chain_.messages > 0; }
 
  private:
   template <class Message>
@@ -33,6 +37,7 @@ class Publisher {
   std::string room_;
   std::int64_t session_;
   std::map<std::string, std::int64_t> sequence_;
+  TickChain chain_;  // of the messages since the last EndTick
 };
 
 }  // namespace seam

@@ -6,6 +6,7 @@
 #include "common/base/check.h"
 #include "common/base/nearest.h"
 #include "common/measure/contents/partial_views.h"
+#include "common/record/damage.h"
 
 namespace seam {
 namespace {
@@ -108,8 +109,8 @@ void FindLacking(const ExportOptions& options, ExportSession* session) {
   const Recording& recording = session->recording;
   const std::string sessions = ChosenSession(recording);
   if (!sessions.empty()) session->lacking.push_back(sessions);
-  const std::string damage = DamageOf(recording);
-  if (!damage.empty()) session->lacking.push_back(damage);
+  for (const std::string& line : DamageLines(recording)) session->lacking.push_back(line);
+  session->damaged = session->damaged || IsDamaged(recording);
   const std::string absent = AbsentViews(options, *session);
   if (!absent.empty()) session->lacking.push_back(absent);
   const std::string partial = PartialViewsText(PartialViews(session->scene, recording),
@@ -123,6 +124,10 @@ void FindOracle(const ExportOptions& options, ExportSession* session) {
   const Recording& recording = session->recording;
   if (!options.oracle.empty()) {
     const Recording truth = ReadRecording(options.oracle);
+    for (const std::string& line : DamageLines(truth)) {
+      session->lacking.push_back(options.oracle + ": " + line);
+    }
+    session->damaged = IsDamaged(truth);
     RequireOracleOf(truth.room, options.oracle, recording.room, options.log);
     session->oracle = OracleFromRecording(truth);
     return;

@@ -31,6 +31,7 @@ struct ExportSession {
   std::map<PartId, std::string> of;  ///< names of `bodies`
   /// Called by ForEachView with the number of finished ticks and of all ticks.
   std::function<void(std::int64_t, std::int64_t)> progress = [](std::int64_t, std::int64_t) {};
+  bool damaged = false;              ///< see IsDamaged; `lacking` says where
   std::vector<std::string> lacking;  ///< missing contents of the log, a line each
 
   double TickSeconds() const { return 1.0 / recording.room.tick_hz; }

@@ -45,6 +45,13 @@ void Cluster::Tap::Publish(const std::string& channel, std::int64_t, ByteView me
   }
 }
 
+void Cluster::Tap::EndTick(const std::string& channel, const TickChain& chain) {
+  TickChain now = chain;
+  now.utime = cluster_.now_us_;
+  if (cluster_.config_.keep) memory.EndTick(channel, now);
+  if (cluster_.config_.recorder != nullptr) cluster_.config_.recorder->EndTick(channel, now);
+}
+
 Cluster::Cluster(const ClusterConfig& config)
     : config_(config),
       scene_(config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")

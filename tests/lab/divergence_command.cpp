@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/base/check.h"
+#include "common/record/damage.h"
 #include "common/scene/scene.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/divergence.h"
@@ -16,14 +17,7 @@ Recording ReadWhole(const std::string& path) {
   if (!sessions.empty()) {
     std::fprintf(stderr, "seam-lab: note: %s: %s\n", path.c_str(), sessions.c_str());
   }
-  if (recording.skipped_bytes > 0 || recording.undecodable > 0 || recording.bus_gaps > 0) {
-    std::fprintf(stderr,
-                 "seam-lab: warning: %s: %lld damaged bytes, %lld events undecodable, "
-                 "%lld messages missing\n",
-                 path.c_str(), static_cast<long long>(recording.skipped_bytes),
-                 static_cast<long long>(recording.undecodable),
-                 static_cast<long long>(recording.bus_gaps));
-  }
+  ReportDamage("seam-lab", path, recording);
   return recording;
 }
 

@@ -11,6 +11,7 @@
 #include "common/base/limits.h"
 #include "common/codec/version_line.h"
 #include "common/net/impair.h"
+#include "common/record/damage.h"
 #include "common/sync/method.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/experiment/probes.h"
@@ -200,7 +201,7 @@ int main(int argc, char** argv) {
                           {"--reconcile", ReconcilerNames()}}};
   return RunCommandLine(text, argc, argv, define, [&] {
     for (const auto& [app, command] : commands) {
-      if (app->chosen()) return command();
+      if (app->chosen()) return StatusAfterReading(command());
     }
     return 2;
   });

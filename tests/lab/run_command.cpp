@@ -11,7 +11,7 @@
 #include "common/base/progress_count.h"
 #include "common/measure/measure.h"
 #include "common/measure/screen/peers_apart.h"
-#include "common/record/log_file.h"
+#include "common/record/room_log.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/scene_settings.h"
 
@@ -56,7 +56,7 @@ int RunLog(const RunCommand& command) {
   settings.set = SplitSettings(JoinSettings(settings.set));
   ClusterConfig config = Configure(settings);
   RequireOutput(command.log, command.force, {settings.scene});
-  LogWriter log(command.log, command.force);
+  RoomLog log(command.log, command.force, nullptr);
   config.recorder = &log;
   config.keep = command.floor;
   const std::int64_t begin_us = SteadyClockUs();

@@ -62,7 +62,7 @@ const std::vector<Room>& Rooms() {
       {"common/net", {"common/base"}},
       {"seam", {}},  // generated from lcmtypes
       {"common/codec", {"common/base", "seam"}},
-      {"common/record", {"common/base", "common/codec"}},
+      {"common/record", {"common/base", "common/net", "common/codec"}},
       {"common/scene", {"common/base"}},
       {"common/topology", {"common/base", "common/scene"}},
       {"common/physics", {"common/base", "common/scene", "common/topology"}},

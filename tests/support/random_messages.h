@@ -193,6 +193,11 @@ class RandomMessages {
   void Fill(Event& m) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), m.text = Text(1000);
   }
+  void Fill(TickChain& m) {
+    Common(m), Sequence(m), m.session = Integer(1, INT64_MAX - 1), Set(m.peer, 0, 31);
+    m.tick = Tick(), Set(m.messages, -1, INT32_MAX), Set(m.log_events, 0, INT32_MAX);
+    m.messages_crc = Int32(), m.log_crc = Int32();
+  }
   void Fill(Bye& m) { Common(m), m.reason = Text(200); }
 
  private:

@@ -1,0 +1,111 @@
+#include "common/record/chain_check.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "common/codec/codec.h"
+#include "common/net/crc32c.h"
+#include "common/record/log_file.h"
+
+namespace seam {
+namespace {
+
+/// Adds a range; one that goes on where the last one ends becomes part of it.
+void AddRange(std::int64_t after_tick, std::int64_t tick, const std::set<std::string>& channels,
+              std::vector<DamagedRange>* all) {
+  const std::int64_t first = std::max<std::int64_t>(0, std::min(after_tick + 1, tick));
+  if (!all->empty() && first >= all->back().first_tick && first <= all->back().last_tick + 1) {
+    DamagedRange& last = all->back();
+    last.last_tick = std::max(last.last_tick, tick);
+    last.channels.insert(channels.begin(), channels.end());
+    return;
+  }
+  all->push_back({first, std::max(first, tick), false, channels});
+}
+
+}  // namespace
+
+std::int32_t ChainedCrc(std::int32_t crc, const std::string& channel, ByteView message) {
+  const auto seed = static_cast<std::uint32_t>(crc);
+  return static_cast<std::int32_t>(Crc32c(message, Crc32c(TextBytes(channel), seed)));
+}
+
+void ChainCheck::Note(ByteView header, const LogEvent& event) {
+  const std::string room = RoomOfChannel(event.channel);
+  const AnyMessage message =
+      event.channel.find(".chain") == std::string::npos ? AnyMessage() : Decode(event.data);
+  const auto* chain = std::get_if<TickChain>(&message);
+  if (chain != nullptr && chain->messages >= 0) {
+    CheckMessages({room, chain->session, chain->peer}, *chain);
+  }
+  if (chain != nullptr && chain->log_events > 0) return CheckBytes(header, event, *chain);
+  for (std::uint32_t* crc : {&crc_, &own_crc_}) {
+    *crc = Crc32c(event.data, Crc32c(TextBytes(event.channel), Crc32c(header, *crc)));
+  }
+  ++events_;
+  channels_.insert(event.channel);
+  if (chain != nullptr || room.empty()) return;
+  const int peer = PublisherOfChannel(event.channel);
+  Heard& heard = heard_[{room, SessionOf(event.data).value_or(0), peer}];
+  ++heard.messages;
+  heard.crc = ChainedCrc(heard.crc, event.channel, event.data);
+  heard.channels.insert(event.channel);
+}
+
+/// Checks the messages of a publisher, unless some are missing (they are gaps in its numbers) or
+/// came twice.
+void ChainCheck::CheckMessages(const Publisher& publisher, const TickChain& chain) {
+  Heard& heard = heard_[publisher];
+  if (heard.messages == chain.messages && heard.crc != chain.messages_crc) {
+    AddRange(heard.tick, chain.tick, heard.channels, &messages_damage_);
+  }
+  heard = Heard();
+  heard.tick = chain.tick;
+}
+
+void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const TickChain& chain) {
+  constexpr std::size_t kCrcBytes = sizeof chain.log_crc;
+  const ByteView data(event.data.data(), event.data.size() - kCrcBytes);
+  const auto with = [&](std::uint32_t crc) {
+    return Crc32c(data, Crc32c(TextBytes(event.channel), Crc32c(header, crc)));
+  };
+  const auto written = static_cast<std::uint32_t>(chain.log_crc);
+  const bool same = with(crc_) == written || with(own_crc_) == written;
+  const bool good = same && !skipped_ && events_ + 1 == chain.log_events;
+  sealed_ = sealed_ || good;  // in a log of another logger none is: it has numbers of its own
+  channels_.insert(event.channel);
+  if (good) {
+    CloseDamage(chain.tick - 1);
+    tick_ = chain.tick;
+  } else {  // its tick may be what is damaged: the next good one says where the damage ended
+    damaged_ = true;
+    damaged_channels_.insert(channels_.begin(), channels_.end());
+  }
+  crc_ = written;
+  own_crc_ = 0;
+  events_ = 0;
+  skipped_ = false;
+  channels_.clear();
+}
+
+void ChainCheck::CloseDamage(std::int64_t last_tick) {
+  if (!damaged_) return;
+  damaged_ = false;
+  AddRange(tick_, std::max(tick_ + 1, last_tick), damaged_channels_, &bytes_damage_);
+  damaged_channels_.clear();
+}
+
+std::vector<DamagedRange> ChainCheck::Damage() const {
+  if (!sealed_) return messages_damage_;
+  ChainCheck whole = *this;
+  whole.CloseDamage(tick_ + 1);
+  std::vector<DamagedRange> all = std::move(whole.bytes_damage_);
+  if (events_ > 0 || skipped_) {
+    AddRange(tick_, tick_ + 1, channels_, &all);
+    all.back().to_the_end = true;
+  }
+  return all;
+}
+
+}  // namespace seam

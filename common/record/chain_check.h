@@ -1,0 +1,78 @@
+#pragma once
+/// Finds damage of a log by the chains in it (chain_t): ranges of ticks of which a checksum is
+/// wrong.
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/base/bytes.h"
+#include "common/codec/chain.h"
+
+namespace seam {
+
+struct LogEvent;
+
+/// Part of a log in which something is not as it was written.
+struct DamagedRange {
+  std::int64_t first_tick = 0, last_tick = 0;
+  bool to_the_end = false;         ///< the log ends without the end of its last tick
+  std::set<std::string> channels;  ///< of the events in it; one or several of them are damaged
+};
+
+/// Returns the checksum of messages and one more after them: CRC-32C of channels and bytes.
+std::int32_t ChainedCrc(std::int32_t crc, const std::string& channel, ByteView message);
+
+/// Gets a log from its begin to its end.
+///
+/// A log that RoomLog wrote is checked byte by byte. Any other (of a stock lcm-logger) has events
+/// with other numbers and times, and maybe not all of them: the messages of each publisher are
+/// checked where all of them are there.
+class ChainCheck {
+ public:
+  /// `crc`: log_crc of the TickChain before the first event; 0: the log's begin.
+  explicit ChainCheck(std::uint32_t crc = 0) : crc_(crc) {}
+  /// Notes bytes that belong to no event.
+  void NoteSkipped() { skipped_ = true; }
+  /// Notes an event, with the bytes of its header.
+  void Note(ByteView header, const LogEvent& event);
+  /// Returns the damaged parts so far, in the order of the log. Call after the last event.
+  std::vector<DamagedRange> Damage() const;
+  /// True if all bytes before the last TickChain of a log are as they were written.
+  bool intact() const { return bytes_damage_.empty() && !damaged_; }
+
+ private:
+  /// What was heard of a publisher since its last TickChain.
+  struct Heard {
+    std::int64_t messages = 0, tick = -1;
+    std::int32_t crc = 0;
+    std::set<std::string> channels;
+  };
+  using Publisher = std::tuple<std::string, std::int64_t, int>;  // room, session, peer
+  void CheckMessages(const Publisher& publisher, const TickChain& chain);
+  void CheckBytes(ByteView header, const LogEvent& event, const TickChain& chain);
+
+  std::map<Publisher, Heard> heard_;
+  std::vector<DamagedRange> messages_damage_;
+
+  // Since the last TickChain of a log.
+  std::uint32_t crc_;          // continued from it
+  std::uint32_t own_crc_ = 0;  // begun anew, as by a log that was appended to another
+  std::int64_t events_ = 0;
+  bool skipped_ = false;
+  std::set<std::string> channels_;
+  std::int64_t tick_ = -1;  // of the last good one
+
+  /// Ends the damaged part that began after tick_, if there is one.
+  void CloseDamage(std::int64_t last_tick);
+
+  bool damaged_ = false;  // something since tick_
+  std::set<std::string> damaged_channels_;
+  bool sealed_ = false;  // a RoomLog wrote this
+  std::vector<DamagedRange> bytes_damage_;
+};
+
+}  // namespace seam

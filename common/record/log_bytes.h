@@ -1,0 +1,17 @@
+#pragma once
+/// The bytes of an event of a log; the format is in log_file.h.
+
+#include <cstdint>
+#include <string>
+
+#include "common/base/bytes.h"
+
+namespace seam {
+
+/// Appends an event to `log`.
+void AppendEvent(Bytes* log, std::int64_t number, std::int64_t utime, const std::string& channel,
+                 ByteView message);
+/// Returns false if an event of this channel and size does not fit a log.
+bool FitsLog(const std::string& channel, ByteView message);
+
+}  // namespace seam

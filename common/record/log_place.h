@@ -1,0 +1,15 @@
+#pragma once
+/// A place in a log at which it can be gone on with.
+
+#include <cstdint>
+
+namespace seam {
+
+/// The end of a part of a log that ends with a TickChain.
+struct LogPlace {
+  std::int64_t bytes = 0;
+  std::int64_t number = 0;  ///< of the next event
+  std::uint32_t crc = 0;    ///< log_crc of that TickChain; 0: the log's begin
+};
+
+}  // namespace seam
