@@ -47,7 +47,15 @@ class Broadcast {
   /// Publishes on the bus only.
   template <class Message>
   void Publish(const Message& message) {
-    if (publisher_.listening()) publisher_.Publish(message);
+    if (publisher_.listening() && !muted_) publisher_.Publish(message);
+  }
+  /// While muted publishes nothing: a log has it already.
+  void Mute(bool muted) { muted_ = muted; }
+  /// Publishes the checksum of a tick, and of what was published before tick 0. The log has all of
+  /// it then, before the tick's datagrams leave.
+  void EndTick(std::int64_t now_us, bool stepped) {
+    if (!publisher_.listening() || (!stepped && !publisher_.pending())) return;
+    publisher_.EndTick(now_us, 0, std::max<std::int64_t>(0, replica_.tick()));
   }
   /// Publishes on the bus and sends reliably to every session that was sent the room.
   template <class Message>
@@ -181,6 +189,7 @@ class Broadcast {
   bool Plain() const { return !config_.policy->SelectsTraffic(); }
 
   Publisher publisher_;
+  bool muted_ = false;
   const bool views_;  // views of bodies are published
   const SyncConfig config_;
   const Policy::Simulators simulators_ = config_.policy->simulators();

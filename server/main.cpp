@@ -20,109 +20,16 @@
 #include "common/sync/method.h"
 #include "server/hub/hub.h"
 #include "server/hub/progress.h"
+#include "server/saved/resumed_room.h"
+#include "server/server_flags.h"
 
 namespace {
 
 using namespace seam;
+using Flags = ServerFlags;
 
-constexpr int kRoomsMax = 4096;
 /// Time between two polls for requests of the metrics page, us.
 constexpr std::int64_t kPageUs = 5000;
-
-struct Flags {
-  std::vector<std::string> scenes;
-  int port = 7777;
-  std::string bind = "0.0.0.0";
-  std::string mode = "buffer";
-  std::string reconcile;
-  std::string predict;
-  int input_delay_ticks = -1;  // -1: the scene's
-  std::string impair = "perfect";
-  std::int64_t seed = 1;
-  int send_hz = 30;
-  std::string budget;  // "": kClientBytesPerS
-  std::string room = "main";
-  int wait = -1;
-  double duration_s = -1;  // the scene's
-  std::string record;
-  bool force = false;
-  std::string lcm_url;
-  std::string publish = "all";
-  bool quiet = false;
-  bool doctor = false;
-  int rooms = 0;  // 0: one for each scene
-  int workers = 0;
-  std::string bus_rooms = "first";
-  int metrics_port = 0;
-};
-
-/// Parses bytes a second: "64kB/s", "64000". Throws OperatorError.
-double ParseBudget(const std::string& text) {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  std::string unit = end;
-  if (unit.size() >= 2 && unit.substr(unit.size() - 2) == "/s") unit.resize(unit.size() - 2);
-  double factor = 0;
-  if (unit.empty() || unit == "B") factor = 1;
-  if (unit == "kB") factor = 1e3;
-  if (unit == "MB") factor = 1e6;
-  const bool good = end != text.c_str() && factor > 0 && number >= 0 && number * factor <= 1e12;
-  if (good) return number * factor;
-  throw OperatorError("--budget takes bytes a second, such as 64kB/s, 1MB/s or 64000; 0: no limit");
-}
-
-std::string ProfilesText() {
-  std::string text = "\nnetwork profiles (--impair), each way:\n";
-  for (const ImpairProfile& p : Profiles()) text += "  " + p.name + ": " + p.about + "\n";
-  text += "  or delay=50ms,jitter=10ms,loss=1%,...\nreconcilers (--reconcile, mode buffer):\n";
-  for (const NamedReconciler& r : Reconcilers()) {
-    text += "  " + std::string(r.name) + ": " + r.about + "\n";
-  }
-  return text;
-}
-
-void Define(Command& app, Flags& f) {
-  app.Option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
-  app.Option("--port", f.port, "UDP port").Range(1, 65535);
-  app.Option("--bind", f.bind, "address to listen on");
-  app.Option("--mode", f.mode, "oracle | central | strict | buffer");
-  app.Option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
-  app.Option("--predict", f.predict,
-             "what clients of mode central simulate ahead: own | all (default all)");
-  app.Option("--input-delay", f.input_delay_ticks,
-             "ticks from reading an input to its acting, at every peer (default: the scene's)")
-      .Range(0, kInputDelayTicksMax);
-  app.Option("--impair", f.impair, "impair the network in both directions by a profile");
-  app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);
-  app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, kSendHzMax);
-  app.Option("--budget", f.budget,
-             "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
-  app.Option("--room", f.room, "name of the room in the channels; of several: NAME-1, NAME-2, ...");
-  app.Option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
-      .Range(1, kRoomsMax);
-  app.Option("--workers", f.workers, "threads that run several rooms (default: one per core)")
-      .Range(1, 256);
-  app.Option("--bus-rooms", f.bus_rooms, "of several rooms, which are on the LCM bus")
-      .OneOf({"first", "all", "none"});
-  app.Option("--metrics", f.metrics_port,
-             "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
-      .Range(1, 65535);
-  app.Option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
-      .Range(0, kPlayersMax);
-  app.Option("--duration", f.duration_s,
-             "seconds to run after tick 0 (0: until stopped; default: the scene's)")
-      .Range(0.0, 1e6);
-  app.Option("--record", f.record,
-             "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
-  app.Switch("--force", f.force, "replace the --record file");
-  app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
-  app.Option("--publish", f.publish,
-             "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
-             "at most " +
-                 std::to_string(kPublishAllMost) + " bodies, else own)");
-  app.Switch("--quiet", f.quiet, "no progress line, and not who comes and goes");
-  app.Switch("--doctor", f.doctor, "check that LCM works on this machine, and exit");
-}
 
 void CheckRoomName(const std::string& room, int rooms) {
   const bool good = IsName(RoomName(room, rooms - 1, rooms)) && IsName(room);
@@ -179,44 +86,106 @@ std::string LogOf(const std::string& record, const std::string& room, int rooms)
   return stem + "." + room + ending;
 }
 
+std::string ModeOf(const Flags& f) { return f.mode.empty() ? "buffer" : f.mode; }
+std::string ImpairOf(const Flags& f) { return f.impair.empty() ? "perfect" : f.impair; }
+
+/// Sets what is the same for new and resumed rooms. Requires the scene and the room's name.
+void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms, RoomPlan* plan) {
+  plan->config.impair = impair;
+  plan->config.publish = ParsePublish(f.publish);
+  if (!f.budget.empty()) plan->config.client_bytes_per_s = ParseBudget(f.budget);
+  plan->last_tick = LastTick(DurationOf(f, plan->scene), plan->scene.solver.tick_hz);
+  plan->profile = FindProfile(impair);
+  const bool on_bus = rooms == 1 || f.bus_rooms == "all" || (f.bus_rooms == "first" && index == 0);
+  plan->lcm_url = on_bus ? f.lcm_url : "none";
+  plan->alone = rooms == 1;
+  plan->news = !f.quiet;
+}
+
+/// Refuses flags that say what the folder of --resume says.
+void CheckResume(const Flags& f) {
+  const bool settles = !f.scenes.empty() || !f.mode.empty() || !f.reconcile.empty() ||
+                       !f.predict.empty() || f.input_delay_ticks >= 0 || f.rooms > 0;
+  if (settles || !f.record.empty() || !f.state.empty()) {
+    throw OperatorError(
+        "--resume takes the scene, the method, the rooms and their logs from its folder: not with "
+        "a scene, --mode, --reconcile, --predict, --input-delay, --rooms, --record or --state");
+  }
+}
+
+RoomPlan PlanOfResumed(const Flags& f, const std::string& name, int index, int rooms) {
+  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name));
+  const Room& room = resumed->saved->room();
+  RoomPlan plan;
+  plan.scene = resumed->saved->scene();
+  ServerConfig& config = plan.config;
+  config.sync = MakeSyncConfig(MethodNames{room.mode, room.reconcile, room.predict});
+  config.sync.input_delay_ticks = room.input_delay_ticks;
+  config.sync.tick_hz = room.tick_hz;
+  config.sync.send_hz = room.send_hz;
+  config.sync.seed = config.seed = room.seed;
+  config.room = name;
+  FinishPlan(f, f.impair.empty() ? room.impair : f.impair, index, rooms, &plan);
+  plan.state = f.resume;
+  plan.record = resumed->log;
+  plan.resumed = std::move(resumed);
+  return plan;
+}
+
 RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int rooms) {
   RoomPlan plan;
   plan.scene = LoadScene(FindScene(scene_name));
   const Scene& scene = plan.scene;
   ServerConfig& config = plan.config;
-  config.sync = MakeSyncConfig(MethodNames{f.mode, f.reconcile, f.predict});
+  config.sync = MakeSyncConfig(MethodNames{ModeOf(f), f.reconcile, f.predict});
   config.sync.input_delay_ticks =
       f.input_delay_ticks >= 0 ? f.input_delay_ticks : scene.input_delay_ticks;
   config.sync.tick_hz = scene.solver.tick_hz;
   config.sync.send_hz = std::min(f.send_hz, scene.solver.tick_hz);
   config.sync.seed = f.seed + index;
   config.room = RoomName(f.room, index, rooms);
-  config.impair = f.impair;
-  config.publish = ParsePublish(f.publish);
-  if (!f.budget.empty()) config.client_bytes_per_s = ParseBudget(f.budget);
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);
-  plan.last_tick = LastTick(DurationOf(f, scene), scene.solver.tick_hz);
-  plan.profile = FindProfile(f.impair);
-  const bool on_bus = rooms == 1 || f.bus_rooms == "all" || (f.bus_rooms == "first" && index == 0);
-  plan.lcm_url = on_bus ? f.lcm_url : "none";
-  plan.record = LogOf(f.record, config.room, rooms);
+  FinishPlan(f, ImpairOf(f), index, rooms, &plan);
   plan.force = f.force;
+  plan.record = LogOf(f.record, config.room, rooms);
+  if (!f.state.empty()) {
+    if (!f.record.empty()) throw OperatorError("--state records the room: not with --record");
+    if (config.sync.policy->IsOracle()) {
+      throw OperatorError("--state: nobody can join a running room of mode oracle");
+    }
+    PrepareStateFolder(f.state, config.room, f.force);
+    plan.state = f.state;
+    plan.record = StateLogOf(f.state, config.room);
+  }
   if (!plan.record.empty()) RequireOutput(plan.record, plan.force, {FindScene(scene_name)});
-  plan.alone = rooms == 1;
-  plan.news = !f.quiet;
   return plan;
 }
 
-int Serve(const Flags& f) {
+std::vector<RoomPlan> MakePlans(const Flags& f) {
+  std::vector<RoomPlan> plans;
+  if (!f.resume.empty()) {
+    CheckResume(f);
+    const std::vector<std::string> names = RoomsIn(f.resume);
+    const int rooms = static_cast<int>(names.size());
+    for (int r = 0; r < rooms; ++r) {
+      plans.push_back(PlanOfResumed(f, names[static_cast<std::size_t>(r)], r, rooms));
+    }
+    return plans;
+  }
   if (f.scenes.empty()) throw OperatorError(WhichScene());
   const int rooms = f.rooms > 0 ? f.rooms : static_cast<int>(f.scenes.size());
   CheckRoomName(f.room, rooms);
-  if (f.workers > 0 && rooms == 1) throw OperatorError("--workers: one room has one thread");
-  std::vector<RoomPlan> plans;
   for (int r = 0; r < rooms; ++r) {
     plans.push_back(MakePlan(f, f.scenes[static_cast<std::size_t>(r) % f.scenes.size()], r, rooms));
   }
+  return plans;
+}
+
+int Serve(const Flags& f) {
+  const std::vector<RoomPlan> plans = MakePlans(f);
+  const int rooms = static_cast<int>(plans.size());
+  if (f.workers > 0 && rooms == 1) throw OperatorError("--workers: one room has one thread");
   UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));
   std::unique_ptr<HttpPage> page;
   if (f.metrics_port > 0) {
@@ -231,10 +200,12 @@ int Serve(const Flags& f) {
   const std::string what = rooms == 1 ? plans[0].scene.name : std::to_string(rooms) + " rooms";
   std::fprintf(stderr,
                "seam-server: %s, mode %s%s%s, network %s, on %s\n"
-               "seam-server: waiting for %d player(s)%s%s\n",
-               what.c_str(), f.mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
-               f.impair.c_str(), ToString(udp.local()).c_str(), plans[0].config.wait_players,
-               rooms == 1 ? "" : " in the first", Ending(DurationOf(f, plans[0].scene)).c_str());
+               "seam-server: %s %d player(s)%s%s\n",
+               what.c_str(), NamesOf(sync).mode.c_str(), variant.empty() ? "" : " ",
+               variant.c_str(), plans[0].config.impair.c_str(), ToString(udp.local()).c_str(),
+               f.resume.empty() ? "waiting for" : "goes on, waiting for",
+               plans[0].config.wait_players, rooms == 1 ? "" : " in the first",
+               Ending(DurationOf(f, plans[0].scene)).c_str());
   ProgressLine line(f.quiet);
   std::int64_t page_us = 0;
   while (g_stop == 0 && !hub.done()) {
@@ -267,7 +238,7 @@ int main(int argc, char** argv) {
       ProfilesText(),
       {{"scene", SceneNames()}, {"--impair", ProfileNames()}, {"--reconcile", ReconcilerNames()}}};
   return RunCommandLine(
-      text, argc, argv, [&](Command& app) { Define(app, flags); },
+      text, argc, argv, [&](Command& app) { DefineServerFlags(app, flags); },
       [&] {
         if (!flags.doctor) return Serve(flags);
         const DoctorReport report = RunDoctor(flags.lcm_url);

@@ -111,6 +111,9 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
                                      sessions_.WorstLossPpm()));
     sessions_.ReadAccounts(&stats_.connections);
   }
+  if (replica_.tick() != before || !started()) {
+    broadcast_.EndTick(now_us, replica_.tick() != before);
+  }
   broadcast_.SendWaiting(now_us, replica_.tick() != before);
   RelayInputs(now_us);
   sessions_.Flush(now_us, &stats_.counters);
@@ -291,6 +294,7 @@ std::vector<std::string> Server::TakeWarnings() {
 bool Server::script_stopped() const { return rules_ != nullptr && rules_->stopped(); }
 
 void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
+  broadcast_.EndTick(now_us, false);
   sessions_.Close(now_us, reason, &stats_.counters);
 }
 

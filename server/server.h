@@ -34,6 +34,8 @@ class RoomState;
 class Rules;
 class SavedRoom;
 class ServerCommands;
+struct LogTail;
+struct LogTick;
 
 /// Most datagrams taken in one call: a flood must not keep rooms from stepping.
 constexpr int kDatagramsMax = 4096;
@@ -61,10 +63,10 @@ class Server {
          Entropy& entropy);
   ~Server();
 
-  /// Continues the saved room at `now_us`, as if all its clients had left. Players' places are
-  /// reserved as before. Returns one line if the bytes are damaged; the server must then not be
-  /// used any more.
-  Status Resume(const SavedRoom& saved, std::int64_t now_us);
+  /// Continues the saved room at `now_us`, after the ticks of the log's `tail` if there is one, as
+  /// if all its clients had left then. Players' places are reserved as before. Returns one line if
+  /// the bytes are damaged; the server must then not be used any more.
+  Status Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail = nullptr);
   /// Returns the room's state as bytes; see RoomState::Save. Not in mode oracle, where no peer can
   /// join a room that runs.
   Bytes Save(std::int64_t now_us);
@@ -75,6 +77,8 @@ class Server {
   bool stats_due(std::int64_t now_us) const { return stats_.Due(now_us); }
   /// Time at which the next tick is due, on the clock of Tick; INT64_MAX before the room starts.
   std::int64_t next_tick_us() const;
+  /// Publishes the room's load.
+  void PublishLoad(const Load& load) { broadcast_.Publish(load); }
   /// Says goodbye to everyone. Tick must not be called afterwards.
   void Shutdown(std::int64_t now_us, const std::string& reason);
 
@@ -125,6 +129,11 @@ class Server {
          Recorder& recorder, Entropy& entropy);
   // server_state.cpp
   RoomState State();
+
+  // server_replay.cpp
+  /// `players`: those that were in the room.
+  void ReplayTail(std::int64_t now_us, const LogTail& tail, const std::vector<int>& players);
+  void ReplayTick(std::int64_t now_us, const LogTick& log);
 
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);

@@ -1,5 +1,6 @@
 #include "server/server_commands.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/physics/part_places.h"
@@ -40,7 +41,8 @@ void ServerCommands::Warn(const std::string& text) {
 }
 
 bool ServerCommands::Present(int player) const {
-  return sessions_.PeerOfPlayer()[static_cast<std::size_t>(player)] >= 0;
+  return sessions_.PeerOfPlayer()[static_cast<std::size_t>(player)] >= 0 ||
+         std::count(assumed_.begin(), assumed_.end(), player) > 0;
 }
 
 Input ServerCommands::ReadInput(int player) const {

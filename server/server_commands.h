@@ -32,6 +32,8 @@ class ServerCommands : public RoomCommands {
   bool Present(int player) const override;
   Input ReadInput(int player) const override;
 
+  /// Makes these players present besides those with a session, until the next call.
+  void AssumePresent(const std::vector<int>& players) { assumed_ = players; }
   /// Returns the lines said since the last call, warnings included.
   std::vector<std::string> TakeSaid() { return std::exchange(said_, {}); }
   std::vector<std::string> TakeWarnings() { return std::exchange(warnings_, {}); }
@@ -44,6 +46,7 @@ class ServerCommands : public RoomCommands {
   EditLog& edits_;
   const SessionTable& sessions_;
   std::vector<std::string> said_, warnings_;
+  std::vector<int> assumed_;  // players
 };
 
 }  // namespace seam

@@ -15,10 +15,14 @@ RoomState Server::State() {
 
 Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }
 
-Status Server::Resume(const SavedRoom& saved, std::int64_t now_us) {
+Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail) {
   std::vector<int> gone;
   Status status = State().Load(saved, now_us, &gone);
   if (!status.ok()) return status;
+  if (tail != nullptr && started()) {
+    ReplayTail(now_us, *tail, gone);
+    clock_.GoOn(now_us, replica_.tick());
+  }
   if (commands_ != nullptr) commands_->TakeSaid();  // scripts have run their code once more
   bool held = false, wanted = false;
   for (int m = 0; m < replica_.authority().count(); ++m) {

@@ -41,6 +41,13 @@ void MetaTable::Apply(const Meta& meta) {
   }
 }
 
+void MetaTable::Announce(const Meta& meta) {
+  Apply(meta);
+  for (std::size_t i = 0; i < meta.id.size(); ++i) {
+    told_[{meta.kind[i], meta.id[i], meta.key[i]}] = meta.value[i];
+  }
+}
+
 std::vector<Meta> MetaTable::TakeChanges(std::int64_t utime, std::int64_t tick) {
   std::vector<Meta> messages;
   for (const auto& [key, value] : values_) {

@@ -38,6 +38,8 @@ class MetaTable {
 
   /// Applies the server's message. Messages come in order, so the last value stands.
   void Apply(const Meta& meta);
+  /// The same at the server: they count as announced.
+  void Announce(const Meta& meta);
   /// Returns the values changed since the last call, in messages of at most kMetaMax.
   std::vector<Meta> TakeChanges(std::int64_t utime, std::int64_t tick);
   /// Returns all values, for a client that joins late.

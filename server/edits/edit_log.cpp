@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/base/state_archive.h"
+#include "common/codec/codec.h"
 #include "common/physics/part_places.h"
 #include "common/sync/edits/topology_snapshot.h"
 #include "server/edits/proposal.h"
@@ -63,6 +64,14 @@ class TakenParts {
  private:
   std::map<PartId, By> by_;
 };
+
+/// Returns the order without what is not the edit itself.
+EditOrder Unnumbered(EditOrder order) {
+  order.utime = order.tick = order.sequence = 0;
+  order.session = 1;
+  order.number = -1;
+  return order;
+}
 
 }  // namespace
 
@@ -192,6 +201,21 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
     ++waiting_of_peer_[static_cast<std::size_t>(pending.peer)];
   }
   return batch;
+}
+
+void EditLog::NoteOrdered(const EditOrder& order) {
+  const auto same = [&](const Pending& pending) {
+    EditOrder is = ToOrder(pending.edit);
+    is.cause = order.cause;  // physics may have found what was proposed from outside
+    return Encode(Unnumbered(is)) == Encode(Unnumbered(order));
+  };
+  const auto found = std::find_if(pending_.begin(), pending_.end(), same);
+  if (found != pending_.end()) {
+    --waiting_of_peer_[static_cast<std::size_t>(found->peer)];
+    pending_.erase(found);
+  }
+  ordered_ = order.number + 1;
+  last_tick_ = std::max(last_tick_, order.tick);
 }
 
 std::optional<EditOrder> EditLog::NoteApplied(const Edit& edit, std::int64_t) {

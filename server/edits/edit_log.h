@@ -51,6 +51,9 @@ class EditLog {
     /// True if the orders are final and go on the bus; else NoteApplied returns those that do.
     bool numbered = true;
   };
+  /// Notes an order of an earlier server that goes on here: the next number follows it, and the
+  /// edit is not pending any more. It must be applied like one of OrderPending.
+  void NoteOrdered(const EditOrder& order);
   /// Numbers all edits that can be ordered now. The caller must apply them one by one, each
   /// followed by NoteApplied, before the next call.
   virtual Batch OrderPending(std::int64_t now_us);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/base/check.h"
 #include "common/base/process.h"
 
 namespace seam {
@@ -18,16 +19,49 @@ Net& Through(const ImpairProfile& profile, Net& direct, Net& impaired) {
   return profile.name == "perfect" ? direct : impaired;
 }
 
+Sink MakeSink(const RoomPlan& plan) {
+  const bool goes_on = plan.resumed != nullptr && !plan.resumed->new_log;
+  if (!goes_on) return Sink(plan.lcm_url, plan.record, plan.force, plan.config.room);
+  return Sink(plan.lcm_url, plan.record, plan.resumed->tail.end, plan.config.room);
+}
+
 }  // namespace
 
 HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net& out)
     : plan_(plan),
       net_(finder, index, out),
       impaired_(net_, plan.profile, plan.profile, static_cast<std::uint64_t>(plan.config.seed)),
-      sink_(plan.lcm_url, plan.record, plan.force, plan.config.room),
-      server_(plan_.scene, plan_.config, Through(plan.profile, net_, impaired_), sink_, entropy_),
-      publisher_(sink_, plan.config.room, server_.room().session) {
+      sink_(MakeSink(plan)) {
+  Net& net = Through(plan.profile, net_, impaired_);
   newest_.room = plan.config.room;
+  if (!plan.state.empty()) {
+    keeper_ = std::make_unique<RoomKeeper>(plan.state, plan.config.room, sink_);
+  }
+  if (plan.resumed == nullptr) {
+    server_ = std::make_unique<Server>(plan_.scene, plan_.config, net, sink_, entropy_);
+  } else {
+    server_ = std::make_unique<Server>(*plan.resumed->saved, plan_.config, net, sink_, entropy_);
+    GoOn(*plan.resumed);
+  }
+}
+
+void HostedRoom::GoOn(const ResumedRoom& resumed) {
+  const std::int64_t begin_us = SteadyClockUs();
+  const Status status = server_->Resume(*resumed.saved, begin_us, &resumed.tail);
+  if (!status.ok()) throw OperatorError(plan_.state + ": " + status.why());
+  news_ = resumed.notes;
+  char line[200];
+  std::snprintf(line, sizeof line,
+                "resumed at tick %lld: snapshot of tick %lld and %lld ticks of the log, in %.0f ms",
+                static_cast<long long>(server_->tick()), static_cast<long long>(resumed.saved_tick),
+                static_cast<long long>(server_->tick() - resumed.saved_tick),
+                static_cast<double>(SteadyClockUs() - begin_us) * 1e-3);
+  news_.push_back(line);
+}
+
+Status HostedRoom::trouble() const {
+  if (!sink_.trouble().ok() || keeper_ == nullptr) return sink_.trouble();
+  return keeper_->trouble();
 }
 
 void HostedRoom::Run(std::int64_t now_us) {
@@ -36,13 +70,14 @@ void HostedRoom::Run(std::int64_t now_us) {
     DrainNetwork(now_us);
     return;
   }
-  const std::int64_t tick = server_.tick(), due_us = server_.next_tick_us();
+  const std::int64_t tick = server_->tick(), due_us = server_->next_tick_us();
   const std::int64_t cpu_us = plan_.alone ? 0 : ThreadCpuUs();
-  server_.Tick(now_us, CpuForStats(now_us));
+  server_->Tick(now_us, CpuForStats(now_us));
   sink_.Poll();
-  watch_.NoteCall(server_, now_us, SteadyClockUs() - now_us, tick, due_us);
+  watch_.NoteCall(*server_, now_us, SteadyClockUs() - now_us, tick, due_us);
   if (!plan_.alone) watch_.NoteCpu(ThreadCpuUs() - cpu_us);
-  if (server_.tick() != tick) NoteTicks();
+  if (server_->tick() != tick) NoteTicks();
+  if (server_->tick() != tick && keeper_ != nullptr) keeper_->AfterTick(*server_, now_us);
   CollectReports();
   if (watch_.Due(now_us)) Tell(now_us);
   EndIfDone(now_us);
@@ -52,11 +87,11 @@ void HostedRoom::Run(std::int64_t now_us) {
 /// only when Stats are due.
 std::int64_t HostedRoom::CpuForStats(std::int64_t now_us) const {
   if (!plan_.alone) return watch_.cpu_us();
-  return server_.stats_due(now_us) ? CpuUs() : 0;
+  return server_->stats_due(now_us) ? CpuUs() : 0;
 }
 
 void HostedRoom::EndIfDone(std::int64_t now_us) {
-  if (plan_.last_tick == 0 || server_.tick() < plan_.last_tick) return;
+  if (plan_.last_tick == 0 || server_->tick() < plan_.last_tick) return;
   Close(now_us);
   const std::lock_guard<std::mutex> lock(mutex_);
   done_ = true;
@@ -66,7 +101,7 @@ std::int64_t HostedRoom::due_us() const {
   if (done()) {
     return impaired_.sending() ? ran_us_ + kRunUs : std::numeric_limits<std::int64_t>::max();
   }
-  return std::min({server_.next_tick_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
+  return std::min({server_->next_tick_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
 }
 
 void HostedRoom::NoteTicks() {
@@ -77,28 +112,28 @@ void HostedRoom::NoteTicks() {
 
 void HostedRoom::Tell(std::int64_t now_us) {
   if (plan_.alone) watch_.NoteCpu(CpuUs() - watch_.cpu_us());
-  const Load load = watch_.Tell(now_us, server_, net_.traffic());
-  publisher_.Publish(load);
+  const Load load = watch_.Tell(now_us, *server_, net_.traffic());
+  server_->PublishLoad(load);
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_.load = load;
-  newest_.connections = server_.connections();
+  newest_.connections = server_->connections();
 }
 
 /// Prefixes each event with its time: "12.3 s: bob is gone: left".
 void HostedRoom::CollectReports() {
-  std::vector<std::string> told = server_.TakeWarnings();
-  const std::vector<std::string> come_and_gone = server_.TakeReports();
+  std::vector<std::string> told = server_->TakeWarnings();
+  const std::vector<std::string> come_and_gone = server_->TakeReports();
   if (plan_.news && !come_and_gone.empty()) {
     char when[40] = "";
-    if (server_.started()) {
-      const auto tick = static_cast<double>(std::max<std::int64_t>(0, server_.tick()));
+    if (server_->started()) {
+      const auto tick = static_cast<double>(std::max<std::int64_t>(0, server_->tick()));
       std::snprintf(when, sizeof when, "%.1f s: ", tick / plan_.config.sync.tick_hz);
     }
     for (const std::string& news : come_and_gone) told.push_back(when + news);
   }
-  if (!trouble_reported_ && !sink_.trouble().ok()) {
+  if (!trouble_reported_ && !trouble().ok()) {
     trouble_reported_ = true;
-    told.push_back(sink_.trouble().why() + "; the room runs on");
+    told.push_back(trouble().why() + "; the room runs on");
   }
   if (told.empty()) return;
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -123,8 +158,11 @@ std::vector<std::string> HostedRoom::TakeReports() {
 }
 
 void HostedRoom::Close(std::int64_t now_us) {
-  if (!done()) server_.Shutdown(now_us, "the server stops");
   sink_.Poll();
+  if (!done()) {
+    if (keeper_ != nullptr) keeper_->Finish(*server_, now_us);
+    server_->Shutdown(now_us, "the server stops");
+  }
   sink_.Flush();
 }
 

@@ -11,10 +11,11 @@
 #include "common/net/impair.h"
 #include "common/record/load_page.h"
 #include "common/record/sink.h"
-#include "common/sync/publisher.h"
 #include "server/hub/lanes.h"
 #include "server/hub/room_net.h"
 #include "server/load/load_watch.h"
+#include "server/saved/resumed_room.h"
+#include "server/saved/room_keeper.h"
 
 namespace seam {
 
@@ -27,6 +28,8 @@ struct RoomPlan {
   std::string lcm_url = "none";
   std::string record;  ///< path of its log; "": none
   bool force = false;
+  std::string state;  ///< folder in which the room is kept, with its log; "": none
+  std::shared_ptr<const ResumedRoom> resumed;  ///< the room to go on with; null: it begins
   bool alone = true;  ///< only room of the program: reports the program's CPU time
   bool news = true;   ///< reports players that come and go
 };
@@ -59,10 +62,14 @@ class HostedRoom : public Runnable {
   void Close(std::int64_t now_us);
   /// Advances the simulated network; false if nothing is in flight any more.
   bool DrainNetwork(std::int64_t now_us);
-  const Server& server() const { return server_; }
+  const Server& server() const { return *server_; }
   const Scene& scene() const { return plan_.scene; }
   const ServerConfig& config() const { return plan_.config; }
   const Sink& sink() const { return sink_; }
+  /// Returns the first failure to write the log or a snapshot.
+  Status trouble() const;
+  /// The room's snapshots; nullptr if it is not kept.
+  const RoomKeeper* keeper() const { return keeper_.get(); }
   std::int64_t last_tick() const { return plan_.last_tick; }
   /// Returns the wall time of all ticks so far.
   const DurationHistogram& tick_times() const { return watch_.session(); }
@@ -73,14 +80,15 @@ class HostedRoom : public Runnable {
   void Tell(std::int64_t now_us);
   void CollectReports();
   void EndIfDone(std::int64_t now_us);
+  void GoOn(const ResumedRoom& resumed);
 
   const RoomPlan plan_;
   RoomNet net_;
   ImpairedNet impaired_;
   Sink sink_;
   OsEntropy entropy_;
-  Server server_;
-  Publisher publisher_;  // for its Loads
+  std::unique_ptr<Server> server_;
+  std::unique_ptr<RoomKeeper> keeper_;  // null: the room is not kept
   LoadWatch watch_;
   std::int64_t ran_us_ = 0;
   bool trouble_reported_ = false;

@@ -83,7 +83,12 @@ int ReportEnd(const Hub& hub) {
       std::fprintf(stderr, "room %s:\n", room->newest().room.c_str());
     }
     std::fputs(table.c_str(), stderr);
-    status = std::max(status, recording.End(room->sink().trouble()));
+    if (const RoomKeeper* keeper = room->keeper()) {
+      std::fprintf(stderr, "seam-server: the last snapshot has %.1f kB; one took at most %.2f ms\n",
+                   static_cast<double>(keeper->bytes()) * 1e-3,
+                   static_cast<double>(keeper->longest_us()) * 1e-3);
+    }
+    status = std::max(status, recording.End(room->trouble()));
     if (room->server().script_stopped()) status = std::max(status, 1);
   }
   return status;

@@ -79,6 +79,8 @@ class Rules {
   void Persist(StateArchive& a);
 
   const MetaTable& metadata() const { return table_; }
+  /// Sets values that were announced before, in a tick that is done again.
+  void Correct(const Meta& announced) { table_.Announce(announced); }
   std::vector<Meta> TakeChanges(std::int64_t utime) {
     return table_.TakeChanges(utime, world_.tick());
   }

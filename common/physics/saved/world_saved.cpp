@@ -45,6 +45,7 @@ void Persist(StateArchive& a, WorldSnapshot* snapshot) {
     a.Word(&point->pair);
     a.Word(&point->feature);
     a.Real(&point->normal, kImpulseMax);
+    if (a.reading()) a.Require(point->normal >= 0, "a contact pulls");  // the engine asserts it
     a.Real(&point->tangent, kImpulseMax);
   });
   a.List(&snapshot->joints, kPointsMost, [&](std::vector<float>* impulses) {

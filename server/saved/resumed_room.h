@@ -1,0 +1,33 @@
+#pragma once
+/// Finds the rooms in a folder of --state, and all that a server needs to go on with them.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/room_state.h"
+#include "server/saved/log_tail.h"
+
+namespace seam {
+
+struct ResumedRoom {
+  std::unique_ptr<const SavedRoom> saved;
+  std::int64_t saved_tick = 0;
+  LogTail tail;
+  std::string log;                 ///< path; it goes on at tail.end
+  bool new_log = false;            ///< the old one cannot be gone on with, and was put aside
+  std::vector<std::string> notes;  ///< lines for the operator: what is damaged, what is lost
+};
+
+/// Returns the path of a room's log in such a folder.
+std::string StateLogOf(const std::string& folder, const std::string& room);
+/// Returns the names of the rooms in it. Throws OperatorError if there are none.
+std::vector<std::string> RoomsIn(const std::string& folder);
+/// Reads a room: of its snapshots the newest that is whole and of this version, and its log from
+/// there on. Throws OperatorError if there is none. Renames a log that is damaged behind that.
+ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room);
+/// Makes the folder if there is none. Throws OperatorError if that cannot be, or if it holds this
+/// room and `force` is not given; with `force` removes the room.
+void PrepareStateFolder(const std::string& folder, const std::string& room, bool force);
+
+}  // namespace seam

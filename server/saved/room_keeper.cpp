@@ -1,0 +1,54 @@
+#include "server/saved/room_keeper.h"
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "common/base/process.h"
+#include "common/sync/mode.h"
+#include "server/saved/snapshot_file.h"
+#include "server/server.h"
+
+namespace seam {
+
+RoomKeeper::RoomKeeper(std::string folder, std::string room, Sink& sink)
+    : folder_(std::move(folder)), room_(std::move(room)), sink_(sink) {}
+
+void RoomKeeper::AfterTick(Server& server, std::int64_t now_us) {
+  const int tick_hz = server.room().tick_hz;
+  const bool due = server.tick() >= next_tick_ && server.tick() % BarrierEvery(tick_hz) == 0;
+  if (!server.started() || server.tick() < 1 || !due || shared_->writing) return;
+  next_tick_ = server.tick() + kSnapshotS * tick_hz;
+  Save(server, now_us);
+}
+
+void RoomKeeper::Save(Server& server, std::int64_t now_us) {
+  const std::int64_t begin_us = SteadyClockUs();
+  RoomSnapshot snapshot{server.tick(), sink_.place(), server.Save(now_us)};
+  longest_us_ = std::max(longest_us_, SteadyClockUs() - begin_us);
+  bytes_ = snapshot.room.size();
+  shared_->writing = true;
+  sink_.disk().Do(
+      [shared = shared_, folder = folder_, room = room_, snapshot = std::move(snapshot)] {
+        const Status status = WriteSnapshot(folder, room, snapshot);
+        shared->writing = false;
+        const std::lock_guard<std::mutex> lock(shared->mutex);
+        if (!status.ok() && shared->trouble.ok()) shared->trouble = status;
+      });
+}
+
+void RoomKeeper::Finish(Server& server, std::int64_t now_us) {
+  if (!server.started() || server.tick() < 1) return;
+  sink_.Flush();
+  Save(server, now_us);
+  std::promise<void> done;
+  sink_.disk().Do([&done] { done.set_value(); });
+  done.get_future().wait();
+}
+
+Status RoomKeeper::trouble() const {
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->trouble;
+}
+
+}  // namespace seam

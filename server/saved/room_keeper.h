@@ -1,0 +1,55 @@
+#pragma once
+/// Saves a room while it runs: a snapshot at a barrier each kSnapshotS, copied in the tick and
+/// written by the recording's DiskThread.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "common/base/status.h"
+#include "common/record/sink.h"
+
+namespace seam {
+
+class Server;
+
+/// Time between two snapshots, s: as much is stepped again when the room is resumed.
+constexpr int kSnapshotS = 5;
+
+class RoomKeeper {
+ public:
+  /// Keeps the room in `folder`. Its log must go to `sink`, which must outlive this.
+  RoomKeeper(std::string folder, std::string room, Sink& sink);
+
+  /// Call after each Server::Tick that has stepped. Saves the room if that is due and possible:
+  /// rooms go back to barriers, and only at these saving changes nothing.
+  void AfterTick(Server& server, std::int64_t now_us);
+  /// Saves the room as it is, and waits until it is written.
+  void Finish(Server& server, std::int64_t now_us);
+
+  /// Returns the first failure to write a snapshot.
+  Status trouble() const;
+  /// Longest time that a snapshot took in a tick, us, and bytes of the last one.
+  std::int64_t longest_us() const { return longest_us_; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  /// What the thread uses, maybe after this object.
+  struct Shared {
+    std::mutex mutex;  // guards trouble
+    Status trouble;
+    std::atomic<bool> writing{false};
+  };
+  void Save(Server& server, std::int64_t now_us);
+
+  const std::string folder_, room_;
+  Sink& sink_;
+  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
+  std::int64_t next_tick_ = 0;
+  std::int64_t longest_us_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace seam

@@ -1,0 +1,153 @@
+#include "server/saved/snapshot_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "common/base/check.h"
+#include "common/base/plain_file.h"
+#include "common/net/crc32c.h"
+
+namespace seam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kSnapshotMagic[8] = {'S', 'E', 'A', 'M', 'S', 'N', 'A', 'P'};
+constexpr const char* kSnapshotEnding = ".snapshot";
+/// Most bytes read of a snapshot, normal 1 MB.
+constexpr std::size_t kSnapshotBytesMax = std::size_t{1} << 30;
+
+struct FileHeader {
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t crc;
+  std::int64_t tick;
+  std::int64_t log_bytes, log_number;
+  std::uint32_t log_crc;
+  std::uint32_t unused;
+};
+/// The checksum is of all bytes behind itself.
+constexpr std::size_t kCheckedFrom = 16;
+
+std::uint32_t ChecksumOf(ByteView header, ByteView room) {
+  return Crc32c(room, Crc32c({header.data + kCheckedFrom, header.size - kCheckedFrom}));
+}
+
+std::string SnapshotPath(const std::string& folder, const std::string& room, std::int64_t tick) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%012lld", static_cast<long long>(tick));
+  return (fs::path(folder) / (room + "-" + number + kSnapshotEnding)).string();
+}
+
+/// Writes a file and waits for the disk.
+Status WriteWhole(const std::string& path, ByteView a, ByteView b) {
+  const auto failed = [&](int error) {
+    return Status::Error(path + ": cannot be written: " + std::strerror(error));
+  };
+  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) return failed(errno);
+  int error = 0;
+  for (ByteView left : {a, b}) {
+    while (error == 0 && left.size > 0) {
+      const ssize_t now = write(fd, left.data, left.size);
+      if (now < 0 && errno == EINTR) continue;
+      if (now <= 0) {
+        error = now == 0 ? ENOSPC : errno;
+        break;
+      }
+      left = {left.data + now, left.size - static_cast<std::size_t>(now)};
+    }
+  }
+  if (error == 0 && fsync(fd) != 0) error = errno;
+  if (close(fd) != 0 && error == 0) error = errno;
+  return error == 0 ? Status::Ok() : failed(error);
+}
+
+void SyncFolder(const std::string& folder) {
+  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  fsync(fd);
+  close(fd);
+}
+
+}  // namespace
+
+std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room) {
+  std::vector<SnapshotName> all;
+  std::error_code error;
+  const std::string begin = room + "-";
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != kSnapshotEnding || name.rfind(begin, 0) != 0) continue;
+    const std::string number = entry.path().stem().string().substr(begin.size());
+    const bool digits = !number.empty() && number.size() <= 18 &&
+                        number.find_first_not_of("0123456789") == std::string::npos;
+    if (digits) all.push_back({std::atoll(number.c_str()), entry.path().string()});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const SnapshotName& a, const SnapshotName& b) { return a.tick > b.tick; });
+  return all;
+}
+
+Status WriteSnapshot(const std::string& folder, const std::string& room,
+                     const RoomSnapshot& snapshot) {
+  FileHeader header{};
+  std::memcpy(header.magic, kSnapshotMagic, sizeof kSnapshotMagic);
+  header.version = kSnapshotVersion;
+  header.tick = snapshot.tick;
+  header.log_bytes = snapshot.log.bytes;
+  header.log_number = snapshot.log.number;
+  header.log_crc = snapshot.log.crc;
+  const ByteView head(reinterpret_cast<const std::uint8_t*>(&header), sizeof header);
+  header.crc = ChecksumOf(head, snapshot.room);
+  const std::string path = SnapshotPath(folder, room, snapshot.tick);
+  const std::string unfinished = path + ".tmp";
+  Status status = WriteWhole(unfinished, head, snapshot.room);
+  if (status.ok() && std::rename(unfinished.c_str(), path.c_str()) != 0) {
+    status = Status::Error(path + ": cannot be written: " + std::strerror(errno));
+  }
+  if (!status.ok()) {
+    std::remove(unfinished.c_str());
+    return status;
+  }
+  SyncFolder(folder);
+  const std::vector<SnapshotName> all = ListSnapshots(folder, room);
+  for (std::size_t i = kSnapshotsKept; i < all.size(); ++i) std::remove(all[i].path.c_str());
+  return status;
+}
+
+Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot) {
+  std::string bytes;
+  try {
+    bytes = ReadPlainFile(path, kSnapshotBytesMax);
+  } catch (const OperatorError& error) {
+    return Status::Error(error.what());
+  }
+  const auto refuse = [&](const std::string& why) { return Status::Error(path + ": " + why); };
+  FileHeader header{};
+  if (bytes.size() < sizeof header) return refuse("is damaged: it is too short");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (std::memcmp(header.magic, kSnapshotMagic, sizeof kSnapshotMagic) != 0) {
+    return refuse("is damaged, or no snapshot");
+  }
+  if (header.version != kSnapshotVersion) {
+    return refuse("is of version " + std::to_string(header.version) + ", this server reads " +
+                  std::to_string(kSnapshotVersion));
+  }
+  const ByteView all = TextBytes(bytes);
+  const ByteView room(all.data + sizeof header, all.size - sizeof header);
+  if (header.crc != ChecksumOf({all.data, sizeof header}, room)) return refuse("is damaged");
+  snapshot->tick = header.tick;
+  snapshot->log = {header.log_bytes, header.log_number, header.log_crc};
+  snapshot->room.assign(room.begin(), room.end());
+  return Status::Ok();
+}
+
+}  // namespace seam

@@ -1,0 +1,44 @@
+#pragma once
+/// A saved room in a file, with the place in the room's log up to which it goes.
+///
+///   magic 8 bytes | version u32 | CRC-32C u32 of all that follows | tick i64
+///   | log: bytes i64, number i64, crc u32 | unused u32 | bytes of RoomState::Save   (this
+///   machine's byte order)
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/bytes.h"
+#include "common/base/status.h"
+#include "common/record/room_log.h"
+
+namespace seam {
+
+/// Version of the file around the room; RoomState has its own.
+constexpr std::uint32_t kSnapshotVersion = 1;
+/// Snapshots of a room that are kept: the newest, and the one before in case that one is damaged.
+constexpr int kSnapshotsKept = 2;
+
+struct RoomSnapshot {
+  std::int64_t tick = 0;
+  LogPlace log;  ///< all before it is in `room`
+  Bytes room;    ///< of RoomState::Save
+};
+
+/// A snapshot's file.
+struct SnapshotName {
+  std::int64_t tick = 0;
+  std::string path;
+};
+
+/// Returns the snapshots of a room in a folder, newest first.
+std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room);
+/// Writes a snapshot that appears whole or not at all (a file of its own, fsync, rename), and
+/// removes those older than the last kSnapshotsKept. Returns one line if it cannot.
+Status WriteSnapshot(const std::string& folder, const std::string& room,
+                     const RoomSnapshot& snapshot);
+/// Reads a snapshot; trusts no byte. Returns one line if it cannot be read or is damaged.
+Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot);
+
+}  // namespace seam

@@ -1,0 +1,91 @@
+#include "server/server_flags.h"
+
+#include <cstdlib>
+
+#include "common/base/check.h"
+#include "common/base/limits.h"
+#include "common/net/impair.h"
+#include "common/sync/lease.h"
+#include "common/sync/method.h"
+#include "common/sync/publish.h"
+
+namespace seam {
+namespace {
+
+constexpr int kRoomsMax = 4096;
+
+}  // namespace
+
+double ParseBudget(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  std::string unit = end;
+  if (unit.size() >= 2 && unit.substr(unit.size() - 2) == "/s") unit.resize(unit.size() - 2);
+  double factor = 0;
+  if (unit.empty() || unit == "B") factor = 1;
+  if (unit == "kB") factor = 1e3;
+  if (unit == "MB") factor = 1e6;
+  const bool good = end != text.c_str() && factor > 0 && number >= 0 && number * factor <= 1e12;
+  if (good) return number * factor;
+  throw OperatorError("--budget takes bytes a second, such as 64kB/s, 1MB/s or 64000; 0: no limit");
+}
+
+std::string ProfilesText() {
+  std::string text = "\nnetwork profiles (--impair), each way:\n";
+  for (const ImpairProfile& p : Profiles()) text += "  " + p.name + ": " + p.about + "\n";
+  text += "  or delay=50ms,jitter=10ms,loss=1%,...\nreconcilers (--reconcile, mode buffer):\n";
+  for (const NamedReconciler& r : Reconcilers()) {
+    text += "  " + std::string(r.name) + ": " + r.about + "\n";
+  }
+  return text;
+}
+
+void DefineServerFlags(Command& app, ServerFlags& f) {
+  app.Option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
+  app.Option("--port", f.port, "UDP port").Range(1, 65535);
+  app.Option("--bind", f.bind, "address to listen on");
+  app.Option("--mode", f.mode, "oracle | central | strict | buffer (default buffer)");
+  app.Option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
+  app.Option("--predict", f.predict,
+             "what clients of mode central simulate ahead: own | all (default all)");
+  app.Option("--input-delay", f.input_delay_ticks,
+             "ticks from reading an input to its acting, at every peer (default: the scene's)")
+      .Range(0, kInputDelayTicksMax);
+  app.Option("--impair", f.impair,
+             "impair the network in both directions by a profile (default perfect)");
+  app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);
+  app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, kSendHzMax);
+  app.Option("--budget", f.budget,
+             "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
+  app.Option("--room", f.room, "name of the room in the channels; of several: NAME-1, NAME-2, ...");
+  app.Option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
+      .Range(1, kRoomsMax);
+  app.Option("--workers", f.workers, "threads that run several rooms (default: one per core)")
+      .Range(1, 256);
+  app.Option("--bus-rooms", f.bus_rooms, "of several rooms, which are on the LCM bus")
+      .OneOf({"first", "all", "none"});
+  app.Option("--metrics", f.metrics_port,
+             "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
+      .Range(1, 65535);
+  app.Option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
+      .Range(0, kPlayersMax);
+  app.Option("--duration", f.duration_s,
+             "seconds to run after tick 0 (0: until stopped; default: the scene's)")
+      .Range(0.0, 1e6);
+  app.Option("--record", f.record,
+             "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
+  app.Option("--state", f.state,
+             "keep the rooms in this folder: the log of each, and a snapshot each 5 s");
+  app.Option("--resume", f.resume,
+             "go on with the rooms in such a folder, and keep them there; takes no scene");
+  app.Switch("--force", f.force, "replace the --record file, or the rooms of --state");
+  app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.Option("--publish", f.publish,
+             "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
+             "at most " +
+                 std::to_string(kPublishAllMost) + " bodies, else own)");
+  app.Switch("--quiet", f.quiet, "no progress line, and not who comes and goes");
+  app.Switch("--doctor", f.doctor, "check that LCM works on this machine, and exit");
+}
+
+}  // namespace seam

@@ -1,0 +1,240 @@
+/// seam-server --state is killed, and --resume goes on.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/base/process.h"
+#include "common/record/damage.h"
+#include "common/record/log_file.h"
+#include "tests/support/in_namespace.h"
+#include "tests/support/live_session.h"
+
+namespace seam {
+namespace resume_test {
+
+constexpr double kPatience = 60;
+constexpr const char* kPort = "7801";
+
+/// Two cars, a gate that one of them passes, and a script that counts seconds and makes parts.
+constexpr const char* kYard = R"(title = "A yard"
+[[player]]
+name = "ann"
+vehicle = "car"
+[[player]]
+name = "bob"
+vehicle = "cart"
+[[part]]
+name = "ground"
+chain = [[-300, 0], [300, 0]]
+friction = 0.9
+[[part]]
+name = "car"
+box = [3, 0.6]
+position = [-8, 0.9]
+velocity = [3, 0]
+owner = "ann"
+[[part]]
+name = "cart"
+box = [2, 0.6]
+position = [8, 0.9]
+owner = "bob"
+[[part]]
+name = "crate"
+box = [0.6, 0.6]
+position = [0, 0.3]
+repeat = {count = [1, 3], step = [0, 0.6]}
+[[trigger]]
+name = "gate"
+kind = "area"
+position = [-6, 0.5]
+box = [2, 3]
+score = 7
+once = true
+[[script]]
+name = "keeper"
+code = '''
+function on_tick()
+  room.ticks = (room.ticks or 0) + 1
+  if room.ticks % 60 == 0 then
+    room.seconds = (room.seconds or 0) + 1
+    world.say("second " .. room.seconds)
+    if room.seconds % 2 == 0 then
+      world.add_part{name = "made" .. room.seconds, circle = 0.2, position = {20 + room.seconds, 3}}
+    end
+  end
+end
+'''
+)";
+
+class Resume : public InNamespace {
+ protected:
+  std::vector<std::string> Server(const std::vector<std::string>& flags) const {
+    std::vector<std::string> words = {BuiltProgram("seam-server"),
+                                      "--bind",
+                                      "127.0.0.1",
+                                      "--port",
+                                      kPort,
+                                      "--lcm-url",
+                                      "none",
+                                      "--quiet",
+                                      "--duration",
+                                      "0"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    return words;
+  }
+  std::vector<std::string> Client(const std::string& name) const {
+    return {BuiltProgram("seam-client"),
+            "127.0.0.1:" + std::string(kPort),
+            "--name",
+            name,
+            "--drive",
+            "none",
+            "--lcm-url",
+            "none",
+            "--key",
+            folder_ / (name + ".key"),
+            "--quiet"};
+  }
+  std::string State() const { return folder_ / "state"; }
+  std::string Log() const { return folder_ / "state/main.lcm"; }
+  /// Waits until the recording of the last session is `enough`.
+  template <class Enough>
+  bool WaitForLog(const Enough& enough) const {
+    for (int i = 0; i < kPatience * 20; ++i, usleep(50000)) {
+      try {
+        if (enough(ReadRecording(Log()))) return true;
+      } catch (const std::exception&) {
+      }  // not begun yet
+    }
+    return false;
+  }
+  Workspace folder_;
+};
+
+const View* LastView(const Recording& recording, int peer) {
+  const auto found = recording.views.find(peer);
+  return found == recording.views.end() ? nullptr : &found->second.rbegin()->second;
+}
+
+std::map<std::pair<int, int>, float> ValuesOf(const Recording& recording) {
+  std::map<std::pair<int, int>, float> values;
+  for (const Meta& meta : recording.meta) {
+    for (std::size_t i = 0; i < meta.id.size(); ++i) {
+      values[{meta.kind[i] * 1000 + meta.id[i], meta.key[i]}] = meta.value[i];
+    }
+  }
+  return values;
+}
+
+/// Returns N of the last event "second N"; 0: there is none.
+int LastSecond(const Recording& recording) {
+  int last = 0;
+  for (const Event& event : recording.events) {
+    if (event.text.rfind("second ", 0) == 0) last = std::stoi(event.text.substr(7));
+  }
+  return last;
+}
+
+TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
+  SEAM_INSIDE_ONLY();
+  folder_.Write("yard.toml", kYard);
+  std::vector<std::unique_ptr<Program>> clients;
+  auto server = std::make_unique<Program>(Server({folder_ / "yard.toml", "--state", State()}));
+  for (const char* name : {"ann", "bob"}) {
+    clients.push_back(std::make_unique<Program>(Client(name)));
+  }
+  double worst_back_s = 0, worst_jump_m = 0, worst_pause_s = 0;
+  std::int64_t most_lost = 0;
+  for (int round = 0; round < 3; ++round) {
+    // Some seconds of play, and a part of a second that differs.
+    const std::int64_t from = round == 0 ? 0 : LastView(ReadRecording(Log()), 0)->tick;
+    ASSERT_TRUE(WaitForLog([&](const Recording& r) {
+      return r.views.count(0) != 0 && LastView(r, 0)->tick > from + 150 &&
+             ValuesOf(r).size() >= (round == 0 ? 1u : 0u);
+    })) << server->Story()
+        << clients[0]->Story();
+    usleep(static_cast<useconds_t>(137000 + 211000 * round));
+    server->Signal(SIGKILL);
+    ASSERT_TRUE(server->Wait(kPatience));
+    const Recording was = ReadRecording(Log());
+    EXPECT_TRUE(DamageLines(was).empty()) << DamageLines(was).front();
+    const View before = *LastView(was, 0);
+    const std::int64_t begin_us = SteadyClockUs();
+    server = std::make_unique<Program>(Server({"--resume", State()}));
+    ASSERT_TRUE(WaitForLog([&](const Recording& r) {
+      return r.sessions.size() == was.sessions.size() + 1 && r.views.count(0) != 0;
+    })) << server->Story();
+    worst_back_s = std::max(worst_back_s, static_cast<double>(SteadyClockUs() - begin_us) * 1e-6);
+    const Recording is = ReadRecording(Log());
+    const View after = is.views.at(0).begin()->second;
+    EXPECT_EQ(after.tick, before.tick + 1) << "the room's clock goes on";
+    most_lost = std::max(most_lost, before.tick + 1 - after.tick);
+    ASSERT_EQ(after.id, before.id) << "the same parts, those of the script too";
+    for (std::size_t i = 0; i < after.id.size(); ++i) {
+      const double moved = std::hypot(static_cast<double>(after.x[i] - before.x[i]),
+                                      static_cast<double>(after.y[i] - before.y[i]));
+      const double speed =
+          std::hypot(static_cast<double>(before.vx[i]), static_cast<double>(before.vy[i]));
+      worst_jump_m = std::max(worst_jump_m, std::fabs(moved - speed / 60));
+    }
+    // The players come back by themselves, to their own places, and not into tick 0.
+    for (const int peer : {0, 1}) {
+      const int player = peer;
+      ASSERT_TRUE(WaitForLog([&](const Recording& r) {
+        const auto inputs = r.inputs.find(player);
+        return inputs != r.inputs.end() && inputs->second.rbegin()->first > after.tick + 1;
+      })) << server->Story()
+          << clients[static_cast<std::size_t>(peer)]->Story();
+    }
+    worst_pause_s = std::max(worst_pause_s, static_cast<double>(SteadyClockUs() - begin_us) * 1e-6);
+    const Recording back = ReadRecording(Log());
+    EXPECT_GE(back.first_tick, before.tick) << "nobody begins at tick 0";
+    ASSERT_TRUE(WaitForLog([&](const Recording& r) { return LastSecond(r) > 0; }));
+    const int second = LastSecond(was);
+    for (const Event& event : ReadRecording(Log()).events) {
+      if (event.text.rfind("second ", 0) != 0) continue;
+      EXPECT_EQ(event.text, "second " + std::to_string(second + 1)) << "the script has its table";
+      break;
+    }
+  }
+  std::printf(
+      "killed 3 times: back after %.2f s, %lld ticks lost, bodies jump %.1e m, all players are "
+      "back after %.1f s\n",
+      worst_back_s, static_cast<long long>(most_lost), worst_jump_m, worst_pause_s);
+  EXPECT_LT(worst_jump_m, 0.05);
+  server->Signal(SIGTERM);
+  EXPECT_TRUE(server->Wait(kPatience));
+  EXPECT_EQ(server->status(), 0) << server->Story();
+  // Scores are told to those who join: the first session has them, and a resumed room keeps them.
+  Program measure({BuiltProgram("seam-measure"), Log()});
+  EXPECT_TRUE(measure.Wait(kPatience));
+  EXPECT_EQ(measure.status(), 0) << measure.Story();
+}
+
+TEST_F(Resume, MistakesAreOneLine) {
+  SEAM_INSIDE_ONLY();
+  folder_.Write("yard.toml", kYard);
+  std::filesystem::create_directory(folder_ / "empty");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--resume", folder_ / "none"}, "cannot be read"},
+      {{"--resume", folder_ / "empty"}, "no room in it"},
+      {{"crossing", "--resume", folder_ / "empty"}, "not with a scene"},
+      {{"crossing", "--state", State(), "--record", folder_ / "a.lcm"}, "not with --record"},
+      {{"crossing", "--mode", "oracle", "--state", State()}, "mode oracle"}};
+  for (const auto& [flags, says] : wrong) {
+    Program server(Server(flags));
+    ASSERT_TRUE(server.Wait(kPatience));
+    EXPECT_EQ(server.status(), 2) << server.Story();
+    EXPECT_NE(server.errors().find(says), std::string::npos) << server.Story();
+    const std::string errors = server.errors();
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+  }
+}
+
+}  // namespace resume_test
+}  // namespace seam

@@ -1,0 +1,126 @@
+/// Snapshots of rooms as files: whole or refused.
+
+#include "server/saved/snapshot_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/base/check.h"
+#include "server/saved/resumed_room.h"
+#include "tests/support/arena.h"
+#include "tests/support/lone_room.h"
+#include "tests/support/program.h"
+
+namespace seam {
+namespace snapshot_file_test {
+
+Bytes ReadBytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(file), {});
+}
+
+void WriteBytes(const std::string& path, const Bytes& bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
+}
+
+/// Saves a room at ticks 60, 120 ... with a log that ends there.
+void KeepArena(const Workspace& folder, std::int64_t last_tick) {
+  LoneRoom room(Arena());
+  RoomLog log(StateLogOf(folder.path(), "main"), true, nullptr);
+  for (std::int64_t tick = 60; tick <= last_tick; tick += 60) {
+    room.StepTo(tick);
+    TickChain chain;
+    chain.session = 5;
+    chain.tick = tick;
+    log.EndTick("SEAM.main.chain.0", chain);
+    ASSERT_TRUE(WriteSnapshot(folder.path(), "main", {tick, log.place(), room.Save()}).ok());
+  }
+}
+
+TEST(SnapshotFile, TheLastTwoAreKept) {
+  Workspace folder;
+  KeepArena(folder, 240);
+  const std::vector<SnapshotName> files = ListSnapshots(folder.path(), "main");
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[0].tick, 240);
+  EXPECT_EQ(files[1].tick, 180);
+  EXPECT_TRUE(ListSnapshots(folder.path(), "mai").empty());
+  for (const std::string& name : folder.Content()) {
+    EXPECT_EQ(name.find(".tmp"), std::string::npos);
+  }
+  const ResumedRoom room = ReadResumedRoom(folder.path(), "main");
+  EXPECT_EQ(room.saved_tick, 240);
+  EXPECT_TRUE(room.notes.empty());
+  EXPECT_FALSE(room.new_log);
+}
+
+TEST(SnapshotFile, EveryFlippedBitIsRefused) {
+  Workspace folder;
+  KeepArena(folder, 60);
+  const std::string path = ListSnapshots(folder.path(), "main")[0].path;
+  const Bytes good = ReadBytes(path);
+  Random random(9);
+  RoomSnapshot snapshot;
+  ASSERT_TRUE(ReadSnapshot(path, &snapshot).ok());
+  EXPECT_EQ(snapshot.tick, 60);
+  for (int i = 0; i < 400; ++i) {
+    Bytes bad = good;
+    bad[i < 60 ? static_cast<std::size_t>(i) % 48 : random.Next() % bad.size()] ^=
+        static_cast<std::uint8_t>(1u << random.Next() % 8);
+    WriteBytes(path, bad);
+    ASSERT_FALSE(ReadSnapshot(path, &snapshot).ok()) << i;
+  }
+  WriteBytes(path, Bytes(good.begin(), good.begin() + 1000));
+  EXPECT_FALSE(ReadSnapshot(path, &snapshot).ok());
+}
+
+TEST(SnapshotFile, ADamagedOrNewerOneGivesWayToTheOneBefore) {
+  for (const int version : {0, 1}) {
+    Workspace folder;
+    KeepArena(folder, 120);
+    const std::string path = ListSnapshots(folder.path(), "main")[0].path;
+    Bytes bytes = ReadBytes(path);
+    if (version != 0) bytes[8] = static_cast<std::uint8_t>(kSnapshotVersion + 1);
+    if (version == 0) bytes[bytes.size() / 2] ^= 1;
+    WriteBytes(path, bytes);
+    const ResumedRoom room = ReadResumedRoom(folder.path(), "main");
+    EXPECT_EQ(room.saved_tick, 60);
+    ASSERT_EQ(room.notes.size(), 1u);
+    EXPECT_NE(room.notes[0].find(version != 0 ? "is of version" : "is damaged"), std::string::npos)
+        << room.notes[0];
+    EXPECT_NE(room.notes[0].find("the one before is used"), std::string::npos) << room.notes[0];
+    const std::string before = ListSnapshots(folder.path(), "main")[1].path;
+    WriteBytes(before, {1, 2, 3});
+    EXPECT_THROW(ReadResumedRoom(folder.path(), "main"), OperatorError);
+  }
+}
+
+TEST(SnapshotFile, ALogThatIsGoneOrShorterIsBegunAnew) {
+  Workspace folder;
+  KeepArena(folder, 60);
+  const std::string log = StateLogOf(folder.path(), "main");
+  const Bytes bytes = ReadBytes(log);
+  WriteBytes(log, Bytes(bytes.begin(), bytes.begin() + 40));
+  const ResumedRoom shorter = ReadResumedRoom(folder.path(), "main");
+  EXPECT_TRUE(shorter.new_log);
+  ASSERT_EQ(shorter.notes.size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(log));
+  EXPECT_TRUE(std::filesystem::exists(log + ".damaged-1")) << "nothing is thrown away";
+  EXPECT_TRUE(ReadResumedRoom(folder.path(), "main").new_log);
+}
+
+TEST(SnapshotFile, AFolderWithARoomIsNotWrittenOver) {
+  Workspace folder;
+  KeepArena(folder, 60);
+  EXPECT_THROW(PrepareStateFolder(folder.path(), "main", false), OperatorError);
+  EXPECT_NO_THROW(PrepareStateFolder(folder.path(), "other", false));
+  PrepareStateFolder(folder.path(), "main", true);
+  EXPECT_TRUE(ListSnapshots(folder.path(), "main").empty());
+  EXPECT_THROW(RoomsIn(folder / "none"), OperatorError);
+}
+
+}  // namespace snapshot_file_test
+}  // namespace seam
