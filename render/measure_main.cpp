@@ -11,6 +11,7 @@
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
 #include "common/measure/contents/contents.h"
+#include "common/measure/contents/doubts.h"
 #include "common/measure/contents/partial_views.h"
 #include "common/measure/handover_list.h"
 #include "common/measure/limit/held_inputs.h"
@@ -35,6 +36,7 @@ struct Options {
   bool more = false;
   bool floor = false;
   bool limit = false;
+  bool trust = false;
   bool losses = false;
   std::string losses_csv;
   bool list = false;
@@ -213,6 +215,11 @@ void Run(const Options& options) {
   for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
     PrintHandOvers(ReadLog(options, i), runs[i].run, options.range);
   }
+  for (std::size_t i = 0; options.trust && i < runs.size(); ++i) {
+    const Recording recording = ReadLog(options, i);
+    std::printf("\ndoubts of %s\n%s", runs[i].run.c_str(),
+                FormatDoubts(recording, RecordedScene(recording.room)).c_str());
+  }
   if (options.losses || !options.losses_csv.empty()) ReportLosses(options);
   if (options.floor) PrintFloor(ReadLog(options, 0));
   if (options.limit) PrintLimit(ReadLog(options, 0));
@@ -240,6 +247,7 @@ void Define(Command& app, Options& options) {
   app.Switch("--losses", options.losses,
              "also print when and where something was lost, by channel");
   app.Option("--losses-csv", options.losses_csv, "write the losses of the log as CSV to this file");
+  app.Switch("--trust", options.trust, "also list the server's doubts about clients");
   app.Switch("--list", options.list, "say what is in the logs, and measure nothing");
   app.Switch("--more", options.more, "print the further measures");
 }

@@ -135,6 +135,10 @@ bool AuthoritySource::MayReport(int peer, const Reported& reported, std::int32_t
     Refuse(reported, &reports_.changed, &stats_.dropped_stale);
     return false;
   }
+  if (Doubted(blow.body) || (blow.by >= 0 && Doubted(blow.by))) {
+    Refuse(reported, &reports_.implausible, &stats_.dropped_implausible);
+    return false;
+  }
   switch (authority_.RightToMove(peer, blow.body, epoch)) {
     case AuthorityManager::Right::kYes: return true;
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;

@@ -3,6 +3,7 @@
 /// For the server's own bodies that is its world; its copies of other peers' bodies do not count.
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -25,6 +26,8 @@ class AuthoritySource : public RuleSource {
   /// All must outlive this object. Dropped messages and entries are counted in `stats`.
   AuthoritySource(const Replica& replica, const AuthorityManager& authority, Stats& stats);
 
+  /// Reports about bodies for which `doubted` returns true do not count, and they enter nothing.
+  void Doubt(std::function<bool(int body)> doubted) { doubted_ = std::move(doubted); }
   /// Takes states of a peer that the StateFilter accepted.
   void NoteStates(const States& accepted);
   /// Takes impacts reported by a peer. An impact counts once, if it is possible, if the peer has
@@ -45,6 +48,7 @@ class AuthoritySource : public RuleSource {
   /// Saves the newest state of each body. Reports since the last tick, or that wait, are not saved.
   void Persist(StateArchive& a) { trail_.Persist(a); }
 
+  bool Doubted(int body) const override { return doubted_ && !Mine(body) && doubted_(body); }
   BodyState Read(int body) const override;
   std::vector<std::int64_t> Ticks() const override;
   BodyState ReadAt(int body, std::int64_t tick) const override;
@@ -92,6 +96,7 @@ class AuthoritySource : public RuleSource {
   const AuthorityManager& authority_;
   Stats& stats_;
   StateTrail trail_;
+  std::function<bool(int)> doubted_;
   BodyColumn<Holders> holders_;
   std::vector<ToldTouch> told_;     // of the last kReportPast ticks
   std::vector<PartTouch> touches_;  // since the last TakeTouches

@@ -93,6 +93,7 @@ std::string ImpairOf(const Flags& f) { return f.impair.empty() ? "perfect" : f.i
 void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms, RoomPlan* plan) {
   plan->config.impair = impair;
   plan->config.publish = ParsePublish(f.publish);
+  plan->config.trust = ParseTrustMode(f.trust);
   if (!f.budget.empty()) plan->config.client_bytes_per_s = ParseBudget(f.budget);
   plan->last_tick = LastTick(DurationOf(f, plan->scene), plan->scene.solver.tick_hz);
   plan->profile = FindProfile(impair);

@@ -17,6 +17,7 @@
 #include "server/rules/rules.h"
 #include "server/rules/seats.h"
 #include "server/sessions/session_table.h"
+#include "server/trust/trust_ladder.h"
 
 namespace seam {
 namespace {
@@ -192,6 +193,7 @@ void RoomState::Persist(StateArchive& a, std::int64_t now_us, std::vector<int>* 
   parts_.edits.Persist(a);
   parts_.seats.Persist(a, world);
   parts_.bounds.Persist(a);
+  parts_.ladder.Persist(a);
   parts_.sessions.places().Persist(a, now_us);
   a.Flag(&ruled);
   a.Require(ruled == (parts_.rules != nullptr), "it has other rules");

@@ -32,9 +32,10 @@ class Rules;
 class SeatBonds;
 class SessionTable;
 class StateArchive;
+class TrustLadder;
 
 /// Version of the saved bytes. Raise it with every change of them; older ones are not read.
-constexpr std::uint32_t kRoomStateVersion = 2;
+constexpr std::uint32_t kRoomStateVersion = 3;
 
 /// The beginning of a saved room, enough to make the server that loads it.
 class SavedRoom {
@@ -73,6 +74,7 @@ class RoomState {
     EditLog& edits;
     SeatBonds& seats;
     BoundsWatch& bounds;
+    TrustLadder& ladder;
     SessionTable& sessions;
     RoomClock& clock;
     AuthoritySource* source;

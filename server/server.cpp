@@ -71,7 +71,8 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
       authority_(scene_, config.sync, replica_),
       edits_(MakeEditLog(*config.sync.policy, replica_.world(), authority_, config.sync.tick_hz)),
       bounds_(replica_),
-      filter_(scene_, replica_, authority_, *edits_, stats_.counters),
+      filter_(scene_, replica_, authority_, *edits_, config.trust, stats_.counters),
+      ladder_(scene_.players.size(), config.sync.tick_hz),
       broadcast_(recorder, room_, config.publish != Publish::kNone, config.sync, scene_, replica_,
                  sessions_),
       room_feed_(room_),
@@ -82,6 +83,8 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
   rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
   rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *commands_, rule_source_.get());
   if (rules_->WantTouches()) replica_.WatchTouches();
+  if (config_.trust != TrustMode::kAct) return;
+  rule_source_->Doubt([this](int body) { return filter_.plausible().OnProbation(body); });
 }
 
 Server::~Server() = default;
@@ -164,6 +167,9 @@ void Server::StepOnce(std::int64_t now_us) {
   ApplyEdits(now_us);
   replica_.Step();
   ApplyQueued(now_us);  // edits of this very tick
+  TakeWaitingBreaks();
+  TakeWaitingStates(now_us);
+  FollowLadder(now_us);
   for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);
   std::vector<int> differing;
   for (const std::int32_t id : replica_.TakeDiffering()) {
@@ -241,6 +247,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
                         now_us - session->link.last_receive_us() > kSilentUs;
     if (silent) situation.silent.Add(peer);
     if (session != nullptr && session->lapsed) peer = -1;
+    if (session != nullptr && !MayHold(session->player)) situation.untrusted.Add(session->peer);
     situation.load.push_back(session != nullptr ? session->LoadAt(now_us) : -1.0f);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }

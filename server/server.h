@@ -26,6 +26,7 @@
 #include "server/server_stats.h"
 #include "server/sessions/session_table.h"
 #include "server/state_filter.h"
+#include "server/trust/trust_ladder.h"
 
 namespace seam {
 
@@ -49,6 +50,7 @@ struct ServerConfig {
   /// Limit for UDP payload to each client; 0: none.
   double client_bytes_per_s = kClientBytesPerS;
   Publish publish = Publish::kAll;
+  TrustMode trust = TrustMode::kAct;  ///< doubts about clients (docs/trust.md)
 };
 
 class Server {
@@ -116,6 +118,8 @@ class Server {
   std::vector<ClientAccount> accounts() const { return sessions_.accounts().List(); }
   /// The room's rules (health, scores, scripts); nullptr if the scene has none.
   const Rules* rules() const { return rules_.get(); }
+  /// Trust in each player's client.
+  const TrustLadder& ladder() const { return ladder_; }
 
   /// Time from the last player's readiness to tick 0, us: the start has to reach everyone in it.
   static constexpr std::int64_t kLeadInUs = 1000000;
@@ -160,8 +164,26 @@ class Server {
   void TellDiffering(const std::vector<int>& mechanisms);
   void OnPacked(std::int64_t now_us, Session& session, const PackedStates& packed);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
+  void TakeStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
-  void OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact);
+  void OnExactStates(std::int64_t now_us, Session& session, const ExactStates& exact);
+  // server_trust.cpp
+  /// Takes the states that waited for the server's copies of their tick.
+  void TakeWaitingStates(std::int64_t now_us);
+  /// Takes the proposals of breaks of which the server has felt the load; drops those that it has
+  /// not felt in time.
+  void TakeWaitingBreaks();
+  /// True if a proposal is a break of loaded glue in a room of which the server steps all.
+  bool NeedsLoad(const EditOrder& proposal) const;
+  void Propose(Session& session, const EditOrder& proposal);
+  /// Adds the new doubts to the client's score, and publishes the gravest.
+  void FollowDoubts(std::int64_t now_us, const Session& session);
+  /// Says the ladder's new steps; a client that has fallen off has to leave.
+  void FollowLadder(std::int64_t now_us);
+  /// True if the player's client may have authority.
+  bool MayHold(int player) const;
+  /// True if only the inputs of the session's client count.
+  bool InputsOnly(const Session& session) const;
 
   // server.cpp
   /// Acts on the events of sessions: joined, ready, left.
@@ -213,6 +235,21 @@ class Server {
   std::map<int, std::int64_t> seat_told_us_;  // by player: the last refusal that it was told
   BoundsWatch bounds_;
   StateFilter filter_;
+  TrustLadder ladder_;
+  /// States that wait, in the order of their arrival.
+  struct WaitingStates {
+    int peer = 0;
+    std::int64_t since = 0;  // tick
+    States states;
+  };
+  std::vector<WaitingStates> waiting_states_;
+  /// Proposals of breaks that wait for the server's own world to feel the load.
+  struct WaitingBreak {
+    int peer = 0;
+    std::int64_t since = 0;  // tick
+    EditOrder proposal;
+  };
+  std::vector<WaitingBreak> waiting_breaks_;
   Broadcast broadcast_;
   RoomFeed room_feed_;
   std::unique_ptr<ServerCommands> commands_;

@@ -80,6 +80,8 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
              "go on with the rooms in such a folder, and keep them there; takes no scene");
   app.Switch("--force", f.force, "replace the --record file, or the rooms of --state");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.Option("--trust", f.trust,
+             "states that differ from the server's copies: off | watch (tell) | act (refuse)");
   app.Option("--publish", f.publish,
              "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
              "at most " +

@@ -8,14 +8,18 @@
 #include <utility>
 #include <vector>
 
+#include "common/sync/rollback/replay.h"
 #include "server/authority_source.h"
 #include "server/server.h"
 
 namespace seam {
 namespace {
 
-/// Inputs farther from now than this are dropped, ticks.
-constexpr std::int64_t kInputTicksMax = 600;
+/// Inputs farther from now than this are dropped, s: no peer goes back farther, so that an action
+/// cannot be decided after it mattered.
+constexpr std::int64_t kInputReachS = kReplayMax;
+/// Most proposals that wait; a hostile peer must not fill the memory.
+constexpr std::size_t kWaitingBreaksMax = 1024;
 
 }  // namespace
 
@@ -44,6 +48,10 @@ void Server::Deliver(std::int64_t now_us, Session& session, ByteView bytes) {
 }
 
 void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
+  if (!session.kinds.Take(now_us, bytes)) {
+    ++stats_.counters.dropped_budget;
+    return;
+  }
   ++stats_.decoded;
   const AnyMessage any = Decode(bytes);
   if (const auto* packed = std::get_if<PackedStates>(&any)) {
@@ -176,8 +184,10 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
     ++stats_.counters.dropped_right;
     return;
   }
-  if (std::llabs(inputs.first_tick - replica_.tick()) > kInputTicksMax) {
-    ++stats_.counters.dropped_implausible;
+  const auto last = inputs.first_tick + static_cast<std::int64_t>(inputs.drive.size()) - 1;
+  const std::int64_t reach = kInputReachS * scene_.solver.tick_hz;
+  if (last < replica_.tick() - reach || inputs.first_tick > replica_.tick() + reach) {
+    ++stats_.counters.dropped_stale;
     return;
   }
   const Inputs fresh = TakeFresh(now_us, inputs);
@@ -294,7 +304,7 @@ void Server::OnRelease(std::int64_t now_us, Session& session, const Release& rel
 
 template <class Report>
 void Server::OnReport(const Session& session, const Report& report) {
-  if (session.stage != SessionStage::kReady || rule_source_ == nullptr) {
+  if (session.stage != SessionStage::kReady || rule_source_ == nullptr || InputsOnly(session)) {
     ++stats_.counters.dropped_right;
     return;
   }
@@ -303,10 +313,19 @@ void Server::OnReport(const Session& session, const Report& report) {
 
 void Server::OnProposal(Session& session, const EditOrder& proposal) {
   Stats& stats = stats_.counters;
-  if (session.stage != SessionStage::kReady || proposal.number != -1) {
+  if (session.stage != SessionStage::kReady || proposal.number != -1 || InputsOnly(session)) {
     ++stats.dropped_right;
     return;
   }
+  if (NeedsLoad(proposal) && waiting_breaks_.size() < kWaitingBreaksMax) {
+    waiting_breaks_.push_back({session.peer, replica_.tick(), proposal});
+    return;
+  }
+  Propose(session, proposal);
+}
+
+void Server::Propose(Session& session, const EditOrder& proposal) {
+  Stats& stats = stats_.counters;
   switch (edits_->Propose(session.peer, proposal)) {
     case EditLog::Verdict::kTaken: break;
     case EditLog::Verdict::kStale: ++stats.dropped_stale; break;

@@ -9,7 +9,7 @@
 namespace seam {
 
 RoomState Server::State() {
-  return RoomState({room_, replica_, authority_, *edits_, seat_bonds_, bounds_, sessions_, clock_,
+  return RoomState({room_, replica_, authority_, *edits_, seat_bonds_, bounds_, ladder_, sessions_, clock_,
                     rule_source_.get(), rules_.get()});
 }
 

@@ -8,6 +8,12 @@
 #include "server/server.h"
 
 namespace seam {
+namespace {
+
+/// Most messages that wait for the server's copies; a hostile peer must not fill the memory.
+constexpr std::size_t kWaitingStatesMax = 1024;
+
+}  // namespace
 
 /// Unpacks states of a client that is not ready, too: it counts on those that have arrived.
 void Server::OnPacked(std::int64_t now_us, Session& session, const PackedStates& packed) {
@@ -26,7 +32,18 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
     ++stats_.counters.dropped_right;
     return;
   }
+  const auto waits = [&](const WaitingStates& other) { return other.peer == session.peer; };
+  const bool behind = std::any_of(waiting_states_.begin(), waiting_states_.end(), waits);
+  if (waiting_states_.size() < kWaitingStatesMax && (behind || filter_.Waits(states))) {
+    waiting_states_.push_back({session.peer, replica_.tick(), states});
+    return;
+  }
+  TakeStates(now_us, session, states);
+}
+
+void Server::TakeStates(std::int64_t now_us, Session& session, const States& states) {
   const States& kept = filter_.Keep(now_us, session.peer, states);
+  FollowDoubts(now_us, session);
   if (kept.id.empty()) return;
   if (authority_.WatchesAgreement()) {
     replica_.EachDifference(
@@ -73,13 +90,15 @@ void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {
     return;
   }
   const Rest kept = filter_.Keep(now_us, session.peer, rest);
+  FollowDoubts(now_us, session);
   if (kept.id.empty()) return;
   replica_.Receive(kept);
   broadcast_.TellRest(kept, session.peer);
 }
 
-void Server::OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact) {
+void Server::OnExactStates(std::int64_t now_us, Session& session, const ExactStates& exact) {
   ExactStates kept = filter_.KeepExact(session.peer, exact);
+  FollowDoubts(now_us, session);
   if (kept.id.empty()) return;
   kept.utime = now_us;
   const BodyState off = replica_.TakeOver(kept);

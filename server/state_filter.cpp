@@ -13,8 +13,6 @@ namespace {
 /// States farther in the past or future than this are dropped, s.
 constexpr double kStatesPast = 2.0;
 constexpr double kStatesFuture = 0.5;
-/// Distance that a body may move between two states beyond the speed limit, m: a hard correction.
-constexpr float kJumpSlack = 5.0f;
 
 /// Copies the entries `kept` (ascending) of an array of a message. Mostly all entries are kept.
 template <class T>
@@ -50,13 +48,15 @@ void AddMotion(const Message& from, std::size_t i, Message* to) {
 }  // namespace
 
 StateFilter::StateFilter(const Scene& scene, const Replica& replica,
-                         const AuthorityManager& authority, const EditLog& edits, Stats& stats)
+                         const AuthorityManager& authority, const EditLog& edits, TrustMode trust,
+                         Stats& stats)
     : scene_(scene),
       replica_(replica),
       authority_(authority),
       edits_(edits),
       stats_(stats),
-      accepted_(replica.table(), BodyRule::kSame),
+      trust_(trust),
+      plausible_(scene, replica),
       outside_(replica.table(), BodyRule::kSame) {}
 
 bool StateFilter::HeaderAcceptable(int peer, const States& states) {
@@ -78,26 +78,21 @@ bool StateFilter::HeaderAcceptable(int peer, const States& states) {
   return true;
 }
 
-bool StateFilter::Plausible(int body, std::int64_t tick, const BodyState& state) const {
+bool StateFilter::Believed(int body, const Claim& claim) {
+  const BodyState& state = claim.state;
   if (OutsideBounds(scene_, state.position)) return false;
-  if (state.velocity.norm() > scene_.speed_limit) return false;
-  return Reachable(body, tick, state.position, 1);
-}
-
-bool StateFilter::Reachable(int body, std::int64_t tick, const Vec2& position, float times) const {
-  const LastAccepted& last = accepted_[body];
-  if (last.tick < 0) return true;
-  const float seconds =
-      static_cast<float>(std::max<std::int64_t>(1, tick - last.tick)) * replica_.world().dt();
-  const float way = times * scene_.speed_limit * seconds + kJumpSlack;
-  return (position - last.position).norm() <= way;
+  if (state.velocity.norm() > scene_.speed_limit || std::fabs(state.spin) > kSpinMax) return false;
+  const bool plausible =
+      trust_ == TrustMode::kOff || plausible_.Judge(body, claim.tick, state, !claim.rests);
+  if (trust_ == TrustMode::kAct) return plausible;
+  return plausible_.Reachable(body, claim.tick, state.position, 1);
 }
 
 /// A state must be newer than the last accepted one: a dropped state is replaced by the next. A
 /// rest commit is sent once. So it counts in a newer epoch even if its tick is older, since the
 /// clock of the holder before may have been ahead; and it may be repeated for the same tick.
 bool StateFilter::Outdated(int body, const Claim& claim) const {
-  const LastAccepted& last = accepted_[body];
+  const Plausible::Accepted& last = plausible_.accepted(body);
   if (!claim.rests) return claim.tick <= last.tick;
   return claim.epoch <= last.epoch && claim.tick < last.tick;
 }
@@ -129,10 +124,10 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
     ++stats_.dropped_stale;
     return false;
   }
-  if (!Plausible(body, claim.tick, claim.state)) {
+  if (!Believed(body, claim)) {
     const Vec2& at = claim.state.position;
     // A body in long free fall exceeds the speed limit, so none of its states is accepted.
-    if (OutsideBounds(scene_, at) && Reachable(body, claim.tick, at, 2)) {
+    if (OutsideBounds(scene_, at) && plausible_.Reachable(body, claim.tick, at, 2)) {
       outside_[body] = 1;
       any_outside_ = true;
     }
@@ -151,7 +146,7 @@ const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& sta
     const Claim claim{states.peer,     states.tick,          states.revision,
                       states.epoch[i], Unpack(states, i, 0), false};
     if (!MayMove(body, claim)) continue;
-    accepted_[body] = {states.tick, states.epoch[i], claim.state.position};
+    plausible_.Accept(body, {states.tick, states.epoch[i], claim.state});
     passed_.push_back(i);
   }
   KeepOf(states, passed_, &kept);
@@ -195,7 +190,7 @@ Rest StateFilter::Keep(std::int64_t now_us, int peer, const Rest& rest) {
     pose.position = Vec2(rest.x[i], rest.y[i]);
     pose.angle = rest.angle[i];
     if (!MayMove(body, {peer, rest.tick, rest.revision, rest.epoch[i], pose, true})) continue;
-    accepted_[body] = {rest.tick, rest.epoch[i], pose.position};
+    plausible_.Accept(body, {rest.tick, rest.epoch[i], pose});
     AddPose(rest, i, &kept);
   }
   return kept;
@@ -211,13 +206,13 @@ bool StateFilter::MayRelease(int peer, int body, const ExactStates& exact, std::
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
   }
-  if (exact.tick < accepted_[body].tick) {
+  if (exact.tick < plausible_.accepted(body).tick) {
     ++stats_.dropped_stale;
     return false;
   }
   const BodyState state{
       {exact.x[i], exact.y[i]}, exact.angle[i], {exact.vx[i], exact.vy[i]}, exact.spin[i]};
-  if (Plausible(body, exact.tick, state) && std::fabs(state.spin) <= kSpinMax) return true;
+  if (Believed(body, {peer, exact.tick, exact.revision, exact.epoch[i], state, false})) return true;
   ++stats_.dropped_implausible;
   return false;
 }
@@ -236,7 +231,11 @@ ExactStates StateFilter::KeepExact(int peer, const ExactStates& exact) {
   for (std::size_t i = 0; i < exact.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(exact.id[i]);
     if (!MayRelease(peer, body, exact, i)) continue;
-    accepted_[body] = {exact.tick, exact.epoch[i], {exact.x[i], exact.y[i]}};
+    plausible_.Accept(body, {exact.tick, exact.epoch[i],
+                            {{exact.x[i], exact.y[i]},
+                             exact.angle[i],
+                             {exact.vx[i], exact.vy[i]},
+                             exact.spin[i]}});
     AddPose(exact, i, &kept);
     AddMotion(exact, i, &kept);
   }

@@ -12,14 +12,18 @@
 #include "common/sync/table/body_column.h"
 #include "server/authority/authority_manager.h"
 #include "server/edits/edit_log.h"
+#include "server/trust/plausible.h"
+#include "server/trust/trust_ladder.h"
 
 namespace seam {
 
 class StateFilter {
  public:
-  /// All must outlive this object. Dropped messages and entries are counted in `stats`.
+  /// All must outlive this object. Dropped messages and entries are counted in `stats`. `trust`:
+  /// only with kAct do doubts decide (Plausible); else a state counts if its body can have moved
+  /// there at the speed limit.
   StateFilter(const Scene& scene, const Replica& replica, const AuthorityManager& authority,
-              const EditLog& edits, Stats& stats);
+              const EditLog& edits, TrustMode trust, Stats& stats);
 
   /// Returns the accepted entries of a message of `peer`, without bodies if there is none. Requires
   /// that the peer is ready. The result is valid until the next call.
@@ -31,6 +35,14 @@ class StateFilter {
   /// Returns the bodies with a state, since the last call, that was dropped because it was outside
   /// the scene's bounds, but no farther away than twice the speed limit explains.
   std::vector<int> TakeOutside();
+  /// True if states of the message have to wait for the server's copies of their tick.
+  bool Waits(const States& states) const {
+    return trust_ != TrustMode::kOff && plausible_.Waits(states);
+  }
+  /// Returns the doubts about accepted and refused states since the last call.
+  std::vector<Doubt> TakeDoubts() { return plausible_.TakeDoubts(); }
+  /// See Plausible.
+  const Plausible& plausible() const { return plausible_; }
 
  private:
   /// True if the message's header is acceptable.
@@ -50,22 +62,15 @@ class StateFilter {
   bool MayMove(int body, const Claim& claim);
   /// True if the last accepted state of the body is newer.
   bool Outdated(int body, const Claim& claim) const;
-  bool Plausible(int body, std::int64_t tick, const BodyState& state) const;
-  /// True if the body can have moved there from its last accepted state at `times` the speed limit.
-  bool Reachable(int body, std::int64_t tick, const Vec2& position, float times) const;
-
-  struct LastAccepted {
-    std::int64_t tick = -1;
-    std::int32_t epoch = 0;
-    Vec2 position{0, 0};
-  };
+  bool Believed(int body, const Claim& claim);
 
   const Scene& scene_;
   const Replica& replica_;
   const AuthorityManager& authority_;
   const EditLog& edits_;
   Stats& stats_;
-  BodyColumn<LastAccepted> accepted_;
+  const TrustMode trust_;
+  Plausible plausible_;
   BodyColumn<char> outside_;  // 1: for TakeOutside
   bool any_outside_ = false;  // a body may be
   // Results for the last message; members so that their memory is reused.

@@ -72,6 +72,8 @@
   X(Event, event_t, kBusPeer, "event", m.utime, m.session, m.sequence, m.peer, m.tick, m.text)     \
   X(TickChain, chain_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,         \
     m.messages, m.messages_crc, m.log_events, m.log_crc)                                           \
+  X(Audit, audit_t, kBusRoom, "audit", m.utime, m.session, m.sequence, m.tick, m.peer, m.player,   \
+    m.body, m.refused, m.score_milli, m.step, m.told, m.expected)                                  \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                      \
   X(PackedStates, packed_states_t, kEdge, "", m.data)                                              \
   X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)                                              \

@@ -297,6 +297,14 @@ bool Valid(const TickChain& m) {
          TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0;
 }
 
+bool Valid(const Audit& m) {
+  const std::size_t numbers = m.body < 0 ? 0 : kAuditNumbers;
+  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Tick(m.tick) && Peer(m.peer) &&
+         Within(m.player, -1, kPlayersMax - 1) && Within(m.body, -1, kIdsMax - 1) &&
+         Within(m.refused, 0, 1) && m.score_milli >= 0 && Within(m.step, 0, kAuditStepMax) &&
+         Lengths(numbers, m.told, m.expected) && Finite(m.told, m.expected);
+}
+
 bool Valid(const Bye& m) { return Time(m.utime) && IsPrintable(m.reason, kImpairBytesMax); }
 
 }  // namespace seam

@@ -85,6 +85,10 @@ const OfConnections kConnections[] = {
     {"seam_line_least_bytes_per_second", "gauge", "Least budget of a client now.",
      &Connections::least_line},
     {"seam_lines_thin", "gauge", "Clients that their path limits.", &Connections::thin_lines},
+    {"seam_doubts_total", "counter", "Messages with states that differ from what is expected.",
+     &Connections::doubts},
+    {"seam_distrusted", "gauge", "Players whose bodies the server holds for their doubts.",
+     &Connections::distrusted},
 };
 
 constexpr const char* kDropped = "seam_dropped_total";

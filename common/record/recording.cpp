@@ -226,6 +226,11 @@ bool RecordingBuilder::Keep(Event& event) {
   return true;
 }
 
+bool RecordingBuilder::Keep(Audit& audit) {
+  sorted_ = AppendByTick(&recording_.audits, audit) && sorted_;
+  return true;
+}
+
 bool RecordingBuilder::Keep(View& part) {
   if (part.parts == 1) return KeepWhole(part);
   const std::pair<std::int64_t, int> key(part.tick, part.peer);

@@ -35,6 +35,7 @@ struct Recording {
   std::map<int, std::vector<Stats>> stats;                 ///< by peer, ascending
   std::vector<Load> loads;                                 ///< the server's, ascending
   std::vector<Event> events;
+  std::vector<Audit> audits;  ///< by tick
 
   std::vector<LogSession> sessions;          ///< all of the room in the log, this one among them
   bool mixed = false;                        ///< holds several sessions that have no number
@@ -113,6 +114,7 @@ class RecordingBuilder {
   bool Keep(Load& load);
   bool Keep(Event& event);
   bool Keep(TickChain&) { return true; }  // LogReader has checked it
+  bool Keep(Audit& audit);
   bool KeepWhole(View& view);
   void AddScene();
   void DropStrayTicks();

@@ -54,6 +54,7 @@ template void Publisher::Publish(ScenePart);
 template void Publisher::Publish(Inputs);
 template void Publisher::Publish(States);
 template void Publisher::Publish(Grants);
+template void Publisher::Publish(Audit);
 template void Publisher::Publish(EditOrder);
 template void Publisher::Publish(Meta);
 template void Publisher::Publish(Impacts);

@@ -110,6 +110,11 @@ class Replica {
   /// for bodies that it simulated at that tick.
   void EachDifference(const States& states,
                       const std::function<void(int, const BodyState&)>& call) const;
+  /// Returns this peer's copy of a body at a tick if it simulated it, and all inputs that can have
+  /// moved it are known and acted on; else nullptr. Valid until the next call that changes this.
+  const BodyState* SettledPast(int body, std::int64_t tick) const;
+  /// True if this peer's own world broke the joint within a quarter of a second of the tick.
+  bool FeltBreak(int joint, std::int64_t tick) const;
   /// Server only; see Roles::SetSilentHolders.
   void SetSilentHolders(const PeerSet& silent) { roles_.SetSilentHolders(silent); }
   /// Gives up all authority (the server has not been heard for too long).
@@ -252,6 +257,7 @@ class Replica {
   std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
   std::vector<Awaited> awaited_;                     // pending proposals; only if this peer rolls
                                                      // back
+  std::map<int, std::int64_t> felt_breaks_;          // newest tick, by joint
   std::vector<ExactStates> released_;                // states that ApplyGrants released, not
                                                      // yet sent
 };

@@ -69,14 +69,18 @@ void Replica::EachDifference(const States& states,
                              const std::function<void(int, const BodyState&)>& call) const {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
-    if (body < 0 || world_.activity(body) != Activity::kSimulated) continue;
-    if (states.revision != revision()) continue;
-    // Before all inputs are known here and acted on, a difference says nothing.
-    const std::int64_t complete = reach_.CompleteTick(world_.mechanism(body));
-    if (std::min(complete, replay_.settled()) < states.tick) continue;
-    const BodyState* then = memory_.ComparablePast(body, states.tick);
+    if (body < 0 || states.revision != revision()) continue;
+    const BodyState* then = SettledPast(body, states.tick);
     if (then != nullptr) call(body, Minus(Unpack(states, i, then->angle), *then));
   }
+}
+
+const BodyState* Replica::SettledPast(int body, std::int64_t tick) const {
+  if (world_.activity(body) != Activity::kSimulated) return nullptr;
+  // Before all inputs are known here and acted on, a difference says nothing.
+  const std::int64_t complete = reach_.CompleteTick(world_.mechanism(body));
+  if (std::min(complete, replay_.settled()) < tick) return nullptr;
+  return memory_.ComparablePast(body, tick);
 }
 
 void Replica::Persist(StateArchive& a) {

@@ -1,6 +1,7 @@
 /// Replica: edits, and bodies that they split and merge. Records of a body (its past, states
 /// received, its displayed pose) are carried over to its successors.
 
+#include <cstdlib>
 #include <algorithm>
 #include <set>
 
@@ -59,9 +60,15 @@ void Replica::FindEdits() {
   const std::int64_t now = tick();
   found_.erase(now);  // results of an earlier step of this tick
   for (Edit& edit : world_.ProposeEdits()) {
+    if (const BreakEdit* broken = edit.As<BreakEdit>()) felt_breaks_[broken->joint] = now;
     if (queue_->TakeFound(edit, now) || !roles_.Proposes(edit)) continue;
     found_[now].push_back(std::move(edit));
   }
+}
+
+bool Replica::FeltBreak(int joint, std::int64_t tick) const {
+  const auto felt = felt_breaks_.find(joint);
+  return felt != felt_breaks_.end() && std::llabs(felt->second - tick) <= config_.tick_hz / 4;
 }
 
 void Replica::ProposeFound() {

@@ -68,7 +68,9 @@ AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config,
 
 std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const PlannerInputs& situation) {
   plan_due_ = plan_due_ || !(silent_ == situation.silent);
+  plan_due_ = plan_due_ || !(untrusted_ == situation.untrusted);
   silent_ = situation.silent;
+  untrusted_ = situation.untrusted;
   replica_.SetSilentHolders(silent_);
   round_trip_us_.clear();
   for (std::size_t p = 0; p < situation.one_way_s.size(); ++p) {

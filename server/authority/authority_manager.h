@@ -30,6 +30,7 @@ class AuthorityManager {
     std::vector<int> peer_of_player;         ///< by player; -1: no client is ready to drive it
     std::vector<float> one_way_s;            ///< s, by player, from the server; empty: all 0
     PeerSet silent;                          ///< peers not heard from for kSilentUs
+    PeerSet untrusted;                       ///< peers that may have no authority
     std::vector<std::vector<int>> together;  ///< see AuthorityView
     /// By player: share of real time that its peer needs for its ticks; below 0: unknown. Empty:
     /// unknown for all.
@@ -215,7 +216,7 @@ class AuthorityManager {
   std::vector<Grants> grants_;  // from this Update
   bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
-  PeerSet silent_;                           // in the last Update
+  PeerSet silent_, untrusted_;               // in the last Update
   std::vector<std::int64_t> round_trip_us_;  // by peer, in the last Update
   bool plan_due_ = true;
   /// The server has simulated every body since the room began. A copy that began later lacks the

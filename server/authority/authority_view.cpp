@@ -87,6 +87,7 @@ void AuthorityManager::LookAtPlayers(const PlannerInputs& situation, AuthorityVi
     seen.region_min = player.region_min;
     seen.region_max = player.region_max;
     seen.silent = situation.silent.Has(std::max(0, seen.peer));
+    seen.untrusted = situation.untrusted.Has(std::max(0, seen.peer));
     if (view->rules.capacity > 0) seen.capacity = view->rules.capacity;
     view->players.push_back(seen);
   }

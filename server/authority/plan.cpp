@@ -30,13 +30,20 @@ void BringTogether(const AuthorityView& view, AuthorityPlan* plan) {
   }
 }
 
-/// Gives the server each mechanism that the planned player may not have.
+/// Gives the server each mechanism that the planned player may not have. An untrusted player steps
+/// it on, and feels no delay.
 void Forbid(const AuthorityView& view, AuthorityPlan* plan) {
   const PlayerOfPeer players(view);
   for (std::size_t m = 0; m < plan->size(); ++m) {
     PlannedAuthority& planned = (*plan)[m];
     const int player = players.At(planned.authority);
-    if (player >= 0 && !Allows(view.mechanisms[m].may_have, player)) planned.authority = 0;
+    if (player < 0) continue;
+    if (view.players[static_cast<std::size_t>(player)].untrusted) {
+      planned.secondaries.Add(planned.authority);
+      planned.authority = 0;
+    } else if (!Allows(view.mechanisms[m].may_have, player)) {
+      planned.authority = 0;
+    }
   }
 }
 

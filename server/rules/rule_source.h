@@ -30,6 +30,9 @@ class RuleSource {
   virtual std::int64_t TickOf(int body, std::int64_t tick) const = 0;
   /// Marks all known ticks as processed.
   virtual void MarkProcessed() = 0;
+  /// True if the newest state told of the body was refused: until one is accepted it enters
+  /// nothing.
+  virtual bool Doubted(int /*body*/) const { return false; }
   /// Returns the impacts on bodies since the last call, each once.
   virtual std::vector<Blow> TakeImpacts() = 0;
   /// Returns the touches of parts that began since the last call, each once.

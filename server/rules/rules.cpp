@@ -99,7 +99,17 @@ void Rules::RunTriggersAt(std::int64_t tick) {
   const auto player_of = [this](PartId part) {
     return PlayerOf(world_, MechanismOf(world_, part));
   };
-  for (const TriggerEvent& event : triggers_.Update(place_of, player_of)) {
+  const auto doubted = [this](PartId part) {
+    bool any = false;
+    BodyState unused;
+    const auto read = [&](int body) {
+      any = any || source_.Doubted(body);
+      return BodyState();
+    };
+    ReadPart(world_, part, read, &unused);
+    return any;
+  };
+  for (const TriggerEvent& event : triggers_.Update(place_of, player_of, doubted)) {
     if (event.entered) OnEntered(event);
     happened_.push_back(event);
   }

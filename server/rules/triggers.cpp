@@ -20,7 +20,8 @@ bool Within(const Vec2& place, const Vec2& centre, const Vec2& size, float margi
 Triggers::Triggers(const FeatureList<Trigger>& triggers)
     : triggers_(triggers), over_(triggers.size(), false) {}
 
-std::vector<TriggerEvent> Triggers::Update(const PlaceOf& place_of, const PlayerOf& player_of) {
+std::vector<TriggerEvent> Triggers::Update(const PlaceOf& place_of, const PlayerOf& player_of,
+                                           const std::function<bool(PartId)>& doubted) {
   std::vector<TriggerEvent> events;
   for (std::size_t t = 0; t < triggers_.size(); ++t) {
     const Trigger& trigger = triggers_[t];
@@ -38,6 +39,7 @@ std::vector<TriggerEvent> Triggers::Update(const PlaceOf& place_of, const Player
       bool is = !over_[t] && place && Within(*place, centre, trigger.size, was ? kLeaveMargin : 0);
       const int player = is || was ? player_of(part) : -1;
       is = is && (was || Allows(trigger.players, player));
+      is = is && (was || !doubted || !doubted(part));
       if (is == was) continue;
       events.push_back({index, part, player, is});
       if (!is) {

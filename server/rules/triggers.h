@@ -33,7 +33,9 @@ class Triggers {
   /// Returns the parts that entered and left in a tick, in the order of triggers, then of parts. A
   /// trigger that is over (`once` and entered, or its carrier is gone) reports that its parts
   /// leave, and then nothing more.
-  std::vector<TriggerEvent> Update(const PlaceOf& place_of, const PlayerOf& player_of);
+  /// A part that `doubted` returns true for enters nothing; empty: none is.
+  std::vector<TriggerEvent> Update(const PlaceOf& place_of, const PlayerOf& player_of,
+                                   const std::function<bool(PartId)>& doubted = {});
 
   void Persist(StateArchive& a, std::size_t parts);
 

@@ -49,6 +49,7 @@ struct Session {
   SessionId id;
   Link link;
   TrafficBudget budget;
+  KindBudget kinds;                  ///< of messages by type
   std::vector<InputFeed> feeds;      ///< other players' inputs, by player
   std::vector<int> relevant_players;  ///< players with inputs relevant to the client, ascending
   std::vector<int> unsent_players;   ///< the ones with inputs that wait for another message

@@ -1,8 +1,12 @@
 #include "server/sessions/traffic_budget.h"
 
 #include <algorithm>
+#include <string>
 
+#include "common/codec/codec.h"
+#include "common/codec/wire_body.h"
 #include "common/net/datagram.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/limits.h"
 #include "common/sync/send_scheduler.h"
 
@@ -26,7 +30,75 @@ double Framed(std::size_t bytes, bool reliable = false) {
   return static_cast<double>(FramedBytes(bytes, reliable));
 }
 
+/// Messages of states for each send: a path may hold back kKindBurstS of them and release them at
+/// once. Bodies of a datagram, at least: a holder of more sends several each time.
+constexpr double kStatesMargin = 3;
+constexpr std::size_t kBodiesPerDatagram = 64;
+/// Edits that a client's physics finds, and reports of impacts or touches, a second. A house that
+/// falls breaks a hundred bonds at once: kProposalsBurst.
+constexpr double kProposalsPerSecond = 20, kReportsPerSecond = 60;
+constexpr double kProposalsBurst = 256;
+constexpr double kKindBurstS = 4;
+
+/// The type of an encoded message: the 8 bytes at its start, big-endian.
+std::uint64_t HashOf(ByteView message) {
+  std::uint64_t hash = 0;
+  for (std::size_t i = 0; i < sizeof hash; ++i) hash = hash << 8 | message.data[i];
+  return hash;
+}
+
+std::uint64_t HashNamed(const std::string& name) {
+  for (const MessageType& type : MessageTypes()) {
+    if (type.name == name) return type.hash;
+  }
+  return 0;
+}
+
+/// As peers send it, without the bus's session.
+std::uint64_t StatesHash() {
+  States one;
+  AppendBody(WireBody(), &one);
+  return HashOf(Encode(one));
+}
+
 }  // namespace
+
+KindBudget::KindBudget(int send_hz, std::size_t parts) {
+  const double datagrams = 1 + static_cast<double>(parts / kBodiesPerDatagram);
+  states_.per_second = kStatesMargin * send_hz * datagrams;
+  proposals_.per_second = kProposalsPerSecond;
+  reports_.per_second = kReportsPerSecond;
+  for (Bucket* bucket : {&states_, &proposals_, &reports_}) {
+    bucket->most = bucket->left = kKindBurstS * bucket->per_second;
+  }
+  proposals_.most = proposals_.left = kProposalsBurst;
+}
+
+KindBudget::Bucket* KindBudget::BucketOf(ByteView message) {
+  static const std::uint64_t packed = HashNamed("packed_states_t"), states = StatesHash(),
+                             proposal = HashOf(Encode(ToOrder(Edit(BreakEdit{0})))),
+                             impacts = HashNamed("impact_report_t"),
+                             touches = HashNamed("touch_report_t");
+  if (message.size < sizeof packed) return nullptr;
+  const std::uint64_t hash = HashOf(message);
+  if (hash == packed || hash == states) return &states_;
+  if (hash == proposal) return &proposals_;
+  return hash == impacts || hash == touches ? &reports_ : nullptr;
+}
+
+bool KindBudget::Take(std::int64_t now_us, ByteView message) {
+  Bucket* const bucket = BucketOf(message);
+  if (bucket == nullptr) return true;
+  const double passed =
+      bucket->filled_us < 0
+          ? 0
+          : static_cast<double>(std::max<std::int64_t>(0, now_us - bucket->filled_us)) / 1e6;
+  bucket->filled_us = now_us;
+  bucket->left = std::min(bucket->most, bucket->left + passed * bucket->per_second);
+  if (bucket->left < 1) return false;
+  bucket->left -= 1;
+  return true;
+}
 
 TrafficRate HonestTraffic(int tick_hz, int send_hz) {
   TrafficRate rate;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/bytes.h"
+
 namespace seam {
 
 /// Per second.
@@ -41,6 +43,26 @@ class TrafficBudget {
   TrafficRate allowed_, left_;
   std::int64_t filled_us_ = -1;
   std::int64_t over_since_us_ = -1, refused_us_ = -1;  // -1: never
+};
+
+/// Limits messages by their type, before they are decoded: states, proposals, impact and touch
+/// reports. One token bucket each; other types are not limited here.
+class KindBudget {
+ public:
+  /// `send_hz`: of the room; `parts`: of its scene.
+  explicit KindBudget(int send_hz = 30, std::size_t parts = 0);
+
+  /// Takes a message out of its type's budget. Returns false, and takes nothing, if it is used up.
+  bool Take(std::int64_t now_us, ByteView message);
+
+ private:
+  struct Bucket {
+    double per_second = 0, most = 0, left = 0;
+    std::int64_t filled_us = -1;
+  };
+  Bucket* BucketOf(ByteView message);
+
+  Bucket states_, proposals_, reports_;
 };
 
 }  // namespace seam

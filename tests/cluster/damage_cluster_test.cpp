@@ -97,13 +97,14 @@ TEST(Damage, AnImpactOfAToldVelocityIsRefused) {
     config.scene = "own";
     config.scene_text = kOwn;
     config.impair = impair;
-    std::int64_t told = 0;
+    std::int64_t told = 0;  // lies, of states and of impacts
     RewrittenStates rewritten(ParseScene(kOwn, "own.toml"));
     config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
       if (client != 0) return net;
       return std::unique_ptr<Net>(
           std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
-            rewritten.Rewrite(message, [](States* states) {
+            rewritten.Rewrite(message, [&told](States* states) {
+              told += static_cast<std::int64_t>(states->vx.size());
               for (auto& vx : states->vx) vx = static_cast<std::int16_t>(110 * kQuantaPerSpeed);
             });
             AnyMessage any = Decode(*message);

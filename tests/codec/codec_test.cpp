@@ -299,6 +299,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
   // kProtocolVersion, and write the new hashes here.
   ASSERT_EQ(kProtocolVersion, 14);
   const std::map<std::string, std::uint64_t> pinned = {
+      {"audit_t", 0x39a40a6c08bf57d9u},
       {"bye_t", 0x51c7828d52d2d8f2u},           {"challenge_t", 0x742a8522f2ee8958u},
       {"chunk_t", 0xfe05a5dcca243573u},         {"edit_t", 0x41c84806639d73c4u},
       {"exact_states_t", 0x431818f6cd4b5951u},  {"impact_report_t", 0xfbc55c3c7e89b9e3u},

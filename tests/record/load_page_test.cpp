@@ -49,7 +49,7 @@ RoomLoad RandomRoom(const std::string& name, RandomMessages* messages, Random* t
     *histogram = RandomTicks(ticks);
   }
   for (auto* n : {&connections.compositions, &connections.rests, &connections.least_line,
-                  &connections.thin_lines}) {
+                  &connections.thin_lines, &connections.doubts, &connections.distrusted}) {
     *n = static_cast<std::int64_t>(ticks->Next() >> 30);
   }
   return {name, RandomLoad(messages), RandomTicks(ticks), RandomTicks(ticks), connections};
@@ -82,7 +82,8 @@ TEST(LoadPage, ReadsBackAWrittenPage) {
         EXPECT_EQ((back.*of).sum_us, (written.*of).sum_us);
       }
       for (const auto of : {&Connections::compositions, &Connections::rests,
-                            &Connections::least_line, &Connections::thin_lines}) {
+                            &Connections::least_line, &Connections::thin_lines, &Connections::doubts,
+                            &Connections::distrusted}) {
         EXPECT_EQ(back.*of, written.*of);
       }
       for (const auto of : {&RoomLoad::tick, &RoomLoad::late}) {

@@ -198,6 +198,13 @@ class RandomMessages {
     m.tick = Tick(), Set(m.messages, -1, INT32_MAX), Set(m.log_events, 0, INT32_MAX);
     m.messages_crc = Int32(), m.log_crc = Int32();
   }
+  void Fill(Audit& m) {
+    Common(m), Sequence(m), m.session = Integer(1, INT64_MAX - 1), m.tick = Tick();
+    Set(m.peer, 0, 31), Set(m.player, -1, 31), Set(m.body, -1, kIdsMax - 1);
+    const std::size_t count = m.body < 0 ? 0 : kAuditNumbers;
+    Floats(m.told, count), Floats(m.expected, count);
+    Set(m.refused, 0, 1), Set(m.score_milli, 0, INT32_MAX), Set(m.step, 0, kAuditStepMax);
+  }
   void Fill(Bye& m) { Common(m), m.reason = Text(200); }
 
  private:

@@ -4,7 +4,8 @@ namespace seam {
 
 const std::vector<Probe>& Probes() {
   static const std::vector<Probe> probes = {FairnessProbe(), TitlesProbe(), LoadProbe(),
-                                            HandOverProbe(), DamageProbe(), AgreementProbe()};
+                                            HandOverProbe(), DamageProbe(), AgreementProbe(),
+                                            AttackProbe()};
   return probes;
 }
 

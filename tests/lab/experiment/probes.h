@@ -17,5 +17,6 @@ Probe LoadProbe();
 Probe HandOverProbe();
 Probe DamageProbe();
 Probe AgreementProbe();
+Probe AttackProbe();
 
 }  // namespace seam

@@ -1,0 +1,140 @@
+/// Server: states that wait for its own copies, and consequences of doubts (docs/trust.md).
+
+#include <algorithm>
+#include <utility>
+
+#include "common/stages/make_stages.h"
+#include "common/sync/edits/edit_order.h"
+#include "common/topology/grip.h"
+#include "server/server.h"
+
+namespace seam {
+namespace {
+
+/// Longest wait of a client's states for the server's copies of their tick, s: until the inputs of
+/// that tick are known and acted on. Longer delays honest states where another player is silent.
+constexpr double kCopyWaitS = 0.2;
+/// Longest wait of a proposed break for its load in the server's own world, s; and its weight in
+/// the ladder, if none was felt.
+constexpr double kLoadWaitS = 0.5;
+constexpr float kLoadlessWeight = 2;
+
+std::vector<float> NumbersOf(const BodyState& state) {
+  return {state.position.x(), state.position.y(), state.velocity.x(), state.velocity.y()};
+}
+
+std::int32_t Milli(float score) { return static_cast<std::int32_t>(1000 * score); }
+
+}  // namespace
+
+void Server::TakeWaitingStates(std::int64_t now_us) {
+  PeerSet still;
+  const auto most = static_cast<std::int64_t>(kCopyWaitS * scene_.solver.tick_hz);
+  for (WaitingStates& waiting : std::exchange(waiting_states_, {})) {
+    Session* const session = sessions_.Find(waiting.peer);
+    if (session == nullptr || session->stage != SessionStage::kReady) continue;
+    const bool may_wait = replica_.tick() - waiting.since < most;
+    if (may_wait && (still.Has(waiting.peer) || filter_.Waits(waiting.states))) {
+      still.Add(waiting.peer);
+      waiting_states_.push_back(std::move(waiting));
+      continue;
+    }
+    const DropCount before = DropsOf(stats_.counters);
+    TakeStates(now_us, *session, waiting.states);
+    AddDrops(stats_.counters, before, &session->account->dropped);
+  }
+}
+
+bool Server::NeedsLoad(const EditOrder& proposal) const {
+  if (config_.trust != TrustMode::kAct || !ProposesEdits(scene_)) return false;
+  const Edit edit = ToEdit(proposal);
+  const BreakEdit* const broken = edit.As<BreakEdit>();
+  const Topology& topology = replica_.world().topology();
+  if (broken == nullptr || !topology.HasJoint(broken->joint)) return false;
+  const Joint& joint = topology.scene().joints[static_cast<std::size_t>(broken->joint)];
+  return joint.kind == JointKind::kGlue && joint.strength > 0 && !joint.grouped && !IsGrip(joint);
+}
+
+void Server::TakeWaitingBreaks() {
+  const auto most = static_cast<std::int64_t>(kLoadWaitS * scene_.solver.tick_hz);
+  for (WaitingBreak& waiting : std::exchange(waiting_breaks_, {})) {
+    Session* const session = sessions_.Find(waiting.peer);
+    if (session == nullptr || session->stage != SessionStage::kReady) continue;
+    const DropCount before = DropsOf(stats_.counters);
+    const Edit edit = ToEdit(waiting.proposal);
+    if (replica_.FeltBreak(edit.As<BreakEdit>()->joint, waiting.proposal.tick)) {
+      Propose(*session, waiting.proposal);
+    } else if (replica_.tick() - waiting.since < most) {
+      waiting_breaks_.push_back(std::move(waiting));
+    } else {
+      ++stats_.counters.dropped_implausible;
+      if (session->player >= 0) ladder_.Note(session->player, kLoadlessWeight);
+    }
+    AddDrops(stats_.counters, before, &session->account->dropped);
+  }
+}
+
+void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
+  const std::vector<Doubt> doubts = filter_.TakeDoubts();
+  if (doubts.empty() || session.player < 0) return;
+  // The bodies of a message are often those of one mechanism: one lie, not many.
+  const Doubt& gravest =
+      *std::max_element(doubts.begin(), doubts.end(), [](const Doubt& a, const Doubt& b) {
+        return a.weight < b.weight;
+      });
+  ladder_.Note(session.player, gravest.weight);
+  ++stats_.connections.doubts;
+  Audit audit;
+  audit.utime = now_us;
+  audit.session = room_.session;
+  audit.tick = std::max<std::int64_t>(0, gravest.tick);
+  audit.peer = session.peer;
+  audit.player = session.player;
+  audit.body = replica_.world().id(gravest.body);
+  audit.told = NumbersOf(gravest.told);
+  audit.expected = NumbersOf(gravest.expected);
+  audit.refused = gravest.refused ? 1 : 0;
+  audit.score_milli = Milli(ladder_.score(session.player));
+  audit.step = static_cast<std::int8_t>(ladder_.step(session.player));
+  broadcast_.Publish(audit);
+}
+
+void Server::FollowLadder(std::int64_t now_us) {
+  if (config_.trust == TrustMode::kOff) return;
+  for (const TrustLadder::Change& change : ladder_.Update(replica_.tick())) {
+    const auto distrusted = [](TrustStep step) { return step >= TrustStep::kServerHolds ? 1 : 0; };
+    stats_.connections.distrusted += distrusted(change.to) - distrusted(change.from);
+    const std::string& name = scene_.players[static_cast<std::size_t>(change.player)].name;
+    std::string line = "trust: " + name + " is " + ToString(change.to);
+    if (config_.trust == TrustMode::kWatch) line += " (only watched)";
+    broadcast_.Say(now_us, line);
+    const int peer = sessions_.PeerOfPlayer()[static_cast<std::size_t>(change.player)];
+    Audit audit;
+    audit.utime = now_us;
+    audit.session = room_.session;
+    audit.tick = replica_.tick();
+    audit.peer = std::max(0, peer);
+    audit.player = change.player;
+    audit.score_milli = Milli(ladder_.score(change.player));
+    audit.step = static_cast<std::int8_t>(change.to);
+    broadcast_.Publish(audit);
+    const bool grave = std::max(change.from, change.to) >= TrustStep::kServerHolds;
+    if (grave) Tell(line);
+    Session* const session = peer > 0 ? sessions_.Find(peer) : nullptr;
+    const bool out = change.to == TrustStep::kOut && config_.trust == TrustMode::kAct;
+    if (out && session != nullptr) sessions_.Leave(*session, "its states are not believed");
+  }
+}
+
+bool Server::MayHold(int player) const {
+  if (player < 0) return true;
+  return config_.trust == TrustMode::kAct ? ladder_.MayHold(player, replica_.tick())
+                                          : !ladder_.Withholds(player, replica_.tick());
+}
+
+bool Server::InputsOnly(const Session& session) const {
+  return config_.trust == TrustMode::kAct && session.player >= 0 &&
+         ladder_.InputsOnly(session.player);
+}
+
+}  // namespace seam

@@ -1,0 +1,149 @@
+#include "server/trust/plausible.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/geometry.h"
+#include "common/sync/reach/zones.h"
+#include "common/sync/state_arithmetic.h"
+
+namespace seam {
+namespace {
+
+/// Distance from a body's centre at which a difference of angles is felt, m.
+constexpr float kArm = 0.5f;
+/// Differences above these are gross, m and m/s, and weigh kGrossWeight as much.
+constexpr float kGross = 1, kGrossVelocity = 5, kGrossWeight = 4;
+/// A difference told for this time weighs 1, s: the time between two states of a holder whose
+/// copies agree.
+constexpr float kWeighedS = 0.25f;
+/// Distance of a place from the way that the told velocities explain, m. Bots in collisions over
+/// every network: at most .48 m in a gap of .27 s.
+constexpr float kWaySlack = 0.6f;
+/// After a longer silence the server's own copy is the reference, s. A copy that the server does not
+/// simulate knows nothing of what the body met: it is the reference only beyond a holder's lease.
+constexpr float kWayMaxS = 0.5f, kUnseenWayMaxS = 2;
+/// Time after an edit in which differences that are not gross say nothing, s: as long as every send
+/// has the states of what an edit has changed.
+constexpr float kSettlesS = 1;
+/// Velocity that a collision may add without having been told, m/s.
+constexpr float kCollisionVelocity = 5;
+
+/// Distance of a point from the segment between two others.
+float DistanceFrom(const Vec2& point, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const float length = along.squaredNorm();
+  const float share = length > 0 ? std::clamp((point - a).dot(along) / length, 0.0f, 1.0f) : 0;
+  return (point - a - share * along).norm();
+}
+
+float Way(const BodyState& off) { return off.position.norm() + kArm * std::fabs(off.angle); }
+float Kick(const BodyState& off) { return off.velocity.norm() + kArm * std::fabs(off.spin); }
+
+}  // namespace
+
+Plausible::Plausible(const Scene& scene, const Replica& replica)
+    : scene_(scene),
+      replica_(replica),
+      accepted_(replica.table(), BodyRule::kSame),
+      memory_(replica.table(), BodyRule::kOrigin) {}
+
+float Plausible::Seconds(std::int64_t ticks) const {
+  return static_cast<float>(ticks) * replica_.world().dt();
+}
+
+bool Plausible::Waits(const States& states) const {
+  const World& world = replica_.world();
+  return std::any_of(states.id.begin(), states.id.end(), [&](std::int32_t id) {
+    const int body = world.BodyOfId(id);
+    const bool copied = body >= 0 && world.activity(body) == Activity::kSimulated &&
+                        replica_.SameBody(body, states.revision);
+    return copied && replica_.SettledPast(body, states.tick) == nullptr;
+  });
+}
+
+bool Plausible::Reachable(int body, std::int64_t tick, const Vec2& position, float times) const {
+  const Accepted& last = accepted_[body];
+  if (last.tick < 0) return true;
+  const float way = times * scene_.speed_limit * Seconds(std::max<std::int64_t>(1, tick - last.tick));
+  return (position - last.state.position).norm() <= way;
+}
+
+void Plausible::NoteDoubt(int body, std::int64_t tick, const BodyState& told,
+                          const BodyState& expected, bool refused) {
+  const Memory& memory = memory_[body];
+  const BodyState off = Minus(told, expected);
+  const float silence = memory.judged < 0 ? kWeighedS : Seconds(tick - memory.judged);
+  const bool gross = Way(off) > kGross || Kick(off) > kGrossVelocity;
+  const float weight = std::clamp(silence / kWeighedS, 0.0f, 1.0f) * (gross ? kGrossWeight : 1);
+  doubts_.push_back({body, tick, told, expected, weight, refused});
+}
+
+bool Plausible::Judge(int body, std::int64_t tick, const BodyState& state, bool whole) {
+  if (std::exchange(revision_, replica_.revision()) != replica_.revision()) {
+    edited_ = replica_.tick();
+  }
+  const BodyState* const copy = replica_.SettledPast(body, tick);
+  bool believed = false;
+  if (copy != nullptr) {
+    BodyState off = Minus(state, *copy);
+    off.angle = WrapAngle(off.angle);
+    if (!whole) off.velocity = Vec2(0, 0), off.spin = 0;
+    believed = JudgeByCopy(body, tick, state, off);
+  } else {
+    believed = JudgeByWay(body, tick, state, whole);
+  }
+  Memory& memory = memory_[body];
+  memory.judged = std::max(memory.judged, tick);
+  memory.probation = believed ? 0 : 1;
+  return believed;
+}
+
+bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off) {
+  Memory& memory = memory_[body];
+  const float way = Way(off), kick = Kick(off);
+  if (way <= kAgrees && kick <= kAgreesVelocity) return true;
+  // A holder that has not applied the newest edit yet, or has just gone back for it, differs.
+  const bool settles = Seconds(replica_.tick() - edited_) < kSettlesS;
+  if (settles && way <= kGross && kick <= kGrossVelocity) return true;
+  const float forgotten =
+      std::min(1.0f, Seconds(std::max<std::int64_t>(0, replica_.tick() - memory.forgotten)) / kForgetS);
+  memory.forgotten = replica_.tick();
+  memory.moved = std::max(0.0f, memory.moved - forgotten * kAllowed);
+  memory.kicked = std::max(0.0f, memory.kicked - forgotten * kAllowedVelocity);
+  const bool believed =
+      memory.moved + way <= kAllowed && memory.kicked + kick <= kAllowedVelocity;
+  if (believed) memory.moved += way, memory.kicked += kick;
+  NoteDoubt(body, tick, state, Minus(state, off), !believed);
+  return believed;
+}
+
+/// The way since the last accepted state is explained by a change of velocity at one moment
+/// between: it ends on the segment between the two velocities times the time. The told velocity
+/// counts as far as drives and a collision explain it. A place that the server's own copy is near
+/// needs no explanation.
+bool Plausible::JudgeByWay(int body, std::int64_t tick, const BodyState& state, bool whole) {
+  const World& world = replica_.world();
+  const BodyState copy = world.Read(body);
+  const Accepted& last = accepted_[body];
+  const bool simulated = world.activity(body) == Activity::kSimulated;
+  const float longest = simulated ? kWayMaxS : kUnseenWayMaxS;
+  const bool known = last.tick >= 0 && Seconds(tick - last.tick) <= longest && tick >= last.tick;
+  const BodyState from = known ? last.state : copy;
+  const float seconds = std::fabs(Seconds(tick - (known ? last.tick : world.tick())));
+  const float driven = kDrivenAcceleration + scene_.gravity.norm();
+  Vec2 told = whole ? state.velocity : from.velocity;
+  const float most = from.velocity.norm() + driven * seconds + kCollisionVelocity;
+  if (told.norm() > most) told *= most / told.norm();
+  float slack = kWaySlack + driven * seconds * seconds / 2;
+  if (!simulated) slack += kCollisionVelocity * seconds;  // it may have met anything
+  const float sign = known || tick >= world.tick() ? 1.0f : -1.0f;
+  const Vec2 way = state.position - from.position;
+  const float off =
+      DistanceFrom(way, sign * seconds * from.velocity, sign * seconds * told);
+  if (off <= slack) return true;
+  NoteDoubt(body, tick, state, from, true);
+  return false;
+}
+
+}  // namespace seam

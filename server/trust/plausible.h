@@ -1,0 +1,88 @@
+#pragma once
+/// Judges told states of bodies: by the server's own copy of the same tick where there is one, else
+/// by the way from the last accepted state.
+///
+/// A server that simulates a body knows the inputs that move it, so that an honest holder tells the
+/// state of the copy, up to the rounding of the wire. Where honest copies part, after late inputs
+/// in chaos, the told state is believed against the copy, but only for a bounded sum of distances
+/// and velocities (Allowance).
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "common/sync/replica.h"
+#include "common/sync/table/body_column.h"
+
+namespace seam {
+
+/// A state that differs from the expected one.
+struct Doubt {
+  int body = -1;
+  std::int64_t tick = 0;
+  BodyState told, expected;
+  float weight = 0;  ///< see TrustLadder
+  bool refused = false;
+};
+
+class Plausible {
+ public:
+  /// Both must outlive this object.
+  Plausible(const Scene& scene, const Replica& replica);
+
+  /// The newest accepted state of a body.
+  struct Accepted {
+    std::int64_t tick = -1;  ///< -1: none
+    std::int32_t epoch = 0;
+    BodyState state;
+  };
+  const Accepted& accepted(int body) const { return accepted_[body]; }
+  void Accept(int body, const Accepted& state) { accepted_[body] = state; }
+
+  /// True if states of this message cannot be compared yet with copies that the server simulates,
+  /// as inputs of their tick are missing or not acted on.
+  bool Waits(const States& states) const;
+  /// True if the state of a body is believed. Notes a doubt if it differs. `whole`: velocity and
+  /// spin were told too.
+  bool Judge(int body, std::int64_t tick, const BodyState& state, bool whole = true);
+  /// True if the place is within reach of the last accepted one at `times` the speed limit.
+  bool Reachable(int body, std::int64_t tick, const Vec2& position, float times) const;
+  /// True from a refused state of a body until its next accepted one.
+  bool OnProbation(int body) const { return memory_[body].probation != 0; }
+  /// Returns the doubts since the last call.
+  std::vector<Doubt> TakeDoubts() { return std::exchange(doubts_, {}); }
+
+  /// Differences from the server's copy that are no doubt, m and m/s. Honest ones are at most
+  /// .0014 and .003 in 999 of 1000 states; angles count as at .5 m from the centre.
+  static constexpr float kAgrees = 0.01f, kAgreesVelocity = 0.1f;
+  /// Largest sum of differences that is believed, m and m/s; it falls to 0 in kForgetS. Smaller
+  /// refuses honest holders of chaos; larger lets a liar move that far before it is stopped.
+  static constexpr float kAllowed = 1, kAllowedVelocity = 5;
+  static constexpr float kForgetS = 4;
+
+ private:
+  /// Of one body.
+  struct Memory {
+    std::int64_t judged = -1;         // tick of the newest judged state
+    float moved = 0, kicked = 0;      // believed against the copy, m and m/s
+    std::int64_t forgotten = 0;       // tick up to which they have fallen
+    char probation = 0;
+  };
+
+  bool JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off);
+  bool JudgeByWay(int body, std::int64_t tick, const BodyState& state, bool whole);
+  void NoteDoubt(int body, std::int64_t tick, const BodyState& told, const BodyState& expected,
+                 bool refused);
+  float Seconds(std::int64_t ticks) const;
+
+  const Scene& scene_;
+  const Replica& replica_;
+  BodyColumn<Accepted> accepted_;
+  BodyColumn<Memory> memory_;
+  std::vector<Doubt> doubts_;
+  int revision_ = 0;             // edits as of the last judgement
+  std::int64_t edited_ = -1000;  // tick at which it was first seen
+};
+
+}  // namespace seam

@@ -1,0 +1,57 @@
+#pragma once
+/// A client that lies: the real client, of which the messages are changed on their way out.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/codec/packed/states_packer.h"
+#include "common/codec/packed/states_unpacker.h"
+#include "common/codec/wire_body.h"
+#include "common/net/net.h"
+#include "common/scene/scene.h"
+
+namespace seam {
+
+/// Names of all attacks, in the order of docs/trust.md; the first is "none".
+const std::vector<std::string>& AttackNames();
+
+/// The lies of one client. Its honest client believes in the states that it has.
+class Cheat {
+ public:
+  /// Throws OperatorError for a name that is not among AttackNames(). `scene` must outlive it.
+  Cheat(const std::string& attack, const Scene& scene);
+
+  /// Returns the network of the lying client; this must outlive it.
+  std::unique_ptr<Net> Around(std::unique_ptr<Net> net);
+  /// Tick of the first lie, -1: none yet; the number of messages with lies.
+  std::int64_t first_tick() const { return first_tick_; }
+  std::int64_t lies() const { return lies_; }
+
+ private:
+  /// Changes a told body; false: it is not told.
+  using Change = std::function<bool(std::int64_t tick, WireBody* body)>;
+
+  void ChooseLies(const std::string& attack);
+  void Rewrite(Bytes* message);
+  void RewriteStates(Bytes* message, const PackedStates& packed);
+  void RewriteOther(Bytes* message);
+  void NoteLie(std::int64_t tick);
+  bool IsCar(std::int32_t id) const;
+
+  const Scene& scene_;
+  std::string attack_;
+  std::int64_t start_tick_ = 150;
+  Change change_;
+  StatesUnpacker honest_;
+  StatesPacker lying_;
+  std::vector<WireBody> first_;  // by id: the honest state of the first lie
+  std::int64_t tick_ = 0;        // newest told
+  std::int64_t first_tick_ = -1, lies_ = 0;
+  std::int32_t revision_ = 0;  // newest told
+  int pings_ = 0;
+};
+
+}  // namespace seam
