@@ -12,7 +12,7 @@ void MemberFigures::Add(const MemberFigures& other) {
 }
 
 Member::Member(const ClientConfig& config)
-    : name_(config.name), udp_(Address{0, 0}), client_(config, udp_, nowhere_, entropy_) {}
+    : name_(config.name), udp_(kAnyAddress), client_(config, udp_, nowhere_, entropy_) {}
 
 void Member::Tick(std::int64_t now_us, std::int64_t* cpu_us) {
   const bool ran = client_.running();

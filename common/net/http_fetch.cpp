@@ -70,7 +70,8 @@ bool ReadAll(int fd, std::int64_t deadline_us, std::string* text) {
 Status FetchPage(const std::string& address, std::int64_t timeout_us, std::string* body) {
   const std::int64_t deadline_us = MonotonicUs() + timeout_us;
   Socket socket_of{socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
-  if (socket_of.fd < 0 || !Connect(socket_of.fd, ParseAddress(address, 9464), deadline_us)) {
+  const Address to = ParseAddress(address, 9464);
+  if (socket_of.fd < 0 || !to.ipv4() || !Connect(socket_of.fd, to, deadline_us)) {
     return Status::Error("no page at " + address);
   }
   const std::string request = "GET /metrics HTTP/1.1\r\nHost: " + address + "\r\n\r\n";

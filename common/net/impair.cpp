@@ -99,7 +99,9 @@ class Direction {
     const auto found = paths_.find(peer);
     if (found != paths_.end()) return found->second;
     const Address key = paths_.size() < kPathsMax ? peer : Address{};
-    const std::uint64_t purpose = (std::uint64_t{key.ip} << 16) | key.port;
+    const std::uint64_t ipv4 = (std::uint64_t{key.ip} << 16) | key.port;
+    const std::uint64_t purpose =
+        key.ipv4() ? ipv4 : ipv4 ^ key.high ^ (std::uint64_t{key.middle} << 32);
     // std::map never moves its elements, so Waiting may point into them.
     return paths_.try_emplace(key, Path{ImpairPath(profile_, random_.Fork(purpose)), 0})
         .first->second;

@@ -1,7 +1,6 @@
 #include "common/net/udp.h"
 
 #include <arpa/inet.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -30,23 +29,50 @@ constexpr int kErrorsSkippedMax = 8;
 /// Most datagrams of a wrong size skipped in one Receive, so that a flood cannot block it.
 constexpr int kDiscardsMax = 1024;
 
-sockaddr_in ToSockaddr(const Address& address) {
-  sockaddr_in out{};
-  out.sin_family = AF_INET;
-  out.sin_port = htons(address.port);
-  out.sin_addr.s_addr = htonl(address.ip);
-  return out;
+/// A name of the kernel's: of either family, which of the two the socket says.
+using Name = sockaddr_in6;
+static_assert(sizeof(Name) >= sizeof(sockaddr_in));
+
+/// Writes the name of an address for a socket of IPv6 (`six`), or of IPv4; returns its bytes. An
+/// IPv4 socket cannot send to IPv6: the name is then one to which nothing is sent.
+socklen_t ToName(const Address& address, bool six, Name* name) {
+  *name = {};
+  if (six) {
+    name->sin6_family = AF_INET6;
+    name->sin6_port = htons(address.port);
+    const auto bytes = BytesOf(address);
+    std::memcpy(&name->sin6_addr, bytes.data(), sizeof name->sin6_addr);
+    return sizeof *name;
+  }
+  sockaddr_in four{};
+  four.sin_family = AF_INET;
+  four.sin_port = htons(address.ipv4() ? address.port : 0);
+  four.sin_addr.s_addr = htonl(address.ipv4() ? address.ip : 0);
+  std::memcpy(name, &four, sizeof four);
+  return sizeof four;
 }
 
-Address FromSockaddr(const sockaddr_in& in) {
-  return Address{ntohl(in.sin_addr.s_addr), ntohs(in.sin_port)};
+Address FromName(const Name& name) {
+  if (name.sin6_family == AF_INET6) {
+    std::array<std::uint8_t, 16> bytes{};
+    std::memcpy(bytes.data(), &name.sin6_addr, bytes.size());
+    Address address;
+    address.high = GetNumber(bytes.data(), 8);
+    address.middle = static_cast<std::uint32_t>(GetNumber(bytes.data() + 8, 4));
+    address.ip = static_cast<std::uint32_t>(GetNumber(bytes.data() + 12, 4));
+    address.port = ntohs(name.sin6_port);
+    return address;
+  }
+  sockaddr_in four{};
+  std::memcpy(&four, &name, sizeof four);
+  return Address{ntohl(four.sin_addr.s_addr), ntohs(four.sin_port)};
 }
 
 /// Buffers and headers of 64 datagrams for recvmmsg and sendmmsg.
 struct Batch {
   std::array<mmsghdr, kBatch> headers{};
   std::array<iovec, kBatch> parts{};
-  std::array<sockaddr_in, kBatch> addresses{};
+  std::array<Name, kBatch> addresses{};
   std::array<std::array<std::uint8_t, kSlotBytes>, kBatch> data{};
 
   Batch() {
@@ -69,6 +95,8 @@ void GrowBuffer(int fd, int force_option, int option) {
   }
 }
 
+int OpenSocket(int family) { return socket(family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0); }
+
 std::string BindFailure(const Address& local, int error) {
   const std::string port = std::to_string(local.port);
   if (error == EADDRINUSE) {
@@ -81,60 +109,11 @@ std::string BindFailure(const Address& local, int error) {
   return "cannot listen on " + ToString(local) + ": " + std::strerror(error);
 }
 
-/// Reads all of `text` as a port. Throws OperatorError quoting `whole`.
-std::uint16_t ParsePort(const std::string& text, const std::string& whole) {
-  const bool digits = !text.empty() && text.size() <= 5 &&
-                      text.find_first_not_of("0123456789") == std::string::npos;
-  const unsigned long port = digits ? std::stoul(text) : 65536;
-  if (port > 65535) {
-    throw OperatorError("address \"" + whole + "\": the port must be a number from 0 to 65535");
-  }
-  return static_cast<std::uint16_t>(port);
-}
-
-/// Asks the resolver for the first IPv4 address of `host`.
-std::uint32_t Resolve(const std::string& host, const std::string& whole) {
-  addrinfo hints{};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found);
-  if (error != 0 || found == nullptr) {
-    throw OperatorError("address \"" + whole + "\": cannot find host \"" + host +
-                        "\": " + gai_strerror(error));
-  }
-  sockaddr_in first{};
-  std::memcpy(&first, found->ai_addr, sizeof first);
-  freeaddrinfo(found);
-  return ntohl(first.sin_addr.s_addr);
-}
-
 }  // namespace
-
-Address ParseAddress(const std::string& text, std::uint16_t default_port) {
-  Address address{0, default_port};
-  const std::size_t colon = text.find(':');
-  if (colon != std::string::npos && text.find(':', colon + 1) != std::string::npos) {
-    throw OperatorError("address \"" + text + "\": expected host:port (IPv4 or a name)");
-  }
-  if (colon != std::string::npos) address.port = ParsePort(text.substr(colon + 1), text);
-  const std::string host = text.substr(0, colon);
-  if (host.empty() || host.size() > 253 || host.find('\0') != std::string::npos) {
-    throw OperatorError("address \"" + text + "\": the host is missing");
-  }
-  in_addr numeric{};
-  if (inet_pton(AF_INET, host.c_str(), &numeric) == 1) {
-    address.ip = ntohl(numeric.s_addr);
-  } else if (host.find_first_not_of("0123456789.") == std::string::npos) {
-    throw OperatorError("address \"" + text + "\": \"" + host + "\" is not an IPv4 address");
-  } else {
-    address.ip = Resolve(host, text);
-  }
-  return address;
-}
 
 struct UdpSender::Impl {
   int fd = -1;
+  bool six = false;  // the socket is of IPv6
   Batch out;
   unsigned count = 0;
 
@@ -144,7 +123,7 @@ struct UdpSender::Impl {
     const unsigned slot = count++;
     std::copy(datagram.begin(), datagram.end(), out.data[slot].begin());
     out.Reset(slot, datagram.size);
-    out.addresses[slot] = ToSockaddr(to);
+    out.headers[slot].msg_hdr.msg_namelen = ToName(to, six, &out.addresses[slot]);
   }
 
   void Flush() {
@@ -196,14 +175,26 @@ struct UdpNet::Impl {
 };
 
 UdpNet::UdpNet(const Address& local) : impl_(std::make_unique<Impl>()) {
-  impl_->fd = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  Address own = local;
+  impl_->fd = OpenSocket(own.ipv4() ? AF_INET : AF_INET6);
+  const bool any = own.high == 0 && own.middle == 0 && own.ip == 0;
+  if (impl_->fd < 0 && any) {  // a machine without IPv6
+    own = Address{0, own.port};
+    impl_->fd = OpenSocket(AF_INET);
+  }
   if (impl_->fd < 0) {
     throw OperatorError(std::string("cannot open a UDP socket: ") + std::strerror(errno));
   }
+  impl_->out.six = !own.ipv4();
+  if (impl_->out.six) {
+    const int off = 0;  // takes IPv4 too, if it listens on any address
+    (void)setsockopt(impl_->fd, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
+  }
   GrowBuffer(impl_->fd, SO_RCVBUFFORCE, SO_RCVBUF);
   GrowBuffer(impl_->fd, SO_SNDBUFFORCE, SO_SNDBUF);
-  const sockaddr_in address = ToSockaddr(local);
-  if (bind(impl_->fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+  Name name{};
+  const socklen_t bytes = ToName(own, impl_->out.six, &name);
+  if (bind(impl_->fd, reinterpret_cast<const sockaddr*>(&name), bytes) != 0) {
     throw OperatorError(BindFailure(local, errno));
   }
   impl_->out.fd = impl_->fd;
@@ -215,6 +206,7 @@ int UdpNet::fd() const { return impl_->fd; }
 
 UdpSender::UdpSender(const UdpNet& net) : impl_(std::make_unique<Impl>()) {
   impl_->fd = net.impl_->fd;
+  impl_->six = net.impl_->out.six;
 }
 
 UdpSender::~UdpSender() = default;
@@ -236,7 +228,7 @@ bool UdpNet::Receive(Address* from, Bytes* datagram) {
       ++impl_->discarded;
       continue;
     }
-    *from = FromSockaddr(impl_->in.addresses[slot]);
+    *from = FromName(impl_->in.addresses[slot]);
     const std::uint8_t* data = impl_->in.data[slot].data();
     datagram->assign(data, data + bytes);
     return true;
@@ -258,10 +250,10 @@ bool UdpNet::Wait(std::int64_t timeout_us, int extra_fd) {
 }
 
 Address UdpNet::local() const {
-  sockaddr_in address{};
-  socklen_t bytes = sizeof address;
-  (void)getsockname(impl_->fd, reinterpret_cast<sockaddr*>(&address), &bytes);
-  return FromSockaddr(address);
+  Name name{};
+  socklen_t bytes = sizeof name;
+  (void)getsockname(impl_->fd, reinterpret_cast<sockaddr*>(&name), &bytes);
+  return FromName(name);
 }
 
 }  // namespace seam

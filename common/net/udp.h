@@ -1,5 +1,5 @@
 #pragma once
-/// Net over a non-blocking IPv4 UDP socket, batched with recvmmsg/sendmmsg.
+/// Net over a non-blocking UDP socket, batched with recvmmsg/sendmmsg.
 
 #include <memory>
 #include <string>
@@ -8,13 +8,15 @@
 
 namespace seam {
 
-/// Reads "host:port" or "host" (numeric IPv4, or a name, which may block in the resolver). Port 0
-/// is allowed and binds to any port. Throws OperatorError with the reason.
+/// Reads "host:port" or "host" (numeric IPv4, or a name, which may block in the resolver), or
+/// "[IPv6]:port", "[IPv6]" or "IPv6". A name's IPv4 address goes before its IPv6 one. Port 0 is
+/// allowed and binds to any port. Throws OperatorError with the reason.
 Address ParseAddress(const std::string& text, std::uint16_t default_port);
 
 class UdpNet : public Net {
  public:
-  /// Binds `local` (port 0: any). Throws OperatorError ("port 7777 is in use: ...").
+  /// Binds `local` (port 0: any). One that listens on `::` takes IPv4 too; on a machine without
+  /// IPv6 that alone. Throws OperatorError ("port 7777 is in use: ...").
   explicit UdpNet(const Address& local);
   ~UdpNet() override;
   UdpNet(const UdpNet&) = delete;

@@ -185,19 +185,64 @@ TEST(Udp, WaitDoesNotSleepOnDatagramsAlreadyFetched) {
   EXPECT_LT(NowUs() - begin_us, 20'000'000);
 }
 
+bool HasIpv6() {
+  try {
+    UdpNet net(ParseAddress("[::1]:0", 0));
+    return true;
+  } catch (const OperatorError&) {
+    return false;
+  }
+}
+
+TEST(Udp, OneSocketTakesIpv4AndIpv6AndAnswersBoth) {
+  UdpNet both(kAnyAddress);
+  for (const char* const from_text : {"127.0.0.1:0", "[::1]:0"}) {
+    const Address own = ParseAddress(from_text, 0);
+    if (!own.ipv4() && !HasIpv6()) continue;
+    UdpNet other(own);
+    Address to = own, from;
+    to.port = both.local().port;
+    other.Send(to, Bytes{1});
+    other.Flush();
+    EXPECT_EQ(Await(both, &from), Bytes{1}) << from_text;
+    EXPECT_EQ(from, other.local());
+    EXPECT_EQ(from.ipv4(), own.ipv4());
+    both.Send(from, Bytes{2});
+    both.Flush();
+    EXPECT_EQ(Await(other, &from), Bytes{2}) << from_text;
+    EXPECT_EQ(from, to);
+  }
+}
+
+TEST(Udp, AnIpv4SocketLosesWhatIsForIpv6AndGoesOn) {
+  UdpNet a({kLoopback, 0}), b({kLoopback, 0});
+  a.Send(ParseAddress("[::1]:9", 9), Bytes{1});
+  a.Send(b.local(), Bytes{2});
+  a.Flush();
+  Address from;
+  EXPECT_EQ(Await(b, &from), Bytes{2});
+}
+
 TEST(Addresses, AreReadWithAndWithoutAPort) {
   EXPECT_EQ(ParseAddress("127.0.0.1:80", 7777), (Address{kLoopback, 80}));
   EXPECT_EQ(ParseAddress("10.1.2.3", 7777), (Address{0x0a010203, 7777}));
   EXPECT_EQ(ParseAddress("localhost:9", 7777), (Address{kLoopback, 9}));
   EXPECT_EQ(ParseAddress("0.0.0.0:0", 7777), (Address{0, 0}));
   EXPECT_EQ(ToString(ParseAddress("192.168.0.1:65535", 1)), "192.168.0.1:65535");
+  const Address one{0x00000002, 80, 1, 0x20010db8000000ffULL};
+  EXPECT_EQ(ParseAddress("[2001:db8:0:ff:0:1:0:2]:80", 7777), one);
+  EXPECT_EQ(ToString(one), "[2001:db8:0:ff:0:1:0:2]:80");
+  EXPECT_EQ(ToString(ParseAddress("::1", 7777)), "[::1]:7777");
+  EXPECT_EQ(ToString(ParseAddress("[::1]", 7777)), "[::1]:7777");
+  EXPECT_EQ(ParseAddress("[::ffff:10.1.2.3]:5", 1), (Address{0x0a010203, 5})) << "IPv4, mapped";
 }
 
 TEST(Addresses, NonsenseIsQuotedInOneLine) {
   const std::string no_host(70, 'x');  // no resolver is asked for a label above 63 letters
   for (const std::string& text : std::vector<std::string>{
            "", ":80", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1", "127.0.0.1:8o",
-           "127.0.0.1:123456", "256.0.0.1", "1.2.3", "::1", "[::1]:80", "a:b:c", no_host + ":80"}) {
+           "127.0.0.1:123456", "256.0.0.1", "1.2.3", "::1x", "[::1]:", "[::1]80", "[::1]:x",
+           "[127.0.0.1]:80", "a:b:c", no_host + ":80"}) {
     const std::string line = ErrorOf(text);
     EXPECT_NE(line.find('"' + text + '"'), std::string::npos) << text;
     EXPECT_EQ(line.find('\n'), std::string::npos);
