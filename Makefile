@@ -63,7 +63,7 @@ DEBS_lint := clang-tidy git
 
 # All .cpp below a folder.
 below = $(sort $(shell find $(1) -name '*.cpp'))
-MAINS := server/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 
 # The objects of sources. Two thirds of a build is parsing headers, so the sources of a folder are compiled together
@@ -94,7 +94,7 @@ TESTS := $(call obj,$(TEST_SOURCES))
 OBJECTS_ALONE := $(call alone,$(SOURCES))
 OBJECTS := $(OBJECTS_ALONE) $(UNITS:%=$(OUT)/unity/%.o)
 CODEC := $(filter $(OUT)/common/codec/% $(OUT)/unity/common/codec%,$(OBJECTS))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-token seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
@@ -209,6 +209,8 @@ $(OUT)/%.a:
 LINK = $(CXX) $(ALL_CXXFLAGS) $(LINKER) $(LDFLAGS) $(LINKED)
 $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
+$(OUT)/seam-token: $(OUT)/server/token/main.o $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-swarm: $(OUT)/client/swarm/main.o $(WATCHERS) $(CLIENT) $(OUT)/libseam-common.a

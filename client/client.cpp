@@ -54,7 +54,7 @@ Client::Client(const ClientConfig& config, Net& net, Recorder& recorder, Entropy
 void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
   if (closed_ || !fatal_.empty()) return;
-  if (link_ == nullptr) Join(now_us);
+  if (number_ == 0) Join(now_us);
   if (std::exchange(loaded_now_, false)) answered_us_ = received_us_ = now_us;
   ReceiveAll(now_us);
   if (closed_ || !fatal_.empty()) return;
@@ -67,7 +67,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   // A session that has released its mechanisms is not resumed: the server may have given them to
   // others. Nor is one without a welcome: the server may have had it and dropped it, and another
   // Join with its number is ignored.
-  const bool lost = silence_us > kLostUs && (peer_ >= 0 || token_);
+  const bool lost = silence_us > kLostUs && (peer_ >= 0 || !offers_.empty());
   if (lost || (peer_ >= 0 && released_ && silence_us < kLeaseUs)) {
     Join(now_us);
   }

@@ -12,6 +12,7 @@
 
 #include "client/clock_filter.h"
 #include "client/join_buffer.h"
+#include "client/join_offers.h"
 #include "client/load_meter.h"
 #include "client/room_timeline.h"
 #include "client/scene_cache.h"
@@ -43,6 +44,9 @@ struct ClientConfig {
   Drive drive = Drive::kNone;
   std::string script_of;  ///< kScript: the scene's player with the script to play
   std::int64_t key = 0;   ///< from an earlier Welcome, to get the same place back; 0: none
+  /// Shown at the first join; name and room must be its own. Later the key of the place is enough.
+  std::optional<ConnectToken> token;
+  std::optional<PublicKey> server_key;  ///< the only server to join; unset: whoever answers
   float smooth_rate = kSmoothRate;  ///< SyncConfig::smooth_rate
   std::optional<int> show_age_ticks;  ///< SyncConfig::show_age_ticks; nullopt: the scene's
   Publish publish = Publish::kAll;
@@ -72,7 +76,7 @@ class Client {
   bool closed() const { return closed_; }
   /// Returns the time spent on joining (again), us; 0 once joined.
   std::int64_t joining_us(std::int64_t now_us) const {
-    return peer_ < 0 && link_ != nullptr ? now_us - joining_since_us_ : 0;
+    return peer_ < 0 && number_ != 0 ? now_us - joining_since_us_ : 0;
   }
   /// Returns the share of the room that has come, 0 to 1; 1 once there is a world.
   double room_share() const {
@@ -119,8 +123,13 @@ class Client {
   /// Until welcomed: sends a Hello, or a Join once there is a token.
   void SendHelloOrJoin(std::int64_t now_us);
   void SendLoose(const Bytes& message);
-  /// Handles a datagram of the handshake; false if it is none.
+  /// Handles a datagram outside of a session; false if it is none of ours.
   bool OnHandshake(std::int64_t now_us, const Bytes& datagram);
+  /// Handles a datagram of the session, if it opens. The first one shows which of our joins the
+  /// server has granted.
+  bool OnSealed(std::int64_t now_us, const Bytes& datagram);
+  void BeginOffers();
+  void OnChallenge(std::int64_t now_us, const Challenge& challenge);
   void OnRefusal(std::int64_t now_us, const std::string& reason);
   void OnWelcome(std::int64_t now_us, const Welcome& welcome);
   /// Asks the server for the free names, as ours is no player's.
@@ -186,11 +195,12 @@ class Client {
   Net& net_;
   Recorder& recorder_;
   Entropy& entropy_;
-  std::uint64_t session_ = 0;
-  std::optional<std::int64_t> token_;  // the server's newest, for this session
-  bool token_fresh_ = false;           // not sent in a Join yet
+  std::uint64_t number_ = 0;  // of our handshake
+  JoinOffers offers_;
+  bool offer_fresh_ = false;  // the newest was not sent in a Join yet
   std::int64_t key_ = 0;
-  std::unique_ptr<Link> link_;
+  std::optional<PublicKey> key_of_;  // the server that gave us the key, if it did in our life
+  std::unique_ptr<Link> link_;       // nullptr until the first datagram of the session
   std::unique_ptr<Publisher> publisher_;
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<Replica> replica_;

@@ -1,11 +1,14 @@
 /// Client, joining: Hello, Challenge, Join, Welcome. See docs/protocol.md, "Joining".
 
+#include <algorithm>
 #include <cstdio>
 #include <variant>
 
 #include "client/client.h"
+#include "common/base/hex.h"
 #include "common/base/nearest.h"
 #include "common/net/datagram.h"
+#include "common/net/loose_datagram.h"
 
 namespace seam {
 namespace {
@@ -33,13 +36,13 @@ std::string OtherProtocol(const std::string& reason) {
 
 void Client::Join(std::int64_t now_us) {
   do {
-    session_ = entropy_.Next();
-  } while (session_ == 0);
-  link_ = std::make_unique<Link>(session_);
+    number_ = entropy_.Next();
+  } while (number_ == 0);
+  BeginOffers();
+  offer_fresh_ = false;
+  link_.reset();
   unpacker_.reset();
   packer_.reset();
-  token_.reset();
-  token_fresh_ = false;
   replica_.reset();
   scene_.reset();
   snapshot_.reset();
@@ -58,55 +61,82 @@ void Client::Join(std::int64_t now_us) {
   refused_us_ = asked_names_us_ = -1;
 }
 
+void Client::BeginOffers() {
+  // A token counts once; who was in the room comes back with the key of the place.
+  const bool shows = config_.token && !key_of_;
+  offers_.Begin(entropy_, number_, config_.name, config_.room, shows ? &*config_.token : nullptr);
+}
+
 void Client::SendHelloOrJoin(std::int64_t now_us) {
-  if (now_us - last_hello_us_ < kHelloUs && !token_fresh_) return;
+  if (now_us - last_hello_us_ < kHelloUs && !offer_fresh_) return;
   last_hello_us_ = now_us;
-  token_fresh_ = false;
-  if (!token_) {
+  offer_fresh_ = false;
+  if (offers_.empty()) {
     Hello hello;
     hello.utime = now_us;
     hello.name = config_.name;
     SendLoose(Encode(hello));
     return;
   }
-  seam::Join join;
-  join.utime = now_us;
-  join.token = *token_;
-  join.key = key_;
-  join.name = config_.name;
-  join.room = config_.room;
-  SendLoose(Encode(join));
+  // Another server than the one that gave us the key has no use for it.
+  const bool theirs = !key_of_ || SameKey(*key_of_, offers_.identity());
+  SendLoose(Encode(offers_.Make(now_us, theirs ? key_ : 0)));
 }
 
 void Client::SendLoose(const Bytes& message) {
-  const Bytes datagram = LooseDatagram(session_, message);
+  const Bytes datagram = LooseDatagram(number_, message, kHandshakeBytes);
   stats_.bytes_out += static_cast<std::int64_t>(datagram.size());
   stats_.datagrams_out += 1;
   net_.Send(config_.server, datagram);
 }
 
 bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
-  DatagramHeader header;
-  if (!ReadHeader(datagram, &header) || header.session != session_) return false;
-  // Once we have joined, such a datagram is a late answer.
-  if (peer_ >= 0) return header.loose();
-  // Servers of older protocols refuse in a numbered datagram: the number is ignored.
-  const AnyMessage any = Decode(FirstUnreliable(datagram));
+  if (number_ == 0 || LooseNumber(datagram) != number_) return false;
+  // Once we have joined, such a datagram is a late answer, or somebody else's.
+  if (peer_ >= 0) return true;
+  const AnyMessage any = Decode(LooseMessage(datagram));
   if (const auto* challenge = std::get_if<Challenge>(&any)) {
-    token_fresh_ = token_ != challenge->token;
-    token_ = challenge->token;
+    OnChallenge(now_us, *challenge);
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     OnRefusal(now_us, bye->reason);
-  } else {
-    return header.loose();
   }
   return true;
+}
+
+void Client::OnChallenge(std::int64_t now_us, const Challenge& challenge) {
+  const std::uint8_t* const identity = challenge.keys.data() + challenge.keys.size() / 2;
+  PublicKey theirs{};
+  std::copy_n(identity, theirs.size(), theirs.begin());
+  if (config_.server_key && !SameKey(*config_.server_key, theirs)) {
+    return OnRefusal(now_us, "it has the key " + ToHex(theirs.data(), theirs.size()) +
+                                 ", which is not the one of --server-key");
+  }
+  offer_fresh_ = offers_.Take(challenge) || offer_fresh_;
+}
+
+bool Client::OnSealed(std::int64_t now_us, const Bytes& datagram) {
+  const auto receive = [&] {
+    return link_->Receive(now_us, datagram, [&](ByteView message) { OnMessage(now_us, message); });
+  };
+  if (link_ != nullptr) return receive();
+  PublicKey identity{};
+  const SealKeys* const keys = offers_.Find(SessionOfDatagram(datagram), &identity);
+  if (keys == nullptr) return false;
+  link_ = std::make_unique<Link>(*keys);
+  if (receive()) {
+    key_of_ = identity;
+    offers_.Clear();
+    return true;
+  }
+  link_.reset();
+  return false;
 }
 
 void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
   const std::string other = OtherProtocol(reason);
   if (config_.numbers_name && reason.rfind("the name " + config_.name + " is in use", 0) == 0) {
     config_.name = "guest-" + std::to_string(++name_number_);
+    BeginOffers();
     return;
   }
   // Our own earlier session may still hold the name: retry for a while.

@@ -34,9 +34,7 @@ void Client::ReceiveAll(std::int64_t now_us) {
     stats_.bytes_in += static_cast<std::int64_t>(datagram.size());
     stats_.datagrams_in += 1;
     const bool good =
-        from == config_.server &&
-        (OnHandshake(now_us, datagram) ||
-         link_->Receive(now_us, datagram, [&](ByteView message) { OnMessage(now_us, message); }));
+        from == config_.server && (OnHandshake(now_us, datagram) || OnSealed(now_us, datagram));
     if (!good) ++stats_.dropped_malformed;
   }
   stats_.dropped_malformed += net_.discarded() - discarded_;

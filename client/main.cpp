@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 
 #include "client/client.h"
@@ -13,6 +15,7 @@
 #include "client/keyboard.h"
 #include "client/terminal_view.h"
 #include "common/base/command_line.h"
+#include "common/base/hex.h"
 #include "common/base/names.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
@@ -41,6 +44,8 @@ struct Flags {
   double join_s = 10;
   double throttle = 1;
   std::string key;
+  std::string server_key;
+  std::string token;
   std::string record;
   bool force = false;
   std::string room;  // "": the server's first
@@ -73,6 +78,9 @@ void Define(Command& app, Flags& f) {
   app.Option("--key", f.key,
              "keep the secret of our place in this file (mode 0600): after a restart the "
              "place, with its car, is ours again at once");
+  app.Option("--token", f.token, "show the token in this file, which names player and room");
+  app.Option("--server-key", f.server_key,
+             "join only the server that printed this key at its start (default: whoever answers)");
   app.Option("--record", f.record, "write an LCM log of the bus to this file");
   app.Switch("--force", f.force, "replace the --record file");
   app.Option("--room", f.room, "the room to join (default: the server's first)");
@@ -89,8 +97,27 @@ void CheckName(const std::string& flag, const std::string& name) {
   if (!good) throw OperatorError(flag + " takes 1 to 32 letters, digits, - or _");
 }
 
+/// Reads the token, and takes name and room from it.
+void TakeToken(const std::string& path, ClientConfig* config) {
+  std::FILE* const file = std::fopen(path.c_str(), "re");
+  if (file == nullptr) throw OperatorError("--token " + path + ": " + std::strerror(errno));
+  std::string text(4096, 0);
+  text.resize(std::fread(&text[0], 1, text.size(), file));
+  std::fclose(file);
+  config->token.emplace();
+  const Status status = ReadToken(text, &*config->token);
+  Wipe(&text[0], text.size());
+  if (!status.ok()) throw OperatorError("--token " + path + ": " + status.why());
+  config->name = config->token->name;
+  config->room = config->token->room;
+  config->numbers_name = false;
+}
+
 ClientConfig Configure(const Flags& f) {
-  if (f.name.empty() && !f.watch) {
+  if (!f.token.empty() && !(f.name.empty() && f.room.empty())) {
+    throw OperatorError("--token names player and room: not with --name or --room");
+  }
+  if (f.token.empty() && f.name.empty() && !f.watch) {
     throw OperatorError("who are you? --name PLAYER, one of the scene's; or --watch");
   }
   if (f.watch && f.drive != "none") throw OperatorError("--watch drives nothing: not with --drive");
@@ -104,10 +131,17 @@ ClientConfig Configure(const Flags& f) {
   if (config.server.port == 0) {
     throw OperatorError("address \"" + f.server + "\": no server has port 0");
   }
+  if (!f.server_key.empty()) {
+    config.server_key.emplace();
+    if (!FromHex(f.server_key, config.server_key->data(), config.server_key->size())) {
+      throw OperatorError("--server-key takes the 64 digits that seam-server prints at its start");
+    }
+  }
   config.name = f.name.empty() ? "guest" : f.name;
   config.numbers_name = f.name.empty();
+  if (!f.token.empty()) TakeToken(f.token, &config);
   config.watch = f.watch;
-  config.room = f.room;
+  if (f.token.empty()) config.room = f.room;
   config.smooth_rate = ParseSmoothRate(f.smooth);
   if (f.show_age >= 0) config.show_age_ticks = f.show_age;
   config.publish = ParsePublish(f.publish);
@@ -174,7 +208,7 @@ int Play(const Flags& f) {
   const bool shown = f.show || (keyboard != nullptr && isatty(1) != 0 && !f.quiet);
   if (shown) view = std::make_unique<TerminalView>();
   if (keyboard != nullptr && !shown) std::fprintf(stderr, "seam-client: %s\n", kKeys);
-  UdpNet udp(Address{0, 0});
+  UdpNet udp(kAnyAddress);
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
   Sink sink(f.lcm_url, f.record, f.force, f.room.empty() ? "main" : f.room);
   OsEntropy entropy;

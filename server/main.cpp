@@ -8,6 +8,7 @@
 
 #include "common/base/command_line.h"
 #include "common/base/find_scene.h"
+#include "common/base/hex.h"
 #include "common/base/limits.h"
 #include "common/base/names.h"
 #include "common/base/plain_file.h"
@@ -15,6 +16,7 @@
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
 #include "common/net/impair.h"
+#include "common/net/secret_file.h"
 #include "common/net/udp.h"
 #include "common/record/doctor.h"
 #include "common/sync/method.h"
@@ -183,8 +185,24 @@ std::vector<RoomPlan> MakePlans(const Flags& f) {
   return plans;
 }
 
+/// Gives all rooms the server's keys.
+void SetKeys(const Flags& f, std::vector<RoomPlan>* plans) {
+  OsEntropy entropy;
+  const auto identity = std::make_shared<const KeyPair>(
+      f.identity.empty() ? Secret(entropy) : KeepSecretFile("--identity", f.identity, entropy));
+  std::shared_ptr<const Secret> token_key;
+  if (!f.token_key.empty()) {
+    token_key = std::make_shared<const Secret>(ReadSecretFile("--token-key", f.token_key));
+  }
+  for (RoomPlan& plan : *plans) {
+    plan.config.identity = identity;
+    plan.config.token_key = token_key;
+  }
+}
+
 int Serve(const Flags& f) {
-  const std::vector<RoomPlan> plans = MakePlans(f);
+  std::vector<RoomPlan> plans = MakePlans(f);
+  SetKeys(f, &plans);
   const int rooms = static_cast<int>(plans.size());
   if (f.workers > 0 && rooms == 1) throw OperatorError("--workers: one room has one thread");
   UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));
@@ -201,9 +219,12 @@ int Serve(const Flags& f) {
   const std::string what = rooms == 1 ? plans[0].scene.name : std::to_string(rooms) + " rooms";
   std::fprintf(stderr,
                "seam-server: %s, mode %s%s%s, network %s, on %s\n"
+               "seam-server: its key is %s\n"
                "seam-server: %s %d player(s)%s%s\n",
                what.c_str(), NamesOf(sync).mode.c_str(), variant.empty() ? "" : " ",
                variant.c_str(), plans[0].config.impair.c_str(), ToString(udp.local()).c_str(),
+               ToHex(plans[0].config.identity->open.data(),
+                     plans[0].config.identity->open.size()).c_str(),
                f.resume.empty() ? "waiting for" : "goes on, waiting for",
                plans[0].config.wait_players, rooms == 1 ? "" : " in the first",
                Ending(DurationOf(f, plans[0].scene)).c_str());

@@ -51,6 +51,11 @@ struct ServerConfig {
   double client_bytes_per_s = kClientBytesPerS;
   Publish publish = Publish::kAll;
   TrustMode trust = TrustMode::kAct;  ///< doubts about clients (docs/trust.md)
+  /// The server's lasting keys, the same in all its rooms; nullptr: drawn from its entropy.
+  std::shared_ptr<const KeyPair> identity;
+  /// Key of the operator whose connect tokens are demanded; nullptr: anybody may join. With it the
+  /// clock of Tick has to be the time since 1970.
+  std::shared_ptr<const Secret> token_key;
 };
 
 class Server {
@@ -116,6 +121,10 @@ class Server {
   const Scene& scene() const { return scene_; }
   /// Statistics of each client's sessions so far.
   std::vector<ClientAccount> accounts() const { return sessions_.accounts().List(); }
+  /// All bytes of clients and strangers, by kind.
+  const TrafficCount& traffic() const { return sessions_.traffic(); }
+  /// The server's lasting public key.
+  const PublicKey& identity() const { return sessions_.identity(); }
   /// The room's rules (health, scores, scripts); nullptr if the scene has none.
   const Rules* rules() const { return rules_.get(); }
   /// Trust in each player's client.

@@ -43,7 +43,7 @@ std::string ProfilesText() {
 void DefineServerFlags(Command& app, ServerFlags& f) {
   app.Option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
   app.Option("--port", f.port, "UDP port").Range(1, 65535);
-  app.Option("--bind", f.bind, "address to listen on");
+  app.Option("--bind", f.bind, "address to listen on (default: all, of IPv4 and IPv6)");
   app.Option("--mode", f.mode, "oracle | central | strict | buffer (default buffer)");
   app.Option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
   app.Option("--predict", f.predict,
@@ -67,6 +67,11 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
   app.Option("--metrics", f.metrics_port,
              "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
       .Range(1, 65535);
+  app.Option("--identity", f.identity,
+             "keep the server's key in this file (mode 0600; made if there is none), so that it is "
+             "the same after a restart");
+  app.Option("--token-key", f.token_key,
+             "let in only those with a token that seam-token made with the key in this file");
   app.Option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
       .Range(0, kPlayersMax);
   app.Option("--duration", f.duration_s,

@@ -12,7 +12,7 @@ namespace seam {
 struct ServerFlags {
   std::vector<std::string> scenes;
   int port = 7777;
-  std::string bind = "0.0.0.0";
+  std::string bind = "[::]";
   std::string mode;  // "": buffer
   std::string reconcile;
   std::string predict;
@@ -37,6 +37,7 @@ struct ServerFlags {
   std::string bus_rooms = "first";
   int metrics_port = 0;
   std::string trust = "act";
+  std::string identity, token_key;
 };
 
 /// Defines the flags, which set `flags`.

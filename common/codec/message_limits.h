@@ -60,6 +60,10 @@ static_assert(30 + 24 * kReportedImpactsMax <= kMessageBytesMax);
 /// Most touches in one TouchReport: 30 + 12 bytes each.
 constexpr std::size_t kReportedTouchesMax = 64;
 static_assert(30 + 12 * kReportedTouchesMax <= kMessageBytesMax);
+/// Bytes of the keys in a Challenge and in a Join, and most of a connect token in a Join.
+constexpr std::size_t kChallengeKeysBytes = 2 * 32;
+constexpr std::size_t kJoinExchangeBytes = 32 + 24;
+constexpr std::size_t kPassBytesMax = 400;
 /// Most bytes in one Chunk.
 constexpr std::size_t kChunkBytesMax = 1000;
 static_assert(kChunkBytesMax < kMessageBytesMax);

@@ -19,8 +19,8 @@
 ///   kBusPlayer  on the bus too, channel SEAM.<room>.<kind>.<player>
 #define SEAM_MESSAGES(X)                                                                           \
   X(Hello, hello_t, kEdge, "", m.utime, m.protocol, m.name)                                        \
-  X(Challenge, challenge_t, kEdge, "", m.utime, m.token)                                           \
-  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.key, m.name, m.room)                  \
+  X(Challenge, challenge_t, kEdge, "", m.utime, m.token, m.keys)                                   \
+  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.name, m.room, m.exchange, m.pass)     \
   X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key)                 \
   X(Chunk, chunk_t, kEdge, "", m.utime, m.offset_bytes, m.data)                                    \
   X(Ready, ready_t, kEdge, "", m.utime)                                                            \

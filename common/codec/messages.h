@@ -18,38 +18,37 @@ constexpr std::int32_t kProtocolVersion = 14;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 
-/// Client -> server, repeated until answered: asks for a room and its protocol version. No version
-/// may change these fields, so that peers of any two versions can exchange theirs.
+/// Client -> server, repeated until answered: asks for a room. No version may change these fields.
 struct Hello {
   std::int64_t utime = 0;
   std::int32_t protocol = kProtocolVersion;
   std::string name;  ///< player or spectator name, 1..32 characters of [A-Za-z0-9_-]
 };
 
-/// Server -> client: the answer to a Hello from an unknown address. The server keeps no state for
-/// it; a client that returns the token proves that it receives at its address.
+/// Server -> client: answers a Hello. A client that returns the token proves its address.
 struct Challenge {
   std::int64_t utime = 0;
   std::int64_t token = 0;
+  std::vector<std::uint8_t> keys;  ///< two public keys: of the time slot, and the lasting one
 };
 
-/// Client -> server, repeated until welcomed: asks to join.
+/// Client -> server, repeated until welcomed.
 struct Join {
   std::int64_t utime = 0;
   std::int32_t protocol = kProtocolVersion;
   std::int64_t token = 0;  ///< from the Challenge
-  std::int64_t key = 0;    ///< from an earlier Welcome, to get the same player again; 0: none
   std::string name;        ///< 1..32 characters of [A-Za-z0-9_-]
   std::string room;        ///< name of the room, or "": the server's first
+  std::vector<std::uint8_t> exchange, pass;  ///< a public and a sealed key; a connect token
 };
 
-/// Server -> client, reliable: admitted. The Room follows in Chunks.
+/// Server -> client, reliable. The Room follows in Chunks.
 struct Welcome {
   std::int64_t utime = 0;
   std::int32_t peer = 0;        ///< this client's peer number, >= 1
   std::int32_t player = -1;     ///< index of its player in the scene, -1 for a spectator
   std::int32_t room_bytes = 0;  ///< size of the compressed encoded Room that follows
-  std::int64_t key = 0;         ///< secret of this player; see Join
+  std::int64_t key = 0;         ///< secret of this player; for its next Join
 };
 
 /// Client -> server, reliable: the client has loaded the room and its clock has settled.

@@ -94,10 +94,11 @@ bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines) {
 
 bool Valid(const Hello& m) { return Time(m.utime) && IsName(m.name); }
 
-bool Valid(const Challenge& m) { return Time(m.utime); }
+bool Valid(const Challenge& m) { return Time(m.utime) && m.keys.size() == kChallengeKeysBytes; }
 
 bool Valid(const Join& m) {
-  return Time(m.utime) && IsName(m.name) && (m.room.empty() || IsName(m.room));
+  return Time(m.utime) && IsName(m.name) && (m.room.empty() || IsName(m.room)) &&
+         m.exchange.size() == kJoinExchangeBytes && m.pass.size() <= kPassBytesMax;
 }
 
 bool Valid(const Ready& m) { return Time(m.utime); }

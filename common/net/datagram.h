@@ -1,35 +1,34 @@
 #pragma once
-/// Writes and reads the bytes of one datagram of a Link; keeps no state between datagrams.
+/// Writes and reads the bytes of one sealed datagram of a Link; keeps no state between datagrams.
 ///
-///   0      4          8         16         18    20         24
-///   magic  checksum   session   sequence   ack   ack_bits   messages...
-///   u32    u32        u64       u16        u16   u32
+///   0      4         12         14    16         20            n - 16
+///   magic  session   sequence   ack   ack_bits   messages...   tag
+///   u32    u64       u16        u16   u32                      16 bytes
 ///
 ///   message:   header u16 (bit 15: reliable, bits 0..14: bytes) | [reliable id u16] | bytes
 ///
-/// All big-endian. docs/protocol.md is the reference.
+/// All big-endian; everything from `ack` on is encrypted, everything authenticated (seal.h).
+/// docs/protocol.md is the reference.
 
 #include <cstdint>
 #include <vector>
 
 #include "common/base/bytes.h"
 #include "common/net/net.h"
+#include "common/net/seal.h"
 
 namespace seam {
 
-/// "SEA1". A change of the framing needs another number.
-constexpr std::uint32_t kDatagramMagic = 0x53454131u;
-constexpr std::size_t kDatagramHeaderBytes = 24;
+/// "SEA2". A change of the framing needs another number.
+constexpr std::uint32_t kDatagramMagic = 0x53454132u;
+constexpr std::size_t kDatagramHeaderBytes = 20;
+/// Bytes of a datagram without messages.
+constexpr std::size_t kDatagramOverheadBytes = kDatagramHeaderBytes + Seal::kTagBytes;
 
 struct DatagramHeader {
-  std::uint64_t session = 0;
-  std::uint16_t sequence = 0;
+  std::int64_t sequence = 0;   ///< number in its direction, from 1; 16 bits are sent
   std::uint16_t ack = 0;       ///< a sequence number that has arrived
   std::uint32_t ack_bits = 0;  ///< bit i: ack - 1 - i has arrived too
-
-  /// Returns true for a datagram outside any session: part of the handshake, or a refusal. A Link
-  /// rejects it.
-  bool loose() const { return sequence == 0 && ack == 0 && ack_bits == 0; }
 };
 
 struct DatagramMessage {
@@ -48,10 +47,13 @@ class DatagramWriter {
  public:
   DatagramWriter();
   void Append(const DatagramMessage& message);
-  std::size_t bytes() const { return data_.size(); }
+  /// Bytes of the datagram with its tag.
+  std::size_t bytes() const { return data_.size() + Seal::kTagBytes; }
   bool empty() const { return data_.size() == kDatagramHeaderBytes; }
-  /// Fills in header and checksum. The result is valid until the next call.
-  const Bytes& Finish(const DatagramHeader& header);
+  /// Returns the datagram as it is before it is sealed, its header not yet filled in.
+  ByteView plain() const { return data_; }
+  /// Fills in the header and seals. The result is valid until the next call; then Clear.
+  const Bytes& Finish(const DatagramHeader& header, const Seal& seal);
   /// Begins another datagram in the same memory.
   void Clear() { data_.resize(kDatagramHeaderBytes); }
 
@@ -59,21 +61,18 @@ class DatagramWriter {
   Bytes data_;
 };
 
-/// Reads the header fields of a datagram, unchecked; false if it is shorter than a header.
-bool PeekHeader(ByteView datagram, DatagramHeader* header);
+/// Returns the number of the session of a datagram, unchecked; 0: it is no sealed datagram.
+std::uint64_t SessionOfDatagram(ByteView datagram);
+/// Returns the 16 bits of the sequence number of a datagram for which SessionOfDatagram is not 0.
+std::uint16_t SequenceOfDatagram(ByteView datagram);
 
-/// Reads and checks the 24 header bytes and the checksum of the whole; false if it is not ours.
-bool ReadHeader(ByteView datagram, DatagramHeader* header);
+/// Opens a datagram of this session and sequence number into `plain`, which ReadMessages reads, and
+/// `header`. False if the other end did not write it.
+bool OpenDatagram(ByteView datagram, const Seal& seal, std::int64_t sequence, Bytes* plain,
+                  DatagramHeader* header);
 
-/// Splits the bytes after the header into messages. False when a length is 0, too large or beyond
-/// the end; `messages` is then undefined.
-bool ReadMessages(ByteView datagram, std::vector<DatagramMessage>* messages);
-
-/// Returns the first message of a datagram with a good header if that message is unreliable and
-/// complete; else empty.
-ByteView FirstUnreliable(ByteView datagram);
-
-/// Returns a datagram of one unreliable message outside any session; see DatagramHeader::loose.
-Bytes LooseDatagram(std::uint64_t session, ByteView message);
+/// Splits the bytes after the header of an opened datagram into messages. False when a length is 0,
+/// too large or beyond the end; `messages` is then undefined.
+bool ReadMessages(ByteView plain, std::vector<DatagramMessage>* messages);
 
 }  // namespace seam

@@ -1,6 +1,6 @@
 #pragma once
 /// A short keyed hash: SipHash-2-4 (Aumasson and Bernstein, "SipHash: a fast short-input PRF",
-/// 2012), from libsodium. Its .cpp is the only file that includes that library.
+/// 2012), from libsodium.
 
 #include <array>
 #include <cstdint>

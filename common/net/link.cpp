@@ -34,9 +34,10 @@ constexpr std::size_t kSpareRecords = 16;
 }  // namespace
 
 struct Link::Impl {
-  const std::uint64_t session;
+  const Seal seal;
 
   std::int64_t sequence = 0;  // number of the newest datagram sent; the first is 1
+  std::int64_t acknowledged = 0;  // number of the newest datagram known to have arrived
   std::int64_t last_send_us = -1;
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest acknowledged number
@@ -55,6 +56,7 @@ struct Link::Impl {
   SequenceWindow window;
   std::int64_t flushed_newest = -1;  // window.newest() at the last Flush
   bool ack_pending = false;          // a reliable message came since the last datagram sent
+  bool newest = false;               // the last accepted datagram was later than all before it
   ReliableInbox inbox;
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;
@@ -63,9 +65,11 @@ struct Link::Impl {
   DatagramWriter writer;
   SentRecord carried;  // contents of the datagram in the writer
   std::vector<std::int64_t> acks;
+  Bytes plain;  // the datagram being received, opened
   std::vector<DatagramMessage> messages;
+  Watch watch;
 
-  explicit Impl(std::uint64_t number) : session(number) { arrived.fill(-1); }
+  explicit Impl(const SealKeys& keys) : seal(keys) { arrived.fill(-1); }
 
   // ---- sending
 
@@ -105,8 +109,7 @@ struct Link::Impl {
   /// Sends the datagram in the writer, which may be empty.
   void Emit(Packing& packing) {
     DatagramHeader header;
-    header.session = session;
-    header.sequence = static_cast<std::uint16_t>(++sequence);
+    header.sequence = ++sequence;
     if (!acks.empty()) {
       const std::int64_t ack = acks[std::min(packing.datagrams, acks.size() - 1)];
       header.ack = static_cast<std::uint16_t>(ack);
@@ -115,7 +118,8 @@ struct Link::Impl {
     carried.bytes = writer.bytes();
     carried.total = rate.NoteSent(packing.now_us, carried.bytes);
     RecordSent(packing.now_us);
-    packing.send(writer.Finish(header));
+    if (watch) watch(writer.plain(), true);
+    packing.send(writer.Finish(header, seal));
     ++packing.datagrams;
     writer.Clear();
     last_send_us = packing.now_us;
@@ -178,6 +182,7 @@ struct Link::Impl {
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
+    acknowledged = std::max(acknowledged, number);
     rate.NoteArrived(record.bytes);
     if (sample && !quiet) {
       SampleRtt(now_us - record.sent_us);
@@ -239,22 +244,20 @@ struct Link::Impl {
     if (!repeated) inbox.Take(message, deliver);
   }
 
-  /// Returns true if the other end of this session wrote the datagram. The only such check, so the
-  /// security of a session depends on it. The proof is the session number, drawn at random by a
-  /// client that then showed that it receives at its address: this keeps out attackers that cannot
-  /// read the path. Encrypted packets would be opened here.
-  bool Authentic(const DatagramHeader& header) const {
-    return header.session == session && !header.loose();
-  }
-
   bool Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, const Sink& deliver) {
+    if (SessionOfDatagram(datagram) != seal.session()) return false;
+    const std::int64_t number = window.Full(SequenceOfDatagram(datagram));
     DatagramHeader header;
-    if (!ReadHeader(datagram, &header) || !Authentic(header)) return false;
-    const std::int64_t number = window.Full(header.sequence);
+    // Nothing of this link changes before the datagram has opened.
+    if (!window.IsNew(number) || !OpenDatagram(datagram, seal, number, &plain, &header)) {
+      return false;
+    }
     const std::int64_t ack = Unwrap(header.ack, sequence);
-    if (!window.IsNew(number) || ack > sequence) return false;
-    if (!ReadMessages(datagram, &messages) || !inbox.InWindow(messages)) return false;
+    if (ack > sequence) return false;
+    if (!ReadMessages(plain, &messages) || !inbox.InWindow(messages)) return false;
     if (!gate(messages.size())) return false;
+    if (watch) watch(plain, false);
+    newest = window.empty() || number > window.newest();
     window.Insert(number);
     last_receive_us = now_us;
     ReadAcks(ack, header.ack_bits, now_us);
@@ -269,9 +272,7 @@ struct Link::Impl {
   }
 };
 
-Link::Link(std::uint64_t session) : impl_(std::make_unique<Impl>(session)) {
-  SEAM_ASSERT(session != 0);
-}
+Link::Link(const SealKeys& keys) : impl_(std::make_unique<Impl>(keys)) {}
 Link::~Link() = default;
 Link::Link(Link&&) noexcept = default;
 Link& Link::operator=(Link&&) noexcept = default;
@@ -331,6 +332,11 @@ bool Link::SendsNow(std::int64_t now_us) const {
   idle_until_us_ = impl_->IdleUntilUs();
   return false;
 }
+void Link::SetWatch(Watch watch) { impl_->watch = std::move(watch); }
+std::int64_t Link::sent() const { return impl_->sequence; }
+std::int64_t Link::acknowledged() const { return impl_->acknowledged; }
+bool Link::received_newest() const { return impl_->newest; }
+std::uint64_t Link::session() const { return impl_->seal.session(); }
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 const LineRate& Link::rate() const { return impl_->rate; }

@@ -2,11 +2,8 @@
 /// One connection over Net: sequence numbers, acks, unreliable messages, and a few reliable ordered
 /// ones.
 ///
-///   datagram:  magic u32 | checksum u32 | session u64 | sequence u16 | ack u16 | ack_bits u32 |
-///              messages...
-///   message:   header u16 (bit 15: reliable, bits 0..14: bytes) | [reliable id u16] | bytes
-///
-/// All big-endian; the checksum is CRC-32C over all other bytes. docs/protocol.md is the reference.
+/// Each datagram is sealed (datagram.h); what the other end did not seal changes nothing.
+/// docs/protocol.md is the reference.
 
 #include <cstdint>
 #include <functional>
@@ -18,6 +15,7 @@
 #include "common/base/limits.h"
 #include "common/net/line_rate.h"
 #include "common/net/net.h"
+#include "common/net/seal.h"
 #include "common/net/sent_record.h"
 
 namespace seam {
@@ -35,8 +33,8 @@ constexpr int kListedSlot = kReceiptSlots;
 
 class Link {
  public:
-  /// Both ends must have the same session number (not 0); the client draws it at random.
-  explicit Link(std::uint64_t session);
+  /// The other end must have the keys mirrored.
+  explicit Link(const SealKeys& keys);
   ~Link();
   Link(Link&&) noexcept;
   Link& operator=(Link&&) noexcept;
@@ -67,7 +65,7 @@ class Link {
              std::size_t reliable_bytes = std::numeric_limits<std::size_t>::max());
 
   /// Reads a datagram and calls `deliver` for each new message in it. Returns false, counts it and
-  /// delivers nothing when it is malformed, of another session, a duplicate or too old. `deliver`
+  /// delivers nothing when it does not open, is a duplicate, too old or malformed. `deliver`
   /// may send on this link, but must neither destroy it nor call Receive.
   bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver);
   /// Called for each good new datagram before it has any effect, with its number of messages. If it
@@ -83,6 +81,14 @@ class Link {
   /// server asks all its links at each call.
   bool Sends(std::int64_t now_us) const { return now_us >= idle_until_us_ && SendsNow(now_us); }
 
+  /// Called with each datagram that is sent (`out`) or accepted, as it is without its seal.
+  using Watch = std::function<void(ByteView plain, bool out)>;
+  void SetWatch(Watch watch);
+
+  std::uint64_t session() const;         ///< number of the session in its datagrams
+  std::int64_t sent() const;             ///< number of the newest datagram sent; 0: none
+  std::int64_t acknowledged() const;     ///< number of the newest one acknowledged; 0: none
+  bool received_newest() const;          ///< the last accepted datagram was later than all before
   std::int64_t last_receive_us() const;  ///< -1 before the first
   /// Returns the smoothed round trip (RFC 6298), including the peer's wait for its next datagram;
   /// -1 before the first sample.

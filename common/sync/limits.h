@@ -42,7 +42,7 @@ constexpr std::size_t Largest(const MessageBytes& bytes, std::size_t count) {
 }
 
 // Between peers: a message with the headers of link.h fits one datagram.
-static_assert(kDatagramHeaderBytes + 4 + kMessageBytesMax <= kDatagramBytesMax,
+static_assert(kDatagramOverheadBytes + 4 + kMessageBytesMax <= kDatagramBytesMax,
               "a message would not fit a datagram");
 static_assert(Largest(kStatesBytes, kStatesBodiesMax) <= kMessageBytesMax, "States too large");
 static_assert(Largest(kGrantsBytes, kGrantsMax) + kFollowerBytes * kGrantFollowersMax <=

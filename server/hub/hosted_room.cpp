@@ -112,7 +112,7 @@ void HostedRoom::NoteTicks() {
 
 void HostedRoom::Tell(std::int64_t now_us) {
   if (plan_.alone) watch_.NoteCpu(CpuUs() - watch_.cpu_us());
-  const Load load = watch_.Tell(now_us, *server_, net_.traffic());
+  const Load load = watch_.Tell(now_us, *server_);
   server_->PublishLoad(load);
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_.load = load;

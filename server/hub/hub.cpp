@@ -6,6 +6,7 @@
 #include "common/base/check.h"
 #include "common/base/process.h"
 #include "common/net/farewell.h"
+#include "common/net/loose_datagram.h"
 #include "common/physics/prepare_threads.h"
 
 namespace seam {
@@ -23,7 +24,11 @@ std::vector<std::string> NamesOfRooms(const std::vector<RoomPlan>& plans) {
 }  // namespace
 
 Hub::Hub(const std::vector<RoomPlan>& plans, UdpNet& udp)
-    : udp_(udp), finder_(NamesOfRooms(plans)), handshake_(udp, entropy_), mail_(plans.size()) {
+    : udp_(udp),
+      finder_(NamesOfRooms(plans)),
+      identity_(plans.front().config.identity),
+      handshake_(udp, entropy_, *identity_, traffic_),
+      mail_(plans.size()) {
   for (std::size_t r = 0; r < plans.size(); ++r) {
     senders_.push_back(std::make_unique<UdpSender>(udp));
     rooms_.push_back(
@@ -41,22 +46,22 @@ void Hub::Start(int workers) {
 }
 
 void Hub::Take(std::int64_t now_us) {
+  handshake_.Forget(now_us);
   Address from;
   Bytes datagram;
   for (int n = 0; n < kDatagramsMax && udp_.Receive(&from, &datagram); ++n) {
-    const int room = finder_.Find(now_us, from, datagram);
+    const int room = finder_.Find(now_us, datagram);
     if (room >= 0) {
       rooms_[static_cast<std::size_t>(room)]->Deliver(from, std::move(datagram));
       mail_[static_cast<std::size_t>(room)] = true;
       continue;
     }
-    DatagramHeader header;
-    const bool asks = room != RoomFinder::kNone && ReadHeader(datagram, &header);
-    Join join;
-    if (asks && room == RoomFinder::kHello) {
-      handshake_.Receive(now_us, from, header.session, datagram, &join);
-    } else if (asks) {
-      handshake_.Refuse(now_us, from, header.session, datagram.size(), finder_.Refusal());
+    const std::uint64_t number = room == RoomFinder::kNone ? 0 : LooseNumber(datagram);
+    JoinRequest join;
+    if (number != 0 && room == RoomFinder::kHello) {
+      handshake_.Receive(now_us, from, number, datagram, &join);
+    } else if (number != 0) {
+      handshake_.Refuse(now_us, from, number, datagram.size(), finder_.Refusal(), false);
     } else {
       ++strangers_;
     }

@@ -55,6 +55,8 @@ class Hub {
   UdpNet& udp_;
   RoomFinder finder_;
   OsEntropy entropy_;
+  const std::shared_ptr<const KeyPair> identity_;
+  TrafficCount traffic_;
   Handshake handshake_;  // answers a Hello to several rooms, and refuses unknown ones
   std::vector<std::unique_ptr<UdpSender>> senders_;
   std::vector<std::unique_ptr<HostedRoom>> rooms_;

@@ -5,6 +5,7 @@
 
 #include "common/codec/codec.h"
 #include "common/net/datagram.h"
+#include "common/net/loose_datagram.h"
 
 namespace seam {
 namespace {
@@ -15,9 +16,8 @@ constexpr std::int64_t kSweepUs = 5000000;
 }  // namespace
 
 int RoomFinder::Asked(ByteView datagram) const {
-  DatagramHeader header;
-  if (!ReadHeader(datagram, &header)) return kNone;
-  const AnyMessage any = Decode(FirstUnreliable(datagram));
+  if (LooseNumber(datagram) == 0) return kNone;
+  const AnyMessage any = Decode(LooseMessage(datagram));
   if (std::holds_alternative<Hello>(any)) return kHello;
   const auto* join = std::get_if<Join>(&any);
   if (join == nullptr) return kNone;
@@ -26,18 +26,17 @@ int RoomFinder::Asked(ByteView datagram) const {
   return found == rooms_.end() ? kUnknown : static_cast<int>(found - rooms_.begin());
 }
 
-int RoomFinder::Find(std::int64_t now_us, const Address& from, ByteView datagram) {
-  DatagramHeader header;
-  const bool ours = PeekHeader(datagram, &header);  // the room checks the checksum
-  if (ours && !header.loose()) {
+int RoomFinder::Find(std::int64_t now_us, ByteView datagram) {
+  const std::uint64_t session = SessionOfDatagram(datagram);  // the room opens it
+  if (session != 0) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = routes_.find({from, header.session});
+    const auto found = routes_.find(session);
     if (found != routes_.end()) {
       found->second.heard_us = now_us;
       return found->second.room;
     }
   }
-  const int asked = ours ? Asked(datagram) : kNone;
+  const int asked = session == 0 ? Asked(datagram) : kNone;
   return asked != kUnknown && rooms_.size() == 1 ? 0 : asked;
 }
 
@@ -52,9 +51,9 @@ std::string RoomFinder::Refusal() const {
   return rooms_.size() > kNamedMax ? line + ", ..." : line;
 }
 
-void RoomFinder::Learn(std::int64_t now_us, int room, const Address& to, std::uint64_t session) {
+void RoomFinder::Learn(std::int64_t now_us, int room, std::uint64_t session) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  routes_[{to, session}] = {room, now_us};
+  routes_[session] = {room, now_us};
   if (now_us - swept_us_ >= kSweepUs) ForgetOld(now_us);
 }
 

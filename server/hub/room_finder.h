@@ -26,13 +26,13 @@ class RoomFinder {
   static constexpr int kHello = -3;
   /// Returns the index of the room, or one of the above. With a single room, everything goes to it
   /// except a Join to another room.
-  int Find(std::int64_t now_us, const Address& from, ByteView datagram);
+  int Find(std::int64_t now_us, ByteView datagram);
   /// Returns the refusal for a client that asked for an unknown room.
   std::string Refusal() const;
 
-  /// Records that a room sends in a session: from now on datagrams of that session and address go
-  /// to the room.
-  void Learn(std::int64_t now_us, int room, const Address& to, std::uint64_t session);
+  /// Records that a room sends in a session: from now on datagrams of that session go to the room,
+  /// from whatever address.
+  void Learn(std::int64_t now_us, int room, std::uint64_t session);
   /// Number of remembered sessions.
   std::size_t count() const;
 
@@ -41,16 +41,6 @@ class RoomFinder {
   static constexpr std::int64_t kKeepUs = 30000000;
 
  private:
-  struct Key {
-    Address address;
-    std::uint64_t session = 0;
-    bool operator==(const Key& o) const { return session == o.session && address == o.address; }
-  };
-  struct Hash {  // sessions are random, and only of admitted clients
-    std::size_t operator()(const Key& key) const {
-      return static_cast<std::size_t>(key.session ^ key.address.ip ^ key.address.port);
-    }
-  };
   struct Route {
     int room = 0;
     std::int64_t heard_us = 0;
@@ -60,7 +50,7 @@ class RoomFinder {
 
   const std::vector<std::string> rooms_;
   mutable std::mutex mutex_;
-  std::unordered_map<Key, Route, Hash> routes_;
+  std::unordered_map<std::uint64_t, Route> routes_;  // by session, which nobody can choose
   std::int64_t swept_us_ = 0;
 };
 

@@ -40,21 +40,16 @@ bool RoomNet::Receive(Address* from, Bytes* datagram) {
   *from = taken_.front().first;
   *datagram = std::move(taken_.front().second);
   taken_.pop_front();
-  traffic_.Add(*datagram, false);
   return true;
 }
 
-/// Sends, and tells the finder each new session. Only admitted clients get numbered datagrams, so
-/// the finder knows the session before the client's first answer can arrive.
+/// Sends, and tells the finder each new session. Only admitted clients get datagrams of a session,
+/// so the finder knows it before the client's first answer can arrive.
 void RoomNet::Send(const Address& to, ByteView datagram) {
-  traffic_.Add(datagram, true);
-  DatagramHeader header;
-  const bool numbered = PeekHeader(datagram, &header) && !header.loose();
-  const std::pair<Address, std::uint64_t> route(to, header.session);
-  if (numbered && learned_.count(route) == 0) {
-    learned_.insert(route);
-    if (learned_.size() > kLearnedMax) learned_ = {{to, header.session}};
-    finder_.Learn(now_us_, room_, to, header.session);
+  const std::uint64_t session = SessionOfDatagram(datagram);
+  if (session != 0 && learned_.insert(session).second) {
+    if (learned_.size() > kLearnedMax) learned_ = {session};
+    finder_.Learn(now_us_, room_, session);
   }
   out_.Send(to, datagram);
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// A room's end of the shared socket: receives the datagrams that the hub delivers, sends by a
-/// sender of its own, and counts both.
+/// A room's end of the shared socket: receives the datagrams that the hub delivers, and sends by a
+/// sender of its own.
 
 #include <cstdint>
 #include <deque>
@@ -10,7 +10,6 @@
 
 #include "common/net/net.h"
 #include "server/hub/room_finder.h"
-#include "server/load/traffic_count.h"
 
 namespace seam {
 
@@ -31,7 +30,6 @@ class RoomNet : public Net {
   void Flush() override { out_.Flush(); }
   bool Receive(Address* from, Bytes* datagram) override;
   std::int64_t discarded() const override;
-  const TrafficCount& traffic() const { return traffic_; }
 
   /// Most queued datagrams, so that a room that is stuck does not use all memory.
   static constexpr std::size_t kInboxMax = 8192;
@@ -47,8 +45,7 @@ class RoomNet : public Net {
   std::int64_t lost_ = 0;
   Datagrams taken_;
   std::int64_t now_us_ = 0;
-  std::set<std::pair<Address, std::uint64_t>> learned_;  // sessions known to the finder
-  TrafficCount traffic_;
+  std::set<std::uint64_t> learned_;  // sessions known to the finder
 };
 
 }  // namespace seam

@@ -57,7 +57,7 @@ void LoadWatch::CountHandOvers(const Server& server) {
   }
 }
 
-Load LoadWatch::Tell(std::int64_t now_us, const Server& server, const TrafficCount& traffic) {
+Load LoadWatch::Tell(std::int64_t now_us, const Server& server) {
   Load load;
   load.utime = now_us;
   load.tick = server.tick();
@@ -82,7 +82,7 @@ Load LoadWatch::Tell(std::int64_t now_us, const Server& server, const TrafficCou
   load.dropped_right = stats.dropped_right;
   load.dropped_implausible = stats.dropped_implausible;
   load.dropped_budget = stats.dropped_budget;
-  traffic.Write(&load);
+  server.traffic().Write(&load);
   wall_ = late_ = DurationHistogram();
   told_us_ = now_us;
   return load;

@@ -7,7 +7,6 @@
 
 #include "common/base/bucket_histogram.h"
 #include "common/base/duration_histogram.h"
-#include "server/load/traffic_count.h"
 #include "server/server.h"
 
 namespace seam {
@@ -22,7 +21,7 @@ class LoadWatch {
   void NoteCpu(std::int64_t cpu_us) { cpu_us_ += cpu_us; }
   bool Due(std::int64_t now_us) const { return now_us - told_us_ >= kEveryUs; }
   /// Returns the Load of the time since the last call.
-  Load Tell(std::int64_t now_us, const Server& server, const TrafficCount& traffic);
+  Load Tell(std::int64_t now_us, const Server& server);
 
   std::int64_t cpu_us() const { return cpu_us_; }
   /// Wall time of all ticks so far, for percentiles.

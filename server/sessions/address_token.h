@@ -17,9 +17,11 @@ class AddressToken {
 
   /// Returns a keyed hash of the address, the session's number and the time slot.
   std::int64_t Make(std::int64_t now_us, const Address& address, std::uint64_t session) const;
-  /// True if the token was made for this address and session in this slot or the one before.
-  bool Good(std::int64_t now_us, const Address& address, std::uint64_t session,
-            std::int64_t token) const;
+  /// Returns the slot in which the token was made for this address and session: this one or the one
+  /// before; -1: in neither.
+  std::int64_t SlotOf(std::int64_t now_us, const Address& address, std::uint64_t session,
+                      std::int64_t token) const;
+  static std::int64_t SlotAt(std::int64_t now_us) { return now_us / kSlotUs; }
 
   /// Length of a time slot, us: a token is valid for one to two slots. Long enough for the slowest
   /// path, short enough that a recorded token is soon worthless.

@@ -5,7 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/codec/codec.h"
-#include "common/net/datagram.h"
+#include "common/net/loose_datagram.h"
 
 namespace seam {
 namespace {
@@ -36,53 +36,137 @@ bool BeginsAsHandshake(ByteView bytes) {
 }  // namespace
 
 Handshake::Verdict Handshake::Receive(std::int64_t now_us, const Address& from,
-                                      std::uint64_t number, ByteView datagram, Join* join) {
-  const ByteView message = FirstUnreliable(datagram);
+                                      std::uint64_t number, ByteView datagram,
+                                      JoinRequest* request) {
+  const ByteView message = LooseMessage(datagram);
   if (!BeginsAsHandshake(message)) return Verdict::kForeign;
   const AnyMessage any = Decode(message);
   if (const auto* hello = std::get_if<Hello>(&any)) {
     if (hello->protocol == kProtocolVersion) {
-      Challenge(now_us, from, number);
+      Challenge(now_us, from, number, datagram.size);
     } else {
-      Refuse(now_us, from, number, datagram.size, OtherProtocol(hello->protocol));
+      Refuse(now_us, from, number, datagram.size, OtherProtocol(hello->protocol), false);
     }
     return Verdict::kAnswered;
   }
-  const auto* wish = std::get_if<Join>(&any);
-  if (wish == nullptr) return Verdict::kForeign;
-  if (!token_.Good(now_us, from, number, wish->token)) {
+  const auto* join = std::get_if<Join>(&any);
+  if (join == nullptr) return Verdict::kForeign;
+  return OnJoin(now_us, from, number, datagram.size, *join, request);
+}
+
+Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, std::uint64_t number,
+                                     std::size_t sent_bytes, const Join& join,
+                                     JoinRequest* request) {
+  const std::int64_t slot = token_.SlotOf(now_us, from, number, join.token);
+  const KeyPair* const ephemeral = slot < 0 ? nullptr : slot_keys_.Find(slot);
+  if (ephemeral == nullptr) {
     // The token is too old, or another server's: send a new one.
-    Challenge(now_us, from, number);
+    Challenge(now_us, from, number, sent_bytes);
     return Verdict::kAnswered;
   }
-  if (wish->protocol != kProtocolVersion) {
-    Refuse(now_us, from, number, datagram.size, OtherProtocol(wish->protocol));
+  if (join.protocol != kProtocolVersion) {
+    Refuse(now_us, from, number, sent_bytes, OtherProtocol(join.protocol), true);
     return Verdict::kAnswered;
   }
-  *join = *wish;
+  request->tag = UsedOnce::TagOf(join.exchange.data());
+  if (used_.Has(request->tag) || !MayCompute(now_us)) return Verdict::kAnswered;
+  TokenGrant grant;
+  const std::string refusal = ReadPass(now_us, join, request, &grant);
+  if (!refusal.empty()) {
+    Refuse(now_us, from, number, sent_bytes, refusal, true);
+    return Verdict::kAnswered;
+  }
+  JoinTerms terms;
+  terms.protocol = static_cast<std::uint32_t>(kProtocolVersion);
+  terms.number = number;
+  terms.cookie = join.token;
+  terms.name = join.name;
+  terms.room = join.room;
+  std::copy_n(join.exchange.begin(), terms.client.size(), terms.client.begin());
+  terms.ephemeral = ephemeral->open;
+  terms.identity = identity_.open;
+  terms.pass = join.pass;
+  SealedKey sealed{};
+  std::copy_n(join.exchange.begin() + static_cast<std::ptrdiff_t>(terms.client.size()),
+              sealed.size(), sealed.begin());
+  const auto secrets = JoinSecrets::OfServer(terms, ephemeral->secret, identity_.secret,
+                                             request->token ? &grant.keys : nullptr);
+  const auto key = secrets ? secrets->OpenKey(sealed) : std::nullopt;
+  if (!key) {
+    // Changed on the way, or made for keys that somebody else has sent: say ours again.
+    Challenge(now_us, from, number, sent_bytes);
+    return Verdict::kAnswered;
+  }
+  request->name = join.name;
+  request->place_key = *key;
+  request->keys = secrets->keys();
   return Verdict::kJoins;
 }
 
-void Handshake::Challenge(std::int64_t now_us, const Address& to, std::uint64_t number) {
+void Handshake::NoteGranted(std::int64_t now_us, const JoinRequest& request) {
+  used_.Note(now_us, request.tag, now_us + 2 * AddressToken::kSlotUs);
+  if (request.token) used_.Note(now_us, request.token_tag, request.token_until_us);
+}
+
+std::string Handshake::ReadPass(std::int64_t now_us, const Join& join, JoinRequest* request,
+                                TokenGrant* grant) const {
+  if (join.pass.empty()) return "";
+  if (door_.key == nullptr) return "no tokens are taken here: join without --token";
+  TokenNeed need;
+  need.protocol = static_cast<std::uint32_t>(kProtocolVersion);
+  need.room = door_.room;
+  need.name = join.name;
+  need.now_s = now_us / 1000000;
+  const Status status = OpenPass(join.pass, *door_.key, need, grant);
+  if (!status.ok()) return status.why();
+  request->token_tag = UsedOnce::TagOf(TagOfPass(join.pass));
+  if (used_.Has(request->token_tag)) return "the token was used before";
+  request->token = true;
+  request->may_play = grant->may_play;
+  // No token may be kept for longer than a day in the memory of used ones.
+  const std::int64_t left_s = std::min<std::int64_t>(grant->expires_s - need.now_s, 86400);
+  request->token_until_us = now_us + (left_s + 1) * 1000000;
+  return "";
+}
+
+bool Handshake::MayCompute(std::int64_t now_us) {
+  const double passed_s =
+      filled_us_ < 0 ? 0
+                     : static_cast<double>(std::max<std::int64_t>(0, now_us - filled_us_)) / 1e6;
+  filled_us_ = now_us;
+  joins_left_ = std::min(kJoinsAtOnce, joins_left_ + passed_s * kJoinsPerSecond);
+  if (joins_left_ < 1) return false;
+  joins_left_ -= 1;
+  return true;
+}
+
+void Handshake::Challenge(std::int64_t now_us, const Address& to, std::uint64_t number,
+                          std::size_t sent_bytes) {
+  // No amplification: a shorter Hello is no client's of this protocol.
+  if (sent_bytes < kHandshakeBytes) return;
   seam::Challenge challenge;
   challenge.utime = now_us;
   challenge.token = token_.Make(now_us, to, number);
-  // Shorter than any Hello or Join, so no amplification; it needs no byte credit (tests/server).
+  const PublicKey& ephemeral = slot_keys_.Draw(AddressToken::SlotAt(now_us)).open;
+  challenge.keys.assign(ephemeral.begin(), ephemeral.end());
+  challenge.keys.insert(challenge.keys.end(), identity_.open.begin(), identity_.open.end());
   Send(to, LooseDatagram(number, Encode(challenge)));
 }
 
 void Handshake::Refuse(std::int64_t now_us, const Address& to, std::uint64_t number,
-                       std::size_t sent_bytes, const std::string& reason) {
+                       std::size_t sent_bytes, const std::string& reason, bool proved) {
   Bye bye;
   bye.utime = now_us;
   bye.reason = reason;
   const Bytes datagram = LooseDatagram(number, Encode(bye));
-  if (credit_.Draw(to, sent_bytes, datagram.size())) Send(to, datagram);
+  const std::size_t earned = proved ? sent_bytes : sent_bytes / 3;
+  if (credit_.Draw(to, earned, datagram.size())) Send(to, datagram);
 }
 
 void Handshake::Send(const Address& to, const Bytes& datagram) {
   bytes_ += static_cast<std::int64_t>(datagram.size());
   ++datagrams_;
+  traffic_.AddLoose(datagram, true);
   net_.Send(to, datagram);
 }
 

@@ -60,6 +60,11 @@ int PlaceTable::Abandoned(std::int64_t now_us, const std::string& name, std::uin
   return silent && !place.key_known && place.key != key ? own : -1;
 }
 
+bool PlaceTable::IsOwner(const std::string& name, std::uint64_t key) const {
+  const int own = FindName(name);
+  return own > 0 && at(own).key == key;
+}
+
 bool PlaceTable::IsReserved(std::int64_t now_us, int player) const {
   return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
     return !place.name.empty() && place.player == player && IsHeld(place, now_us);

@@ -49,6 +49,8 @@ class PlaceTable {
   /// known to have the key, and `key` is another. The session has to end before the name is
   /// claimed. Else -1.
   int Abandoned(std::int64_t now_us, const std::string& name, std::uint64_t key) const;
+  /// True if there is a place of this name, and this is its key.
+  bool IsOwner(const std::string& name, std::uint64_t key) const;
   /// True if somebody has, or may still come back to, the place of this player.
   bool IsReserved(std::int64_t now_us, int player) const;
   /// Marks the place as occupied by a session.

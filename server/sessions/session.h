@@ -14,6 +14,7 @@
 #include "common/sync/rest/rest_blocks.h"
 #include "server/interest/send_queue.h"
 #include "server/sessions/account_book.h"
+#include "server/sessions/path_proof.h"
 #include "server/sessions/traffic_budget.h"
 
 namespace seam {
@@ -24,10 +25,10 @@ enum class SessionStage {
   kReady,     ///< simulates (or will from tick 0)
 };
 
-/// Identifies a sender: one address may hold several sessions.
+/// Identifies a sender of a Join: one address may hold several sessions.
 struct SessionId {
   Address address;
-  std::uint64_t number = 0;  ///< drawn by the client
+  std::uint64_t number = 0;  ///< drawn by the client; another than that of the sealed session
   bool operator<(const SessionId& o) const {
     return address != o.address ? address < o.address : number < o.number;
   }
@@ -35,10 +36,11 @@ struct SessionId {
 
 struct Session {
   /// `allowed`: limit for the client's traffic; `bytes_per_s`: limit for traffic to it, 0: none.
-  Session(const SessionId& session, const TrafficRate& allowed, double bytes_per_s,
-          const PackedMotion& motion)
+  Session(const SessionId& session, const SealKeys& keys, const TrafficRate& allowed,
+          double bytes_per_s, const PackedMotion& motion)
       : id(session),
-        link(session.number),
+        address(session.address),
+        link(keys),
         budget(allowed),
         send_queue(bytes_per_s),
         packer(motion),
@@ -46,7 +48,9 @@ struct Session {
     send_queue.SetPath(link.rate().bytes_per_s(), false);
   }
 
-  SessionId id;
+  SessionId id;     ///< as it joined
+  Address address;  ///< from where the newest datagram came
+  PathProof path;   ///< to this address
   Link link;
   TrafficBudget budget;
   KindBudget kinds;                  ///< of messages by type

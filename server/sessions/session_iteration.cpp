@@ -92,15 +92,16 @@ void SessionTable::Leave(Session& session, const std::string& why) {
 
 void SessionTable::FlushTo(std::int64_t now_us, Session& session, std::size_t reliable_bytes,
                            Stats* stats) {
-  const Address to = session.id.address;
+  const Address to = session.address;
   const auto send = [&](ByteView datagram) {
+    if (!session.path.Spend(datagram.size)) return;  // as if lost on the way
     stats->bytes_out += static_cast<std::int64_t>(datagram.size);
     stats->datagrams_out += 1;
     session.account->bytes_out += static_cast<std::int64_t>(datagram.size);
     session.send_queue.Spend(datagram.size);
     net_.Send(to, datagram);
   };
-  session.link.Flush(now_us, send, reliable_bytes);
+  session.link.Flush(now_us, send, std::min(reliable_bytes, session.path.left()));
 }
 
 void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
@@ -110,6 +111,7 @@ void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
     const LineRate& rate = session->link.rate();
     session->send_queue.SetPath(rate.bytes_per_s(), rate.full());
   }
+  handshake_.Forget(now_us);
   handshake_.Count(stats);
   net_.Flush();
 }

@@ -5,6 +5,7 @@
 
 #include "common/base/compress.h"
 #include "common/net/datagram.h"
+#include "common/net/loose_datagram.h"
 #include "common/sync/lease.h"
 
 namespace seam {
@@ -28,60 +29,91 @@ constexpr int kByeCopies = 12;
 }  // namespace
 
 SessionTable::SessionTable(const Scene& scene, const Bytes& room, const TrafficRate& allowed,
-                           Net& net, Entropy& entropy, double bytes_per_s)
+                           Net& net, Entropy& entropy, double bytes_per_s,
+                           std::shared_ptr<const KeyPair> identity, TokenDoor door)
     : scene_(scene),
       room_(Compress(room)),
       load_us_(kUsPerSceneByte * static_cast<std::int64_t>(room.size())),
       allowed_(allowed),
       bytes_per_s_(bytes_per_s),
       net_(net),
-      handshake_(net, entropy),
+      identity_(identity != nullptr ? std::move(identity) : std::make_shared<KeyPair>(entropy)),
+      needs_token_(door.key != nullptr),
+      handshake_(net, entropy, *identity_, traffic_, std::move(door)),
       places_(scene, entropy) {
   NoteChanged();
 }
 
 SessionTable::Verdict SessionTable::Receive(std::int64_t now_us, const Address& from,
                                             const Bytes& datagram, const Deliver& deliver) {
-  DatagramHeader header;
-  if (!ReadHeader(datagram, &header)) return Verdict::kMalformed;
-  const SessionId id{from, header.session};
+  if (const std::uint64_t number = SessionOfDatagram(datagram)) {
+    const auto found = by_number_.find(number);
+    if (found != by_number_.end()) {
+      return OnSession(now_us, *found->second, from, datagram, deliver);
+    }
+    traffic_.AddLoose(datagram, false);
+    return Verdict::kNoRight;
+  }
+  traffic_.AddLoose(datagram, false);
+  const SessionId id{from, LooseNumber(datagram)};
+  if (id.number == 0) return Verdict::kMalformed;
   const auto found = sessions_.find(id);
-  // Another number from a known address is another session; existing ones are not affected.
-  if (found == sessions_.end()) return OnStranger(now_us, id, datagram);
-  if (header.loose()) return Verdict::kTaken;  // a Hello or Join that was repeated, too late
-  return OnSession(now_us, *found->second, datagram, deliver);
+  if (found != sessions_.end()) {  // a Hello or Join repeated: the welcome has not come yet
+    Session& session = *found->second;
+    if (session.address == from) session.path.Receive(datagram.size(), 0);
+    return Verdict::kTaken;
+  }
+  return OnStranger(now_us, id, datagram);
 }
 
 /// Handles a datagram without a session: the one place that decides the effects of such senders.
 SessionTable::Verdict SessionTable::OnStranger(std::int64_t now_us, const SessionId& id,
                                                const Bytes& datagram) {
-  Join join;
+  JoinRequest join;
   switch (handshake_.Receive(now_us, id.address, id.number, datagram, &join)) {
     case Handshake::Verdict::kForeign: return Verdict::kNoRight;
     case Handshake::Verdict::kAnswered: return Verdict::kTaken;
     case Handshake::Verdict::kJoins: break;
   }
-  const auto key = static_cast<std::uint64_t>(join.key);
+  const std::string no_entry = NoEntry(join);
+  if (!no_entry.empty()) {
+    handshake_.Refuse(now_us, id.address, id.number, datagram.size(), no_entry, true);
+    return Verdict::kTaken;
+  }
+  const auto key = static_cast<std::uint64_t>(join.place_key);
   const int abandoned = places_.Abandoned(now_us, join.name, key);
   if (const Session* old = abandoned < 0 ? nullptr : Find(abandoned)) {
     Drop(SessionId(old->id), "silent before it was ready, and its name is claimed");
   }
   const PlaceTable::Answer answer = places_.Claim(now_us, join.name, key, id.number);
   if (answer.peer > 0) {
-    Admit(now_us, id, answer.peer);
+    handshake_.NoteGranted(now_us, join);
+    Admit(now_us, id, join.keys, answer.peer)->path.Receive(datagram.size(), 0);
   } else if (!answer.refusal.empty()) {
-    handshake_.Refuse(now_us, id.address, id.number, datagram.size(), answer.refusal);
+    handshake_.Refuse(now_us, id.address, id.number, datagram.size(), answer.refusal, true);
   }
   return Verdict::kTaken;
 }
 
-void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
+std::string SessionTable::NoEntry(const JoinRequest& join) const {
+  if (!needs_token_) return "";
+  const bool back = places_.IsOwner(join.name, static_cast<std::uint64_t>(join.place_key));
+  if (!join.token && !back) return "a token is needed here: seam-client --token FILE";
+  const bool plays = std::any_of(scene_.players.begin(), scene_.players.end(),
+                                 [&](const Player& player) { return player.name == join.name; });
+  if (join.token && plays && !join.may_play) return "the token lets " + join.name + " only look on";
+  return "";
+}
+
+Session* SessionTable::Admit(std::int64_t now_us, const SessionId& id, const SealKeys& keys,
+                             int peer) {
   if (const Session* old = Find(peer)) {
     const SessionId was = old->id;
     Drop(was, "replaced by a new session with its key");
   }
   const PackedMotion motion(scene_.gravity.x(), scene_.gravity.y(), scene_.solver.tick_hz);
-  auto session = std::make_unique<Session>(id, allowed_, bytes_per_s_, motion);
+  auto session = std::make_unique<Session>(id, keys, allowed_, bytes_per_s_, motion);
+  session->link.SetWatch([this](ByteView plain, bool out) { traffic_.AddPlain(plain, out); });
   const Place& place = places_.at(peer);
   session->name = place.name;
   session->player = place.player;
@@ -102,15 +134,19 @@ void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
   Note(SessionEvent::Kind::kJoined, *session);
   const auto place_of = static_cast<std::size_t>(peer);
   if (by_peer_.size() <= place_of) by_peer_.resize(place_of + 1, nullptr);
-  by_peer_[place_of] = session.get();
+  Session* const admitted = session.get();
+  by_peer_[place_of] = admitted;
+  by_number_[keys.session] = admitted;
   sessions_.emplace(id, std::move(session));
   NoteChanged();
   admitted_ = true;
   silent_us_ = now_us;
+  return admitted;
 }
 
 SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& session,
-                                              const Bytes& datagram, const Deliver& deliver) {
+                                              const Address& from, const Bytes& datagram,
+                                              const Deliver& deliver) {
   bool over = false;
   const auto gate = [&](std::size_t messages) {
     over = !session.budget.Take(now_us, datagram.size(), messages);
@@ -118,15 +154,25 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
   };
   const bool good = session.link.Receive(now_us, datagram, gate,
                                          [&](ByteView message) { deliver(session, message); });
-  session.account->bytes_in += static_cast<std::int64_t>(datagram.size());
+  // What others send under its number is not the client's.
+  const bool its_own = good || over || from == session.address;
+  if (its_own) session.account->bytes_in += static_cast<std::int64_t>(datagram.size());
+  if (!good) traffic_.AddLoose(datagram, false);
   if (over) {
     ++session.account->dropped.budget;
     return Verdict::kOverBudget;
   }
   if (!good) {
-    ++session.account->dropped.malformed;
+    session.account->dropped.malformed += its_own ? 1 : 0;
     return Verdict::kMalformed;
   }
+  // Another address of the same client: a router gave it a new one, or it changed its network. An
+  // older datagram that somebody sends again from elsewhere does not move it.
+  if (session.link.received_newest() && session.address != from) {
+    session.address = from;
+    session.path.Begin(session.link.sent());
+  }
+  if (session.address == from) session.path.Receive(datagram.size(), session.link.acknowledged());
   for (const std::int64_t number : session.link.TakeAckedNumbers())
     session.packer.Acknowledge(number);
   places_.Heard(session.peer, now_us, session.stage == SessionStage::kReady);
@@ -224,6 +270,7 @@ void SessionTable::Drop(const SessionId& id, const std::string& why) {
   Note(SessionEvent::Kind::kLeft, session, why);
   places_.Leave(session.peer, id.number, session.goodbye);
   by_peer_[static_cast<std::size_t>(session.peer)] = nullptr;
+  by_number_.erase(session.link.session());
   sessions_.erase(found);
   NoteChanged();
 }
@@ -231,7 +278,7 @@ void SessionTable::Drop(const SessionId& id, const std::string& why) {
 void SessionTable::Note(SessionEvent::Kind kind, const Session& session, const std::string& why) {
   SessionEvent event;
   event.kind = kind;
-  event.address = session.id.address;
+  event.address = session.address;
   event.name = session.name;
   event.peer = session.peer;
   event.player = session.player;
@@ -253,6 +300,7 @@ void SessionTable::Close(std::int64_t now_us, const std::string& reason, Stats* 
   }
   sessions_.clear();
   by_peer_.clear();
+  by_number_.clear();
   NoteChanged();
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -42,14 +43,17 @@ class SessionTable {
  public:
   /// `scene`, `net` and `entropy` must outlive this object. `room`: the encoded Room for joiners,
   /// who get it compressed;
-  /// `allowed`: limit for traffic from each; `bytes_per_s`: limit for traffic to each, 0: none.
+  /// `allowed`: limit for traffic from each; `bytes_per_s`: limit for traffic to each, 0: none;
+  /// `identity`: the server's lasting keys, nullptr: drawn; `door`: whom the room lets in.
   SessionTable(const Scene& scene, const Bytes& room, const TrafficRate& allowed, Net& net,
-               Entropy& entropy, double bytes_per_s = 0);
+               Entropy& entropy, double bytes_per_s = 0,
+               std::shared_ptr<const KeyPair> identity = nullptr, TokenDoor door = {});
 
   enum class Verdict { kTaken, kMalformed, kNoRight, kOverBudget };
   using Deliver = std::function<void(Session&, ByteView)>;
-  /// Takes a datagram; calls `deliver` for each message of a session. A datagram without a session
-  /// is ignored unless it begins with a Hello or a Join.
+  /// Takes a datagram; calls `deliver` for each message of a session. The session is found by its
+  /// number; if the datagram opens, its newest so far, the session is at that address from then on.
+  /// A datagram without a session is ignored unless it begins with a Hello or a Join.
   Verdict Receive(std::int64_t now_us, const Address& from, const Bytes& datagram,
                   const Deliver& deliver);
   /// Handles a Ready message. Ignored unless the session is loading.
@@ -83,6 +87,10 @@ class SessionTable {
   void ReadAccounts(Connections* connections);
   /// Accounts of all clients that were in the room, present or gone.
   const AccountBook& accounts() const { return accounts_; }
+  /// All bytes of sessions and strangers, by kind.
+  const TrafficCount& traffic() const { return traffic_; }
+  /// The server's lasting public key.
+  const PublicKey& identity() const { return identity_->open; }
 
   /// Sends reliably to every session that was sent the room, except peer `but_peer`. A session that
   /// never acknowledges has to leave.
@@ -121,9 +129,11 @@ class SessionTable {
   /// Rebuilds the indices after a session came, went or became ready.
   void NoteChanged();
   Verdict OnStranger(std::int64_t now_us, const SessionId& id, const Bytes& datagram);
-  void Admit(std::int64_t now_us, const SessionId& id, int peer);
-  Verdict OnSession(std::int64_t now_us, Session& session, const Bytes& datagram,
-                    const Deliver& deliver);
+  /// Returns why a client that has proved its address may not come in, or "".
+  std::string NoEntry(const JoinRequest& join) const;
+  Session* Admit(std::int64_t now_us, const SessionId& id, const SealKeys& keys, int peer);
+  Verdict OnSession(std::int64_t now_us, Session& session, const Address& from,
+                    const Bytes& datagram, const Deliver& deliver);
   std::string TooLong(std::int64_t now_us, const Session& session);
   void Drop(const SessionId& id, const std::string& why);
   void Note(SessionEvent::Kind kind, const Session& session, const std::string& why = "");
@@ -138,11 +148,15 @@ class SessionTable {
   const TrafficRate allowed_;
   const double bytes_per_s_;
   Net& net_;
+  TrafficCount traffic_;
+  const std::shared_ptr<const KeyPair> identity_;
+  const bool needs_token_;
   Handshake handshake_;
   PlaceTable places_;
   AccountBook accounts_;
   Sessions sessions_;
   // Indices for lookups with every datagram, where the map is too slow.
+  std::unordered_map<std::uint64_t, Session*> by_number_;  // by the number of the sealed session
   std::vector<Session*> in_order_;  // in the order of sessions_
   std::vector<Session*> by_peer_;
   std::vector<int> peer_of_player_;

@@ -106,7 +106,7 @@ TrafficRate HonestTraffic(int tick_hz, int send_hz) {
   // One datagram a tick, and one for the acknowledgement of each reliable message.
   const double datagrams = tick_hz + kReliablePerSecond;
   rate.messages = datagrams + tick_hz + kPingsPerSecond + send_hz * per_send + kReliablePerSecond;
-  rate.bytes = datagrams * static_cast<double>(kDatagramHeaderBytes) +
+  rate.bytes = datagrams * static_cast<double>(kDatagramOverheadBytes) +
                tick_hz * Framed(Largest(kInputsBytes, kInputsUsual)) +
                kPingsPerSecond * Framed(kPingBytes) +
                send_hz * (per_send * Framed(kStatesBytes.empty) +

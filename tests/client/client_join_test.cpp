@@ -2,14 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "client/client.h"
 #include "common/base/compress.h"
-#include "common/net/datagram.h"
+#include "common/net/crc32c.h"
+#include "common/net/loose_datagram.h"
 #include "common/net/memory.h"
 #include "common/sync/method.h"
 #include "server/server.h"
@@ -32,18 +35,18 @@ class ClientJoin : public ::testing::Test {
     return config;
   }
   /// Lets so much time pass, and returns the last message that the client sent outside a session.
-  AnyMessage Next(std::int64_t us) {
+  AnyMessage Next(std::int64_t us) { return NextOf(&client_, us); }
+  AnyMessage NextOf(Client* client, std::int64_t us) {
     now_us_ += us;
-    client_.Tick(now_us_, 0);
+    client->Tick(now_us_, 0);
     AnyMessage last;
     Address from;
     Bytes datagram;
     while (server_->Receive(&from, &datagram)) {
-      DatagramHeader header;
-      EXPECT_TRUE(ReadHeader(datagram, &header));
-      EXPECT_TRUE(header.loose());
-      session_ = header.session;
-      last = Decode(FirstUnreliable(datagram));
+      EXPECT_EQ(datagram.size(), kHandshakeBytes);
+      session_ = LooseNumber(datagram);
+      EXPECT_NE(session_, 0u);
+      last = Decode(LooseMessage(datagram));
     }
     return last;
   }
@@ -54,6 +57,35 @@ class ClientJoin : public ::testing::Test {
     return Encode(bye);
   }
 
+  /// A challenge of our server, in the time slot of `ephemeral_`.
+  Challenge ChallengeOf(std::int64_t token) const {
+    Challenge challenge;
+    challenge.token = token;
+    challenge.keys.assign(ephemeral_.open.begin(), ephemeral_.open.end());
+    challenge.keys.insert(challenge.keys.end(), identity_.open.begin(), identity_.open.end());
+    return challenge;
+  }
+  /// The server's half of the exchange.
+  JoinSecrets SecretsOf(const Join& join) const {
+    JoinTerms terms;
+    terms.protocol = static_cast<std::uint32_t>(join.protocol);
+    terms.number = session_;
+    terms.cookie = join.token;
+    terms.name = join.name;
+    terms.room = join.room;
+    std::copy_n(join.exchange.begin(), 32, terms.client.begin());
+    terms.ephemeral = ephemeral_.open;
+    terms.identity = identity_.open;
+    return *JoinSecrets::OfServer(terms, ephemeral_.secret, identity_.secret, nullptr);
+  }
+  static std::optional<std::int64_t> KeyIn(const Join& join, const JoinSecrets& secrets) {
+    SealedKey sealed{};
+    std::copy_n(join.exchange.begin() + 32, sealed.size(), sealed.begin());
+    return secrets.OpenKey(sealed);
+  }
+
+  SeededEntropy server_entropy_{9};
+  const KeyPair ephemeral_{server_entropy_}, identity_{server_entropy_};
   MemoryNetwork network_;
   std::unique_ptr<Net> server_ = network_.Attach({1, 7777});
   std::unique_ptr<Net> net_ = network_.Attach({2, 1});
@@ -68,17 +100,14 @@ TEST_F(ClientJoin, SaysHelloUntilChallengedThenJoinsWithTokenAndKey) {
   EXPECT_TRUE(std::holds_alternative<Hello>(Next(0)));
   EXPECT_TRUE(std::holds_alternative<std::monostate>(Next(50000))) << "ten times a second";
   EXPECT_TRUE(std::holds_alternative<Hello>(Next(50000)));
-  Challenge challenge;
-  challenge.token = 1234;
-  Answer(Encode(challenge));
+  Answer(Encode(ChallengeOf(1234)));
   const AnyMessage any = Next(10000);
   const Join* join = std::get_if<Join>(&any);
   ASSERT_NE(join, nullptr) << "at once";
   EXPECT_EQ(join->token, 1234);
-  EXPECT_EQ(join->key, 99);
+  EXPECT_EQ(KeyIn(*join, SecretsOf(*join)), 99);
   EXPECT_EQ(join->name, "ann");
-  challenge.token = 5678;
-  Answer(Encode(challenge));
+  Answer(Encode(ChallengeOf(5678)));
   const AnyMessage again = Next(10000);
   ASSERT_TRUE(std::holds_alternative<Join>(again));
   EXPECT_EQ(std::get<Join>(again).token, 5678) << "the newest";
@@ -95,9 +124,7 @@ TEST_F(ClientJoin, KeepsItsSessionNumberWhileNobodyAnswers) {
 TEST_F(ClientJoin, TakesAnotherSessionNumberWhenItsWelcomeDoesNotCome) {
   Next(0);
   const std::uint64_t first = session_;
-  Challenge challenge;
-  challenge.token = 1234;
-  Answer(Encode(challenge));
+  Answer(Encode(ChallengeOf(1234)));
   for (int n = 0; n < 45; ++n) Next(100000);
   EXPECT_EQ(session_, first) << "a slow path";
   for (int n = 0; n < 10; ++n) Next(100000);
@@ -108,9 +135,12 @@ TEST_F(ClientJoin, TakesAnotherSessionNumberWhenItsWelcomeDoesNotCome) {
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
   Next(0);
   // A refusal of protocol 2: in a numbered datagram, without our version.
-  Link old(session_);
-  old.SendUnreliable(Refusal("protocol 2 is spoken here"));
-  old.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
+  Bytes old = LooseDatagram(session_, Refusal("protocol 2 is spoken here"));
+  old[17] = 1;  // its number
+  std::uint32_t crc = Crc32c({old.data(), 4});
+  crc = Crc32c({old.data() + 8, old.size() - 8}, crc);
+  for (std::size_t i = 0; i < 4; ++i) old[4 + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
+  server_->Send({2, 1}, old);
   Next(10000);
   EXPECT_EQ(client_.fatal(),
             "the server speaks protocol 2, this client speaks 14: they need the same version");
@@ -138,7 +168,9 @@ TEST_F(ClientJoin, RetriesForThreeSecondsAfterAnyOtherRefusal) {
 
 TEST_F(ClientJoin, ARefusalThatComesAfterTheWelcomeIsTooLate) {
   Next(0);
-  Link server(session_);
+  Answer(Encode(ChallengeOf(1)));
+  const AnyMessage any = Next(10000);
+  Link server(SecretsOf(std::get<Join>(any)).keys());
   Welcome welcome;
   welcome.peer = 1;
   welcome.room_bytes = 1000;
@@ -166,13 +198,11 @@ TEST_F(ClientJoin, ARoomThatDoesNotUnpackIsRefusedInOneLine) {
   ASSERT_LT(bomb.size(), 1000u);
   for (const Bytes& sent : {room, damaged, longer, bomb, Compress(Bytes(1000, 'x'))}) {
     Client client(Config(), *net_, recorder_, entropy_);
-    now_us_ += 1000000;
-    client.Tick(now_us_, 0);
-    Address from;
-    Bytes datagram;
-    DatagramHeader header;
-    while (server_->Receive(&from, &datagram)) ASSERT_TRUE(ReadHeader(datagram, &header));
-    Link server(header.session);
+    NextOf(&client, 1000000);
+    Answer(Encode(ChallengeOf(1)));
+    const AnyMessage any = NextOf(&client, 10000);
+    ASSERT_TRUE(std::holds_alternative<Join>(any));
+    Link server(SecretsOf(std::get<Join>(any)).keys());
     Welcome welcome;
     welcome.peer = 1;
     welcome.room_bytes = static_cast<std::int32_t>(sent.size());
@@ -187,6 +217,31 @@ TEST_F(ClientJoin, ARoomThatDoesNotUnpackIsRefusedInOneLine) {
     EXPECT_LT(AllocatedBytes() - before, 200000u);
     EXPECT_EQ(client.fatal(), "the server's room does not decode");
     EXPECT_EQ(client.replica(), nullptr);
+  }
+}
+
+TEST_F(ClientJoin, JoinsOnlyTheServerWhoseKeyItWasGiven) {
+  for (const bool right : {true, false}) {
+    ClientConfig config = Config();
+    config.server_key = identity_.open;
+    if (!right) (*config.server_key)[0] ^= 1;
+    const std::unique_ptr<Net> net = network_.Attach({2, 1});
+    Client pinned(config, *net, recorder_, entropy_);
+    int joins = 0;
+    for (int n = 0; n < 50 && pinned.fatal().empty(); ++n) {
+      now_us_ += 100000;
+      pinned.Tick(now_us_, 0);
+      Address from;
+      Bytes datagram;
+      while (server_->Receive(&from, &datagram)) {
+        session_ = LooseNumber(datagram);
+        joins += std::holds_alternative<Join>(Decode(LooseMessage(datagram))) ? 1 : 0;
+        Answer(Encode(ChallengeOf(5)));
+      }
+    }
+    EXPECT_EQ(joins > 0, right);
+    const bool named = pinned.fatal().find("not the one of --server-key") != std::string::npos;
+    EXPECT_EQ(named, !right) << pinned.fatal();
   }
 }
 

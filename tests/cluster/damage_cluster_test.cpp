@@ -13,7 +13,7 @@
 #include "server/rules/rules.h"
 #include "tests/cluster/rewritten_states.h"
 #include "tests/lab/cluster.h"
-#include "tests/support/rewriting_net.h"
+#include "tests/support/path/rewriting_net.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {

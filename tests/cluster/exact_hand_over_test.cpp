@@ -10,8 +10,8 @@
 #include "common/measure/handover_list.h"
 #include "tests/cluster/rewritten_states.h"
 #include "tests/lab/cluster.h"
+#include "tests/support/path/rewriting_net.h"
 #include "tests/support/pendulums.h"
-#include "tests/support/rewriting_net.h"
 #include "tests/support/soak.h"
 
 namespace seam {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "server/load/traffic_count.h"
+#include "server/sessions/traffic_count.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/authority_watch.h"
 #include "tests/support/pendulums.h"

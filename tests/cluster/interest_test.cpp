@@ -11,52 +11,52 @@
 #include <vector>
 
 #include "common/codec/packed/states_unpacker.h"
-#include "common/net/datagram.h"
 #include "tests/lab/cluster.h"
+#include "tests/support/path/opened_net.h"
 #include "tests/support/soak.h"
 
 namespace seam {
 namespace interest_test {
 
 /// Counts a client's received states by body, and inputs by player.
-class CountingNet : public Net {
+class CountingNet : public OpenedNet {
  public:
   struct Counts {
     std::map<int, int> states, inputs;
     std::size_t bytes = 0;
   };
-  CountingNet(std::unique_ptr<Net> net, Counts* counts) : net_(std::move(net)), counts_(counts) {}
-  void Advance(std::int64_t now_us) override { net_->Advance(now_us); }
-  void Flush() override { net_->Flush(); }
-  std::int64_t discarded() const override { return net_->discarded(); }
-  void Send(const Address& to, ByteView datagram) override { net_->Send(to, datagram); }
+  CountingNet(std::unique_ptr<Net> net, Counts* counts)
+      : OpenedNet(std::move(net), {},
+                  [this](std::int64_t, DatagramHeader*, std::vector<Bytes>* messages) {
+                    for (const Bytes& message : *messages) Count(message);
+                    return true;
+                  }),
+        counts_(counts) {}
   bool Receive(Address* from, Bytes* datagram) override {
-    if (!net_->Receive(from, datagram)) return false;
+    if (!OpenedNet::Receive(from, datagram)) return false;
     counts_->bytes += datagram->size();
-    std::vector<DatagramMessage> messages;
-    if (!ReadMessages(*datagram, &messages)) return true;
-    for (const DatagramMessage& message : messages) {
-      const AnyMessage any = Decode(message.bytes);
-      if (const auto* packed = std::get_if<PackedStates>(&any)) {
-        const std::vector<States>* const all = unpacker_.Take(*packed);
-        EXPECT_NE(all, nullptr);
-        if (all == nullptr) continue;
-        for (const States& states : *all) {
-          for (const std::int32_t id : states.id) ++counts_->states[id];
-        }
-      } else if (const auto* inputs = std::get_if<PackedInputs>(&any)) {
-        const auto told = UnpackInputs(*inputs);
-        EXPECT_TRUE(told.has_value());
-        for (const Inputs& one : told.value_or(std::vector<Inputs>{})) {
-          ++counts_->inputs[one.player];
-        }
-      }
-    }
     return true;
   }
 
  private:
-  std::unique_ptr<Net> net_;
+  void Count(const Bytes& message) {
+    const AnyMessage any = Decode(message);
+    if (const auto* packed = std::get_if<PackedStates>(&any)) {
+      const std::vector<States>* const all = unpacker_.Take(*packed);
+      EXPECT_NE(all, nullptr);
+      if (all == nullptr) return;
+      for (const States& states : *all) {
+        for (const std::int32_t id : states.id) ++counts_->states[id];
+      }
+    } else if (const auto* inputs = std::get_if<PackedInputs>(&any)) {
+      const auto told = UnpackInputs(*inputs);
+      EXPECT_TRUE(told.has_value());
+      for (const Inputs& one : told.value_or(std::vector<Inputs>{})) {
+        ++counts_->inputs[one.player];
+      }
+    }
+  }
+
   Counts* counts_;
   StatesUnpacker unpacker_{PackedMotion(0, 0, 60)};
 };

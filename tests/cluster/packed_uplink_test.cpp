@@ -12,7 +12,7 @@
 
 #include "common/codec/codec.h"
 #include "tests/lab/cluster.h"
-#include "tests/support/rewriting_net.h"
+#include "tests/support/path/rewriting_net.h"
 
 namespace seam {
 namespace packed_uplink_test {

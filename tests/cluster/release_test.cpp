@@ -17,8 +17,8 @@
 #include "common/sync/lease.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/authority_watch.h"
+#include "tests/support/path/rewriting_net.h"
 #include "tests/support/pendulums.h"
-#include "tests/support/rewriting_net.h"
 #include "tests/support/soak.h"
 
 namespace seam {
@@ -126,40 +126,9 @@ TEST(Release, AHolderThatStopsAcknowledgingKeepsNothing) {
   EXPECT_GT(longest_us, kReleasePatienceUs - 100000) << "the test would show nothing";
 }
 
-/// A client's network, of which datagrams that arrive may be lost.
-class LosingNet : public Net {
- public:
-  /// True if a datagram that arrives at that time is lost.
-  using Loses = std::function<bool(std::int64_t now_us, ByteView datagram)>;
-  LosingNet(std::unique_ptr<Net> net, Loses loses)
-      : net_(std::move(net)), loses_(std::move(loses)) {}
-
-  void Advance(std::int64_t now_us) override {
-    now_us_ = now_us;
-    net_->Advance(now_us);
-  }
-  void Flush() override { net_->Flush(); }
-  bool Receive(Address* from, Bytes* datagram) override {
-    while (net_->Receive(from, datagram)) {
-      if (!loses_(now_us_, *datagram)) return true;
-    }
-    return false;
-  }
-  void Send(const Address& to, ByteView datagram) override { net_->Send(to, datagram); }
-  std::int64_t discarded() const override { return net_->discarded(); }
-
- private:
-  std::unique_ptr<Net> net_;
-  Loses loses_;
-  std::int64_t now_us_ = 0;
-};
-
-bool HasGrants(ByteView datagram) {
-  std::vector<DatagramMessage> messages;
-  if (!ReadMessages(datagram, &messages)) return false;
-  return std::any_of(messages.begin(), messages.end(), [](const DatagramMessage& message) {
-    return std::holds_alternative<Grants>(
-        Decode(Bytes(message.bytes.begin(), message.bytes.end())));
+bool HasGrants(const std::vector<Bytes>& messages) {
+  return std::any_of(messages.begin(), messages.end(), [](const Bytes& message) {
+    return std::holds_alternative<Grants>(Decode(message));
   });
 }
 
@@ -173,13 +142,15 @@ TEST(Release, AHolderThatNeverHearsTheRequestKeepsItUntilItsLeaseEnds) {
   int lost = 0;
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
     if (client != 0) return net;
-    return std::make_unique<LosingNet>(std::move(net), [&](std::int64_t now_us, ByteView datagram) {
-      const bool grants = playing && HasGrants(datagram);
+    // False: it is lost.
+    const auto look = [&](std::int64_t now_us, DatagramHeader*, std::vector<Bytes>* messages) {
+      const bool grants = playing && HasGrants(*messages);
       if (asked_us < 0 && grants) asked_us = now_us;
-      if (asked_us < 0) return false;
+      if (asked_us < 0) return true;
       lost += grants ? 1 : 0;
-      return grants || now_us > asked_us + 3500000;
-    });
+      return !grants && now_us <= asked_us + 3500000;
+    };
+    return std::make_unique<OpenedNet>(std::move(net), OpenedNet::Look(), look);
   };
   Cluster cluster(config);
   AuthorityWatch watch;

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "tests/lab/cluster.h"
+#include "tests/support/path/rewriting_net.h"
 #include "tests/support/pendulums.h"
-#include "tests/support/rewriting_net.h"
 
 namespace seam {
 namespace stale_states_test {

@@ -10,7 +10,10 @@
 #include "common/net/crc32c.h"
 #include "common/net/datagram.h"
 #include "common/net/link.h"
+#include "common/net/loose_datagram.h"
 #include "common/net/sequence_window.h"
+#include "common/net/wire_number.h"
+#include "tests/support/path/link_keys.h"
 
 namespace seam {
 namespace link_distrust_test {
@@ -27,26 +30,25 @@ std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
   return datagrams;
 }
 
-/// Header and messages as a datagram with a right checksum.
+/// Header and messages as a datagram that the other end has sealed.
 Bytes Forge(const DatagramHeader& header, const Bytes& body) {
-  DatagramWriter writer;
-  Bytes datagram = writer.Finish(header);
+  static const Seal seal(LinkKeys(kSession));
+  Bytes datagram(kDatagramHeaderBytes);
+  PutNumber(datagram.data(), kDatagramMagic, 4);
+  PutNumber(datagram.data() + 4, kSession, 8);
+  PutNumber(datagram.data() + 12, static_cast<std::uint64_t>(header.sequence), 2);
+  PutNumber(datagram.data() + 14, header.ack, 2);
+  PutNumber(datagram.data() + 16, header.ack_bits, 4);
   datagram.insert(datagram.end(), body.begin(), body.end());
-  std::uint32_t crc = Crc32c({datagram.data(), 4});
-  crc = Crc32c({datagram.data() + 8, datagram.size() - 8}, crc);
-  for (int i = 0; i < 4; ++i) {
-    datagram[static_cast<std::size_t>(4 + i)] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
-  }
+  seal.Close(header.sequence, 14, &datagram);
   return datagram;
 }
 
 TEST(Link, RejectsDuplicatesAndForeignSessionsAndCountsThem) {
-  Link a(kSession), b(kSession), stranger(kSession + 1);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true)), stranger(LinkKeys(kSession + 1, true));
   a.SendUnreliable(Text("x"));
   const Bytes datagram = Drain(a, 0).at(0);
-  DatagramHeader header;
-  EXPECT_TRUE(ReadHeader(datagram, &header));
-  EXPECT_EQ(header.session, kSession);
+  EXPECT_EQ(SessionOfDatagram(datagram), kSession);
   EXPECT_FALSE(stranger.Receive(0, datagram, kIgnore));
   EXPECT_TRUE(b.Receive(0, datagram, kIgnore));
   EXPECT_FALSE(b.Receive(0, datagram, kIgnore));
@@ -56,7 +58,7 @@ TEST(Link, RejectsDuplicatesAndForeignSessionsAndCountsThem) {
 }
 
 TEST(Link, RejectsADatagramOlderThanItsMemory) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   std::vector<Bytes> datagrams;
   for (int i = 0; i < 300; ++i) {
     a.SendUnreliable(Text(std::to_string(i)));
@@ -68,17 +70,15 @@ TEST(Link, RejectsADatagramOlderThanItsMemory) {
 }
 
 TEST(Link, RejectsEveryTruncationAndEverySingleBitFlipWhole) {
-  Link a(kSession);
+  Link a(LinkKeys(kSession));
   ASSERT_TRUE(a.SendReliable(Text("reliable")));
   a.SendUnreliable(Text("unreliable"));
   const Bytes datagram = Drain(a, 0).at(0);
   int delivered = 0;
   const Link::Sink count = [&](ByteView) { ++delivered; };
-  Link b(kSession);
+  Link b(LinkKeys(kSession, true));
   for (std::size_t size = 0; size < datagram.size(); ++size) {
     EXPECT_FALSE(b.Receive(0, {datagram.data(), size}, count));
-    DatagramHeader header;
-    EXPECT_FALSE(ReadHeader({datagram.data(), size}, &header));
   }
   for (std::size_t bit = 0; bit < datagram.size() * 8; ++bit) {
     Bytes wrong = datagram;
@@ -91,7 +91,7 @@ TEST(Link, RejectsEveryTruncationAndEverySingleBitFlipWhole) {
 }
 
 TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
-  const DatagramHeader header{kSession, 1, 0, 0};
+  const DatagramHeader header{1, 0, 0};
   const Bytes good = {0, 1, 'g'};
   const Bytes bad_tails[] = {
       {0},                   // half a header
@@ -106,20 +106,20 @@ TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
   for (const Bytes& tail : bad_tails) {
     Bytes body = good;
     body.insert(body.end(), tail.begin(), tail.end());
-    Link link(kSession);
+    Link link(LinkKeys(kSession, true));
     EXPECT_FALSE(link.Receive(0, Forge(header, body), [&](ByteView) { ++delivered; }));
   }
   EXPECT_EQ(delivered, 0);
-  Link link(kSession);
-  EXPECT_FALSE(link.Receive(0, Forge({kSession, 1, 5, 0}, good), kIgnore));  // acks the unsent
+  Link link(LinkKeys(kSession, true));
+  EXPECT_FALSE(link.Receive(0, Forge({1, 5, 0}, good), kIgnore));  // acks the unsent
   EXPECT_TRUE(link.Receive(0, Forge(header, good), [&](ByteView) { ++delivered; }));
   EXPECT_EQ(delivered, 1);
-  EXPECT_FALSE(link.Receive(0, Forge({kSession, 9, 0, 0}, Bytes(1177, 1)), kIgnore));  // too long
+  EXPECT_FALSE(link.Receive(0, Forge({9, 0, 0}, Bytes(1165, 1)), kIgnore));  // too long
 }
 
 TEST(Link, NeverDeliversMutatedDatagrams) {
   Random random(20240817);
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   std::vector<Bytes> samples;
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(a.SendReliable(Bytes(1 + random.Next() % 40, 'r')));
@@ -150,16 +150,16 @@ TEST(Link, NeverDeliversMutatedDatagrams) {
   EXPECT_GT(b.rejected(), kRounds - 100);
 }
 
-TEST(Link, SurvivesAnyContentWithARightChecksum) {
+TEST(Link, SurvivesAnyContentThatTheOtherEndSealed) {
   Random random(77);
-  Link link(kSession);
+  Link link(LinkKeys(kSession, true));
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(link.SendReliable(Text("waiting")));
   std::int64_t accepted = 0;
   for (int round = 0; round < 500'000; ++round) {
-    DatagramHeader header{kSession, static_cast<std::uint16_t>(round + random.Next() % 8),
+    DatagramHeader header{round + 1 + static_cast<std::int64_t>(random.Next() % 8),
                           static_cast<std::uint16_t>(random.Next() % 64),
                           static_cast<std::uint32_t>(random.Next())};
-    if (round % 100 == 0) header.sequence = static_cast<std::uint16_t>(random.Next());
+    if (round % 100 == 0) header.sequence += static_cast<std::int64_t>(random.Next() % 100'000);
     Bytes body(random.Next() % 48);
     for (auto& byte : body) byte = static_cast<std::uint8_t>(random.Next() % 3 ? 0 : random.Next());
     const Bytes datagram = Forge(header, body);
@@ -181,20 +181,87 @@ TEST(Crc32c, MatchesThePublishedCheckValues) {
   EXPECT_EQ(Crc32c(Text("56789"), Crc32c(Text("1234"))), 0xe3069283u);
 }
 
-TEST(Datagram, HasTheBytesThatTheProtocolPageShows) {
+/// seal_test.cpp has the sealed bytes.
+TEST(Datagram, HasTheHeaderThatTheProtocolPageShows) {
   DatagramWriter writer;
   const Bytes hi = Text("hi"), event = Text("!");
   writer.Append({true, 0x0102, event});
   writer.Append({false, 0, hi});
-  const Bytes data = writer.Finish({0x1122334455667788ULL, 0x000a, 0x0009, 0x80000001});
-  const Bytes expected_start = {'S', 'E', 'A', '1'};
-  EXPECT_EQ(Bytes(data.begin(), data.begin() + 4), expected_start);
-  const Bytes expected_rest = {0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88, 0x00,
-                               0x0a, 0x00, 0x09, 0x80, 0x00, 0x00, 0x01, 0x80, 0x01,
-                               0x01, 0x02, '!',  0x00, 0x02, 'h',  'i'};
-  EXPECT_EQ(Bytes(data.begin() + 8, data.end()), expected_rest);
-  const Bytes expected_checksum = {0x89, 0xf0, 0x05, 0x51};
-  EXPECT_EQ(Bytes(data.begin() + 4, data.begin() + 8), expected_checksum);
+  const ByteView plain = writer.plain();
+  const Bytes messages = {0x80, 1, 1, 2, '!', 0, 2, 'h', 'i'};
+  EXPECT_EQ(Bytes(plain.begin() + kDatagramHeaderBytes, plain.end()), messages);
+  const Seal seal(LinkKeys(kSession)), other(LinkKeys(kSession, true));
+  const Bytes data = writer.Finish({0x1000a, 0x0009, 0x80000001}, seal);
+  const Bytes expected = {'S',  'E',  'A',  '2',  0x11, 0x22, 0x33,
+                          0x44, 0x55, 0x66, 0x77, 0x88, 0x00, 0x0a};
+  EXPECT_EQ(Bytes(data.begin(), data.begin() + 14), expected);
+  EXPECT_EQ(data.size(), 45u);
+  Bytes opened;
+  DatagramHeader header;
+  EXPECT_FALSE(OpenDatagram(data, other, 0x000a, &opened, &header)) << "a wrap before";
+  ASSERT_TRUE(OpenDatagram(data, other, 0x1000a, &opened, &header));
+  EXPECT_EQ(header.ack, 0x0009);
+  EXPECT_EQ(header.ack_bits, 0x80000001);
+}
+
+/// A client of any version reads and writes these.
+TEST(LooseDatagram, HasTheBytesThatTheProtocolPageShows) {
+  const Bytes datagram = LooseDatagram(0x1122334455667788ULL, Text("hi"), 32);
+  ASSERT_EQ(datagram.size(), 32u);
+  EXPECT_EQ(LooseNumber(datagram), 0x1122334455667788ULL);
+  const ByteView message = LooseMessage(datagram);
+  EXPECT_EQ(Bytes(message.begin(), message.end()), Text("hi"));
+  for (std::size_t bit = 0; bit < datagram.size() * 8; ++bit) {
+    Bytes wrong = datagram;
+    wrong[bit / 8] = static_cast<std::uint8_t>(wrong[bit / 8] ^ (1u << (bit % 8)));
+    EXPECT_EQ(LooseNumber(wrong), 0u);
+  }
+  EXPECT_EQ(SessionOfDatagram(datagram), 0u);
+}
+
+/// A forger who reads the path and computes checksums: all that he could do once.
+TEST(Link, NothingForgedMovesItsWindowOrIsDelivered) {
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
+  std::vector<Bytes> old;
+  for (int i = 0; i < 100; ++i) {
+    a.SendUnreliable(Text("state"));
+    old.push_back(Drain(a, i).at(0));
+    if (i < 50) {
+      EXPECT_TRUE(b.Receive(i, old.back(), kIgnore));
+    }
+  }
+  int heard = 0;
+  const Link::Sink count = [&](ByteView) { ++heard; };
+  Random random(3);
+  for (int i = 0; i < 20'000; ++i) {
+    Bytes forged = old[random.Next() % old.size()];
+    if (i % 2 == 0) forged.resize(kDatagramOverheadBytes);            // empty
+    PutNumber(forged.data() + 12, static_cast<std::uint64_t>(i), 2);  // with any number
+    if (forged == old[static_cast<std::size_t>(i) % old.size()]) continue;
+    if (i >= 1 && i <= 100 && forged == old[static_cast<std::size_t>(i) - 1]) continue;
+    EXPECT_FALSE(b.Receive(100, forged, count));
+  }
+  EXPECT_EQ(heard, 0);
+  for (int i = 50; i < 100; ++i) {
+    EXPECT_TRUE(b.Receive(100, old[static_cast<std::size_t>(i)], count));
+  }
+  EXPECT_EQ(heard, 50);
+}
+
+TEST(Link, RecordedDatagramsAreNothingWorthAfterTheirNumbersHaveWrapped) {
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
+  std::vector<Bytes> old;
+  int heard = 0;
+  const Link::Sink count = [&](ByteView) { ++heard; };
+  for (int i = 0; i < 65'536 + 300; ++i) {
+    a.SendUnreliable(Text("state"));
+    const Bytes datagram = Drain(a, i).at(0);
+    if (old.size() < 600) old.push_back(datagram);
+    EXPECT_TRUE(b.Receive(i, datagram, count));
+  }
+  heard = 0;
+  for (const Bytes& datagram : old) EXPECT_FALSE(b.Receive(100'000, datagram, count));
+  EXPECT_EQ(heard, 0);
 }
 
 TEST(SequenceWindow, UnwrapsToTheNearestNumber) {

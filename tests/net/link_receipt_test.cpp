@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/net/link.h"
+#include "tests/support/path/link_keys.h"
 
 namespace seam {
 namespace link_receipt_test {
@@ -18,7 +19,7 @@ std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
 }
 
 TEST(LinkReceipts, ReportTheLargestNumberThatArrivedInEachSlot) {
-  Link here(kSession), there(kSession);
+  Link here(LinkKeys(kSession)), there(LinkKeys(kSession, true));
   const Bytes message = {1, 2, 3};
   const auto ignore = [](ByteView) {};
   EXPECT_EQ(here.acked(0), -1);
@@ -48,7 +49,7 @@ TEST(LinkReceipts, ReportTheLargestNumberThatArrivedInEachSlot) {
 }
 
 TEST(LinkReceipts, OneMessageMayHaveSeveralReceipts) {
-  Link here(kSession), there(kSession);
+  Link here(LinkKeys(kSession)), there(LinkKeys(kSession, true));
   const Bytes message = {1, 2, 3};
   here.SendUnreliable(message, {{3, 30}, {0, 7}, {255, 9}});
   there.Receive(1000, Drain(here, 1000).at(0), [](ByteView) {});
@@ -62,7 +63,7 @@ TEST(LinkReceipts, OneMessageMayHaveSeveralReceipts) {
 }
 
 TEST(LinkReceipts, SendsIsTrueIfAFlushWouldSend) {
-  Link link(kSession);
+  Link link(LinkKeys(kSession));
   const Bytes message = {1};
   EXPECT_TRUE(link.Sends(0)) << "the first datagram";
   for (std::int64_t now_us = 0; now_us < 3000000; now_us += 7000) {

@@ -14,6 +14,7 @@
 #include "common/net/datagram.h"
 #include "common/net/impair.h"
 #include "common/net/memory.h"
+#include "tests/support/path/link_keys.h"
 
 namespace seam {
 namespace link_test {
@@ -41,7 +42,7 @@ struct End {
       : to(peer),
         endpoint(network.Attach(self)),
         net(*endpoint, profile, FindProfile("perfect"), seed),
-        link(kSession) {}
+        link(LinkKeys(kSession, self == kServer)) {}
 
   void Tick(std::int64_t now_us) {
     net.Advance(now_us);
@@ -149,7 +150,7 @@ TEST(Link, ManySmallMessagesDoNotPileUpAtAQuarterLoss) {
 }
 
 TEST(Link, TheWindowIsBoundedInBytesAtBothEnds) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   for (int i = 0; i < 200; ++i) ASSERT_TRUE(a.SendReliable(Bytes(kMessageBytesMax, 'x')));
   std::size_t sent = 0, heard = 0;
   for (int tick = 0; tick < 12; ++tick) {  // not yet late
@@ -164,7 +165,7 @@ TEST(Link, TheWindowIsBoundedInBytesAtBothEnds) {
     const Bytes body(bytes, 'x');
     DatagramWriter writer;
     writer.Append({true, id, body});
-    return b.Receive(0, writer.Finish({kSession, static_cast<std::uint16_t>(300 + id), 0, 0}),
+    return b.Receive(0, writer.Finish({300 + id, 0, 0}, Seal(LinkKeys(kSession))),
                      [&](ByteView) { ++heard; });
   };
   EXPECT_TRUE(more(100, kMessageBytesMax)) << "as long as the one that is missing at most";
@@ -196,7 +197,7 @@ TEST(Link, UnreliableMessagesArriveAtMostOnceAndMostlyDo) {
 }
 
 TEST(Link, SplitsIntoDatagramsAndNeverFragments) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   std::vector<std::string> sent, heard;
   for (std::size_t i = 0; i < 40; ++i) {
     sent.emplace_back(1 + i * (kMessageBytesMax - 1) / 39, 'x');
@@ -224,7 +225,7 @@ TEST(Link, SurvivesTheWrapOfSequenceNumbersAndIds) {
 }
 
 TEST(Link, ManyDatagramsBetweenTwoAnswersAreStillAllAcknowledged) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   for (int round = 0; round < 3; ++round) {
     const std::int64_t now_us = round * 1000;
     ASSERT_TRUE(a.SendReliable(Text("important")));
@@ -260,7 +261,7 @@ TEST(Link, MeasuresTheRoundTripAndTheLoss) {
 /// When a message that is never acknowledged is sent, us after it was said, over a round trip of
 /// 200 ms.
 std::vector<std::int64_t> SentUs(bool (Link::*send)(ByteView)) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   for (int i = 0; i < 50; ++i) {
     const std::int64_t now_us = i * 1'000'000;
     a.SendUnreliable(Text("x"));
@@ -288,11 +289,11 @@ TEST(Link, RepeatsReliableMessagesNoFasterThanTheRoundTripAllowsButUrgentOnesOnc
 }
 
 TEST(Link, IsSilentWhenIdleButForAnAckEveryHundredMilliseconds) {
-  Link link(kSession);
+  Link link(LinkKeys(kSession));
   int datagrams = 0;
   for (std::int64_t now_us = 0; now_us < 1'000'000; now_us += 10'000) {
     for (const Bytes& datagram : Drain(link, now_us)) {
-      EXPECT_EQ(datagram.size(), kDatagramHeaderBytes);
+      EXPECT_EQ(datagram.size(), kDatagramOverheadBytes);
       ++datagrams;
     }
   }
@@ -300,7 +301,7 @@ TEST(Link, IsSilentWhenIdleButForAnAckEveryHundredMilliseconds) {
 }
 
 TEST(Link, AnswersReliableMessagesAtTheNextFlush) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   (void)Drain(b, 0);
   ASSERT_TRUE(a.SendReliable(Text("x")));
   for (const Bytes& datagram : Drain(a, 1000)) EXPECT_TRUE(b.Receive(1000, datagram, kIgnore));
@@ -312,7 +313,7 @@ TEST(Link, AnswersReliableMessagesAtTheNextFlush) {
 }
 
 TEST(Link, RefusesReliableMessagesWhenThePeerIsGone) {
-  Link link(kSession);
+  Link link(LinkKeys(kSession));
   for (int i = 0; i < 4096; ++i) ASSERT_TRUE(link.SendReliable(Bytes(1000, 'x')));
   EXPECT_FALSE(link.SendReliable(Text("x")));
   std::size_t most = 0;
@@ -323,7 +324,7 @@ TEST(Link, RefusesReliableMessagesWhenThePeerIsGone) {
 }
 
 TEST(Link, MayBeUsedFromWithinADelivery) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   ASSERT_TRUE(a.SendReliable(Text("ping")));
   for (const Bytes& datagram : Drain(a, 0)) {
     EXPECT_TRUE(b.Receive(0, datagram, [&](ByteView) { (void)b.SendReliable(Text("pong")); }));

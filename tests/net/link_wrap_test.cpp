@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "common/base/random.h"
+#include "common/net/datagram.h"
 #include "common/net/link.h"
 #include "common/net/sequence_window.h"
+#include "tests/support/path/link_keys.h"
 
 namespace seam {
 namespace link_wrap_test {
@@ -62,7 +64,7 @@ class Path {
 
 /// Reliable numbers count up; the unreliable ones have the highest bit set.
 struct Side {
-  explicit Side(std::uint64_t seed) : path(seed) {}
+  explicit Side(std::uint64_t seed) : link(LinkKeys(kSession, seed == 2)), path(seed) {}
 
   void Take(ByteView message) {
     const std::uint32_t number = NumberOf(message);
@@ -78,7 +80,7 @@ struct Side {
   }
 
   static constexpr std::uint32_t kUnreliable = 0x80000000u;
-  Link link{kSession};
+  Link link;
   Path path;
   std::uint32_t asked = 0, said = 0;  // sent: reliable, unreliable
   std::uint32_t next = 0;             // reliable ones that came
@@ -152,6 +154,30 @@ TEST(LinkWrap, TheWindowKnowsItsEdgesAcrossAWrap) {
   EXPECT_FALSE(window.IsNew(window.Full(static_cast<std::uint16_t>(far + 32'768))));
 }
 
+TEST(LinkWrap, ARecordedDatagramIsWorthNothingWhenItsSixteenBitsComeAgain) {
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
+  std::vector<Bytes> recorded;
+  int came = 0;
+  const Link::Sink count = [&](ByteView) { ++came; };
+  const Bytes one(1, 7);
+  for (int n = 0; n < 3 * 65'536; ++n) {
+    const std::int64_t now_us = n * 1000LL;
+    Bytes datagram;
+    a.SendUnreliable(one);
+    a.Flush(now_us, [&](ByteView d) { datagram.assign(d.begin(), d.end()); });
+    if (recorded.size() < 500) {
+      recorded.push_back(datagram);
+    } else if (n % 65'536 < 500) {
+      // The number that comes next; in the open it says the same.
+      const Bytes& old = recorded[static_cast<std::size_t>(n % 65'536)];
+      ASSERT_EQ(SequenceOfDatagram(old), SequenceOfDatagram(datagram));
+      ASSERT_FALSE(b.Receive(now_us, old, count));
+    }
+    ASSERT_TRUE(b.Receive(now_us, datagram, count));
+  }
+  EXPECT_EQ(came, 3 * 65'536);
+}
+
 TEST(LinkWrap, AFirstNumberNearTheEdgeWorks) {
   for (const int first : {0, 1, 255, 32767, 32768, 65535}) {
     SequenceWindow window;
@@ -167,7 +193,7 @@ TEST(LinkWrap, AFirstNumberNearTheEdgeWorks) {
 }
 
 TEST(Link, ADatagramThatTheGateRefusesCountsAsLost) {
-  Link a(kSession), b(kSession);
+  Link a(LinkKeys(kSession)), b(LinkKeys(kSession, true));
   ASSERT_TRUE(a.SendReliable(Number(5)));
   std::vector<Bytes> sent;
   const auto keep = [&](ByteView d) { sent.emplace_back(d.begin(), d.end()); };

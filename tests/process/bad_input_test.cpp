@@ -41,7 +41,7 @@ TEST_F(BadInput, TheServerRefusesWrongFlags) {
        flags({"--bind", "127.0.0.1", "--port", port, "--record", "new.lcm"}, "in use"),
        flags({"--bind", "192.0.2.1"}, "192.0.2.1"),
        flags({"--bind", ""}, "address"),
-       flags({"--bind", "::1"}, "::1"),
+       flags({"--bind", "::1x"}, "::1x"),
        flags({"--mode", "magic"}, "unknown mode \"magic\""),
        flags({"--mode", ""}, "unknown mode"),
        flags({"--reconcile", "magic"}, "unknown reconciler \"magic\""),
@@ -224,8 +224,8 @@ TEST_F(BadInput, TheRendererRefusesWrongLogsAndFlags) {
 }
 
 TEST_F(BadInput, HelpIsNoMistake) {
-  for (const char* name : {"seam-server", "seam-client", "seam-swarm", "seam-top", "seam-measure",
-                           "seam-render", "seam-export"}) {
+  for (const char* name : {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top",
+                           "seam-measure", "seam-render", "seam-export"}) {
     Program program({BuiltProgram(name), "--help"}, made_->path());
     ASSERT_TRUE(program.Wait(30));
     EXPECT_EQ(program.status(), 0) << program.Story();

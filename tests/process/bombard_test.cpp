@@ -11,9 +11,10 @@
 #include "common/base/process.h"
 #include "common/base/random.h"
 #include "common/codec/codec.h"
-#include "common/net/datagram.h"
 #include "common/net/link.h"
 #include "tests/support/live_session.h"
+#include "tests/support/path/link_keys.h"
+#include "tests/support/path/middle.h"
 #include "tests/support/udp_socket.h"
 
 namespace seam {
@@ -121,7 +122,7 @@ Bytes Garbage(Random* random, std::size_t bytes) {
 
 /// A message of the protocol in a conversation that nobody has begun.
 Bytes Foreign(Random* random) {
-  Link link(random->Next() | 1);
+  Link link(LinkKeys(random->Next() | 1));
   Ping ping;
   Inputs inputs;
   inputs.drive = inputs.lift = {127};
@@ -203,45 +204,43 @@ TEST_F(Bombarded, TheServerCountsForeignDatagramsAndKeepsItsClients) {
   EXPECT_EQ(Number(*bob, " bad"), 0);
 }
 
-/// A forger that can compute checksums: changes a few bytes of the messages.
-Bytes Forge(Random* random, const Bytes& data) {
-  DatagramHeader header;
-  std::vector<DatagramMessage> messages;
-  if (!random->Chance(0.3) || !ReadHeader(data, &header) || !ReadMessages(data, &messages)) {
-    return data;
-  }
-  DatagramWriter writer;
-  for (DatagramMessage& message : messages) {
-    Bytes bytes(message.bytes.begin(), message.bytes.end());
+/// A forger who has stood between client and server from the beginning, so that he has the keys:
+/// changes a few bytes of the messages.
+bool Forge(Random* random, std::vector<Bytes>* messages) {
+  if (!random->Chance(0.3)) return true;
+  for (Bytes& bytes : *messages) {
     for (std::uint64_t i = 0, n = random->Next() % 4; i < n; ++i) {
       // Beyond the type's hash, where a change is not noticed at once.
       const std::size_t at = std::min<std::size_t>(8, bytes.size() - 1);
       auto& byte = bytes[at + random->Next() % (bytes.size() - at)];
       byte = static_cast<std::uint8_t>(random->Chance(0.3) ? 0xff : random->Next());
     }
-    message.bytes = ByteView(bytes.data(), bytes.size());
-    writer.Append(message);
   }
-  return writer.Finish(header);
+  return true;
 }
 
 TEST_F(Bombarded, AForgedPlayerHarmsNeitherTheServerNorTheOthersNorItsOwnProgram) {
   Relay relay(server_port_);
   auto ann = Join("ann", server_port_);
   auto bob = Join("bob", relay.port());
-  const Relay::Change forge = [&](const Bytes& data) { return Forge(&random_, data); };
+  Middle middle;
   bool started = false;
+  const Middle::Change forge = [&](DatagramHeader*, std::vector<Bytes>* messages) {
+    // Once the room runs: before, a forged answer only keeps him out.
+    return !started || Forge(&random_, messages);
+  };
+  const Relay::Change up = [&](const Bytes& data) { return *middle.Up(data, forge); };
+  const Relay::Change down = [&](const Bytes& data) { return *middle.Down(data, forge); };
   const std::int64_t deadline_us = SteadyClockUs() + 60000000;
   while (!server_->Wait(0) && SteadyClockUs() < deadline_us) {
-    // Once the room runs: before, a forged answer only keeps him out.
     started = started || relay.sent_up.size() == 64;
-    relay.Pass(started ? forge : kUnchanged, started ? forge : kUnchanged);
+    relay.Pass(up, down);
   }
   ASSERT_TRUE(server_->Wait(0)) << "hangs";
   EXPECT_TRUE(ann->Wait(10));
   for (int i = 0; i < 5000 && !bob->Wait(0); ++i) {
     if (i == 1000) bob->Signal(SIGTERM);  // he may have missed the goodbye
-    relay.Pass(forge, forge);
+    relay.Pass(up, down);
   }
   SCOPED_TRACE("seed " + std::to_string(kSeed) + server_->Story() + ann->Story() + bob->Story());
   ExpectStayed("ann", 1);

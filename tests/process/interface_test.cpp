@@ -92,8 +92,9 @@ Names Below(const std::string& help, const std::string& title) {
 }
 
 void AddPrograms(Interface* interface) {
-  for (const char* program : {"seam-server", "seam-client", "seam-swarm", "seam-top", "seam-render",
-                              "seam-measure", "seam-export", "seam-import", "seam-lab"}) {
+  for (const char* program :
+       {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top", "seam-render",
+        "seam-measure", "seam-export", "seam-import", "seam-lab"}) {
     const std::string help = Output({program, "--help"});
     interface->Add(std::string(program) + " flag", Below(help, "options"));
     if (std::string(program) != "seam-lab") continue;

@@ -51,25 +51,13 @@ class LongSceneJoin : public ::testing::Test {
       most_ = std::max(most_, session->link.waiting());
     }
     if (!reads) return;
-    Address to;
-    while (ann_.net->Receive(&to, &datagram)) {
-      DatagramHeader header;
-      if (!ReadHeader(datagram, &header)) continue;
-      const auto take = [&](ByteView message) {
-        const AnyMessage any = Decode(message);
-        if (const auto* challenge = std::get_if<Challenge>(&any)) ann_.token = challenge->token;
-        if (const auto* welcome = std::get_if<Welcome>(&any)) size_ = welcome->room_bytes;
-        const auto* chunk = std::get_if<Chunk>(&any);
-        if (chunk == nullptr) return;
-        EXPECT_EQ(static_cast<std::size_t>(chunk->offset_bytes), got_.size());
-        got_.insert(got_.end(), chunk->data.begin(), chunk->data.end());
-      };
-      if (header.loose()) {
-        take(FirstUnreliable(datagram));
-      } else {
-        ann_.link.Receive(now_us_, datagram, take);
-      }
-    }
+    ann_.Read(now_us_, [&](const AnyMessage& any) {
+      if (const auto* welcome = std::get_if<Welcome>(&any)) size_ = welcome->room_bytes;
+      const auto* chunk = std::get_if<Chunk>(&any);
+      if (chunk == nullptr) return;
+      EXPECT_EQ(static_cast<std::size_t>(chunk->offset_bytes), got_.size());
+      got_.insert(got_.end(), chunk->data.begin(), chunk->data.end());
+    });
     ann_.Flush(now_us_);
   }
   bool sent() const { return last_ && last_->kind == SessionEvent::Kind::kLoading; }

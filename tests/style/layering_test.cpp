@@ -179,6 +179,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"server/load", "server"},
       {"server/hub", "server(/load|/sessions)?"},
       {"server/script", "none"},
+      {"server/token", "none"},
       {"server/rules", "server/script"},
       {"server/trust", "none"},
       {"common/scene/joints", "common/scene(/toml)?"},
@@ -196,6 +197,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"tests/support/allocations", "none"},
       {"tests/support/browser", "tests/support"},
       {"tests/support/mechanisms", "tests/support"},
+      {"tests/support/path", "none"},
       {"tests/support/plan", "none"},
       {"tests/support/soak", "tests/support"},
       {"tests/lab/experiment", "tests/lab"},
@@ -288,7 +290,8 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
   ExpectOnlyIn("common/base/command/(command_line|command_table|mistake)\\.cpp", kCode, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
-  ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
+  ExpectOnlyIn("common/net/(keyed_hash|seal|key_exchange|connect_token)\\.cpp", kCode,
+               "sodium\\.h|sodium/.*");
   ExpectOnlyIn("render/import/rube\\.cpp", kCode, "nlohmann/.*");
   ExpectOnlyIn("render/import/tiled\\.cpp", kCode, "tinyxml2\\.h");
   ExpectOnlyIn("none", kProduct, "gtest/.*");

@@ -28,10 +28,14 @@ class RandomMessages {
   }
 
   void Fill(Hello& m) { Common(m), m.protocol = Int32(), m.name = Name(); }
-  void Fill(Challenge& m) { Common(m), m.token = static_cast<std::int64_t>(random_.Next()); }
+  void Fill(Challenge& m) {
+    Common(m), m.token = static_cast<std::int64_t>(random_.Next());
+    Vector(m.keys, kChallengeKeysBytes, 0, 255);
+  }
   void Fill(Join& m) {
     Common(m), m.protocol = Int32(), m.token = static_cast<std::int64_t>(random_.Next());
-    m.key = static_cast<std::int64_t>(random_.Next()), m.name = Name(), m.room = Name();
+    m.name = Name(), m.room = Name(), Vector(m.exchange, kJoinExchangeBytes, 0, 255);
+    Vector(m.pass, Count(0, kPassBytesMax), 0, 255);
   }
   void Fill(Ready& m) { Common(m); }
   void Fill(Welcome& m) {

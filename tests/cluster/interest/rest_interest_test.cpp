@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "tests/lab/cluster.h"
-#include "tests/support/rewriting_net.h"
+#include "tests/support/path/rewriting_net.h"
 
 namespace seam {
 namespace rest_interest_test {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/measure/measure.h"
+#include "common/net/loose_datagram.h"
 
 namespace seam {
 namespace cluster_test {
@@ -207,12 +208,10 @@ TEST(Cluster, ForgedHellosDoNotKeepAPlayerOut) {
     const auto n = static_cast<std::uint32_t>(forged.size());
     if (n >= 4000) return;
     forged.push_back(cluster.Attach(Address{0x0a000000 + n, 1000}));
-    Link link(1 + n);
     Hello hello;
     hello.name = "forged" + std::to_string(n);
-    link.SendUnreliable(Encode(hello));
-    link.Flush(cluster.now_us(),
-               [&](ByteView datagram) { forged.back()->Send(cluster.server_address(), datagram); });
+    forged.back()->Send(cluster.server_address(),
+                        LooseDatagram(1 + n, Encode(hello), kHandshakeBytes));
     forged.back()->Flush();
   };
   cluster.RunToTick(240);

@@ -8,44 +8,39 @@
 #include <vector>
 
 #include "common/measure/percentile.h"
-#include "server/load/traffic_count.h"
+#include "tests/support/path/opened_net.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {
 namespace {
 
-/// A client's network that counts what arrives by what it carries.
-class CountingNet : public Net {
- public:
-  CountingNet(std::unique_ptr<Net> inner, TrafficCount* count)
-      : inner_(std::move(inner)), count_(count) {}
-  void Advance(std::int64_t now_us) override { inner_->Advance(now_us); }
-  void Send(const Address& to, ByteView datagram) override { inner_->Send(to, datagram); }
-  void Flush() override { inner_->Flush(); }
-  bool Receive(Address* from, Bytes* datagram) override {
-    if (!inner_->Receive(from, datagram)) return false;
-    count_->Add(*datagram, false);
-    return true;
-  }
-  std::int64_t discarded() const override { return inner_->discarded(); }
-
- private:
-  std::unique_ptr<Net> inner_;
-  TrafficCount* count_;
+/// kB that came to clients: of grants, and of everything.
+struct Arrivals {
+  double grants = 0, all = 0;
 };
 
-/// kB of grants that came, and of everything.
-std::pair<double, double> Came(const TrafficCount& count) {
-  Load load;
-  count.Write(&load);
-  double grants = 0, all = 0;
-  for (std::size_t i = 0; i < load.kind.size(); ++i) {
-    const double kb = static_cast<double>(load.bytes_in[i]) * 1e-3;
-    all += kb;
-    if (load.kind[i] == kTrafficGrants) grants += kb;
+/// A client's network that counts what arrives.
+class CountingNet : public OpenedNet {
+ public:
+  CountingNet(std::unique_ptr<Net> inner, Arrivals* count)
+      : OpenedNet(std::move(inner), {},
+                  [count](std::int64_t, DatagramHeader*, std::vector<Bytes>* messages) {
+                    for (const Bytes& message : *messages) {
+                      const bool grants = std::holds_alternative<Grants>(Decode(message));
+                      if (grants) count->grants += static_cast<double>(message.size()) * 1e-3;
+                    }
+                    return true;
+                  }),
+        count_(count) {}
+  bool Receive(Address* from, Bytes* datagram) override {
+    if (!OpenedNet::Receive(from, datagram)) return false;
+    count_->all += static_cast<double>(datagram->size()) * 1e-3;
+    return true;
   }
-  return {grants, all};
-}
+
+ private:
+  Arrivals* count_;
+};
 
 class Watch {
  public:
@@ -200,7 +195,7 @@ class Watch {
 }  // namespace
 
 HandOvers MeasureHandOvers(ClusterConfig config) {
-  TrafficCount count;
+  Arrivals count;
   config.keep = false;
   config.smooth_rate = 0;
   config.client_net = [&count](std::size_t, std::unique_ptr<Net> net) {
@@ -210,12 +205,12 @@ HandOvers MeasureHandOvers(ClusterConfig config) {
   const double seconds = config.duration_s > 0 ? config.duration_s : cluster.scene().duration_s;
   const int hz = cluster.scene().solver.tick_hz;
   cluster.RunToTick(std::min<std::int64_t>(hz, static_cast<std::int64_t>(seconds * hz)));
-  const auto begin = Came(count);
+  const Arrivals begin = count;
   Watch watch(cluster);
   cluster.each_instant = [&watch] { watch.Look(); };
   const std::int64_t first = cluster.server().tick();
   cluster.RunToTick(static_cast<std::int64_t>(seconds * hz));
-  const auto end = Came(count);
+  const Arrivals end = count;
   HandOvers out;
   out.clients = cluster.client_count();
   out.mechanisms = cluster.server().replica().authority().count();
@@ -223,8 +218,8 @@ HandOvers MeasureHandOvers(ClusterConfig config) {
   if (span_s <= 0) return out;
   watch.Write(span_s, &out);
   const double clients = std::max(1, out.clients);
-  out.grants_kbps = (end.first - begin.first) / (span_s * clients);
-  out.to_client_kbps = (end.second - begin.second) / (span_s * clients);
+  out.grants_kbps = (end.grants - begin.grants) / (span_s * clients);
+  out.to_client_kbps = (end.all - begin.all) / (span_s * clients);
   return out;
 }
 

@@ -1,9 +1,10 @@
-#include "server/load/traffic_count.h"
+#include "server/sessions/traffic_count.h"
 
 #include <string>
 #include <unordered_map>
 
 #include "common/codec/codec.h"
+#include "common/net/loose_datagram.h"
 
 namespace seam {
 namespace {
@@ -42,20 +43,27 @@ std::int8_t KindOf(ByteView message) {
 
 }  // namespace
 
-void TrafficCount::Add(ByteView datagram, bool out) {
+void TrafficCount::AddPlain(ByteView plain, bool out) {
   auto& counts = out ? out_ : in_;
   messages_.clear();
-  if (datagram.size < kDatagramHeaderBytes || !ReadMessages(datagram, &messages_)) {
-    counts[kTrafficOther] += static_cast<std::int64_t>(datagram.size);
+  const std::size_t bytes = plain.size + Seal::kTagBytes;
+  if (!ReadMessages(plain, &messages_)) {
+    counts[kTrafficOther] += static_cast<std::int64_t>(bytes);
     return;
   }
-  std::size_t framing = datagram.size;
+  std::size_t framing = bytes;
   for (const DatagramMessage& message : messages_) {
     framing -= message.bytes.size;
     counts[static_cast<std::size_t>(KindOf(message.bytes))] +=
         static_cast<std::int64_t>(message.bytes.size);
   }
   counts[kTrafficFraming] += static_cast<std::int64_t>(framing);
+}
+
+void TrafficCount::AddLoose(ByteView datagram, bool out) {
+  const bool ours = LooseNumber(datagram) != 0;
+  const std::int8_t kind = ours ? KindOf(LooseMessage(datagram)) : std::int8_t{kTrafficOther};
+  (out ? out_ : in_)[static_cast<std::size_t>(kind)] += static_cast<std::int64_t>(datagram.size);
 }
 
 void TrafficCount::Write(Load* load) const {
