@@ -88,8 +88,8 @@ std::string LogOf(const std::string& record, const std::string& room, int rooms)
   return stem + "." + room + ending;
 }
 
-std::string ModeOf(const Flags& f) { return f.mode.empty() ? "buffer" : f.mode; }
-std::string ImpairOf(const Flags& f) { return f.impair.empty() ? "perfect" : f.impair; }
+/// The values of flags that are not given.
+const ServerFlags kNotGiven;
 
 /// Sets what is the same for new and resumed rooms. Requires the scene and the room's name.
 void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms, RoomPlan* plan) {
@@ -107,7 +107,7 @@ void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms,
 
 /// Refuses flags that say what the folder of --resume says.
 void CheckResume(const Flags& f) {
-  const bool settles = !f.scenes.empty() || !f.mode.empty() || !f.reconcile.empty() ||
+  const bool settles = !f.scenes.empty() || f.mode != kNotGiven.mode || !f.reconcile.empty() ||
                        !f.predict.empty() || f.input_delay_ticks >= 0 || f.rooms > 0;
   if (settles || !f.record.empty() || !f.state.empty()) {
     throw OperatorError(
@@ -128,7 +128,7 @@ RoomPlan PlanOfResumed(const Flags& f, const std::string& name, int index, int r
   config.sync.send_hz = room.send_hz;
   config.sync.seed = config.seed = room.seed;
   config.room = name;
-  FinishPlan(f, f.impair.empty() ? room.impair : f.impair, index, rooms, &plan);
+  FinishPlan(f, f.impair == kNotGiven.impair ? room.impair : f.impair, index, rooms, &plan);
   plan.state = f.resume;
   plan.record = resumed->log;
   plan.resumed = std::move(resumed);
@@ -140,7 +140,7 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   plan.scene = LoadScene(FindScene(scene_name));
   const Scene& scene = plan.scene;
   ServerConfig& config = plan.config;
-  config.sync = MakeSyncConfig(MethodNames{ModeOf(f), f.reconcile, f.predict});
+  config.sync = MakeSyncConfig(MethodNames{f.mode, f.reconcile, f.predict});
   config.sync.input_delay_ticks =
       f.input_delay_ticks >= 0 ? f.input_delay_ticks : scene.input_delay_ticks;
   config.sync.tick_hz = scene.solver.tick_hz;
@@ -149,7 +149,7 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   config.room = RoomName(f.room, index, rooms);
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);
-  FinishPlan(f, ImpairOf(f), index, rooms, &plan);
+  FinishPlan(f, f.impair, index, rooms, &plan);
   plan.force = f.force;
   plan.record = LogOf(f.record, config.room, rooms);
   if (!f.state.empty()) {
@@ -188,8 +188,12 @@ std::vector<RoomPlan> MakePlans(const Flags& f) {
 /// Gives all rooms the server's keys.
 void SetKeys(const Flags& f, std::vector<RoomPlan>* plans) {
   OsEntropy entropy;
+  // A kept room's clients give the keys of their places to the same server alone.
+  const std::string folder = f.state.empty() ? f.resume : f.state;
+  std::string file = f.identity;
+  if (file.empty() && !folder.empty()) file = folder + "/identity";
   const auto identity = std::make_shared<const KeyPair>(
-      f.identity.empty() ? Secret(entropy) : KeepSecretFile("--identity", f.identity, entropy));
+      file.empty() ? Secret(entropy) : KeepSecretFile("--identity", file, entropy));
   std::shared_ptr<const Secret> token_key;
   if (!f.token_key.empty()) {
     token_key = std::make_shared<const Secret>(ReadSecretFile("--token-key", f.token_key));
@@ -217,17 +221,16 @@ int Serve(const Flags& f) {
   const SyncConfig& sync = plans[0].config.sync;
   const std::string variant = VariantOf(NamesOf(sync));
   const std::string what = rooms == 1 ? plans[0].scene.name : std::to_string(rooms) + " rooms";
-  std::fprintf(stderr,
-               "seam-server: %s, mode %s%s%s, network %s, on %s\n"
-               "seam-server: its key is %s\n"
-               "seam-server: %s %d player(s)%s%s\n",
-               what.c_str(), NamesOf(sync).mode.c_str(), variant.empty() ? "" : " ",
-               variant.c_str(), plans[0].config.impair.c_str(), ToString(udp.local()).c_str(),
-               ToHex(plans[0].config.identity->open.data(),
-                     plans[0].config.identity->open.size()).c_str(),
-               f.resume.empty() ? "waiting for" : "goes on, waiting for",
-               plans[0].config.wait_players, rooms == 1 ? "" : " in the first",
-               Ending(DurationOf(f, plans[0].scene)).c_str());
+  std::fprintf(
+      stderr,
+      "seam-server: %s, mode %s%s%s, network %s, on %s\n"
+      "seam-server: its key is %s\n"
+      "seam-server: %s %d player(s)%s%s\n",
+      what.c_str(), NamesOf(sync).mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
+      plans[0].config.impair.c_str(), ToString(udp.local()).c_str(),
+      ToHex(plans[0].config.identity->open.data(), plans[0].config.identity->open.size()).c_str(),
+      f.resume.empty() ? "waiting for" : "goes on, waiting for", plans[0].config.wait_players,
+      rooms == 1 ? "" : " in the first", Ending(DurationOf(f, plans[0].scene)).c_str());
   ProgressLine line(f.quiet);
   std::int64_t page_us = 0;
   while (g_stop == 0 && !hub.done()) {

@@ -44,15 +44,14 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
   app.Option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
   app.Option("--port", f.port, "UDP port").Range(1, 65535);
   app.Option("--bind", f.bind, "address to listen on (default: all, of IPv4 and IPv6)");
-  app.Option("--mode", f.mode, "oracle | central | strict | buffer (default buffer)");
+  app.Option("--mode", f.mode, "oracle | central | strict | buffer");
   app.Option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
   app.Option("--predict", f.predict,
              "what clients of mode central simulate ahead: own | all (default all)");
   app.Option("--input-delay", f.input_delay_ticks,
              "ticks from reading an input to its acting, at every peer (default: the scene's)")
       .Range(0, kInputDelayTicksMax);
-  app.Option("--impair", f.impair,
-             "impair the network in both directions by a profile (default perfect)");
+  app.Option("--impair", f.impair, "impair the network in both directions by a profile");
   app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);
   app.Option("--send-hz", f.send_hz, "state messages per second").Range(1, kSendHzMax);
   app.Option("--budget", f.budget,

@@ -13,11 +13,11 @@ struct ServerFlags {
   std::vector<std::string> scenes;
   int port = 7777;
   std::string bind = "[::]";
-  std::string mode;  // "": buffer
+  std::string mode = "buffer";
   std::string reconcile;
   std::string predict;
   int input_delay_ticks = -1;  // -1: the scene's
-  std::string impair;          // "": perfect
+  std::string impair = "perfect";
   std::int64_t seed = 1;
   int send_hz = 30;
   std::string budget;  // "": kClientBytesPerS
@@ -36,7 +36,7 @@ struct ServerFlags {
   int workers = 0;
   std::string bus_rooms = "first";
   int metrics_port = 0;
-  std::string trust = "act";
+  std::string trust = "off";
   std::string identity, token_key;
 };
 

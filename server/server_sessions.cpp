@@ -35,8 +35,7 @@ void Server::FollowSessions(std::int64_t now_us) {
     const std::string peer = "peer " + std::to_string(event.peer);
     switch (event.kind) {
       case SessionEvent::Kind::kJoined:
-        sessions_.Find(event.peer)->kinds =
-            KindBudget(config_.sync.send_hz, scene_.parts.size());
+        sessions_.Find(event.peer)->kinds = KindBudget(config_.sync.send_hz, scene_.parts.size());
         broadcast_.Say(now_us,
                        event.name + " joins from " + ToString(event.address) + " as " + peer);
         break;
@@ -78,7 +77,8 @@ void Server::EndLeases(std::int64_t now_us) {
       session.ending_us = now_us;
     }
     if (session.ending_us < 0 || now_us - session.ending_us <= kEndingUs) return;
-    if (session.player >= 0 && !session.leaving) ladder_.NoteWithheld(session.player, replica_.tick());
+    if (session.player >= 0 && !session.leaving)
+      ladder_.NoteWithheld(session.player, replica_.tick());
     sessions_.Leave(session, "does not let go");
   });
 }

@@ -79,9 +79,8 @@ void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
   if (doubts.empty() || session.player < 0) return;
   // The bodies of a message are often those of one mechanism: one lie, not many.
   const Doubt& gravest =
-      *std::max_element(doubts.begin(), doubts.end(), [](const Doubt& a, const Doubt& b) {
-        return a.weight < b.weight;
-      });
+      *std::max_element(doubts.begin(), doubts.end(),
+                        [](const Doubt& a, const Doubt& b) { return a.weight < b.weight; });
   ladder_.Note(session.player, gravest.weight);
   ++stats_.connections.doubts;
   Audit audit;

@@ -231,11 +231,11 @@ ExactStates StateFilter::KeepExact(int peer, const ExactStates& exact) {
   for (std::size_t i = 0; i < exact.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(exact.id[i]);
     if (!MayRelease(peer, body, exact, i)) continue;
-    plausible_.Accept(body, {exact.tick, exact.epoch[i],
-                            {{exact.x[i], exact.y[i]},
-                             exact.angle[i],
-                             {exact.vx[i], exact.vy[i]},
-                             exact.spin[i]}});
+    plausible_.Accept(
+        body,
+        {exact.tick,
+         exact.epoch[i],
+         {{exact.x[i], exact.y[i]}, exact.angle[i], {exact.vx[i], exact.vy[i]}, exact.spin[i]}});
     AddPose(exact, i, &kept);
     AddMotion(exact, i, &kept);
   }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/codec/audit.h"
 #include "common/codec/load.h"
 #include "common/codec/message_limits.h"
 
@@ -286,9 +287,7 @@ struct View {
   std::vector<float> vx, vy, spin;      ///< m/s, m/s, rad/s: simulated
   std::vector<float> age;               ///< ticks, the pose is that of so long before `tick`
 };
-constexpr std::int8_t kRoleRemote = 0;
-constexpr std::int8_t kRoleSecondary = 1;
-constexpr std::int8_t kRoleAuthority = 2;
+constexpr std::int8_t kRoleRemote = 0, kRoleSecondary = 1, kRoleAuthority = 2;
 
 /// Bus only: the strands that a peer displays at a tick. Never compared between peers.
 struct Strands {
@@ -340,22 +339,6 @@ struct Event {
   std::int64_t tick = 0;
   std::string text;
 };
-
-/// Bus only: a doubt of the server about a client (docs/trust.md).
-struct Audit {
-  std::int64_t utime = 0;
-  std::int64_t session = 0, sequence = 0;  ///< session: never 0
-  std::int64_t tick = 0;
-  std::int32_t peer = 0;
-  std::int32_t player = 0;
-  std::int32_t body = -1;  ///< id; -1: about a step
-  std::int8_t refused = 0;
-  std::int32_t score_milli = 0;  ///< 1/1000
-  std::int8_t step = 0;
-  std::vector<float> told, expected;  ///< x, y, m; vx, vy, m/s; empty: about a step
-};
-constexpr std::int8_t kAuditStepMax = 5;
-constexpr std::size_t kAuditNumbers = 4;
 
 /// Both directions: the last message of a link, or the refusal of a Hello.
 struct Bye {

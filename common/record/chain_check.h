@@ -45,7 +45,7 @@ class ChainCheck {
   bool intact() const { return bytes_damage_.empty() && !damaged_; }
 
  private:
-  /// What was heard of a publisher since its last TickChain.
+  /// The messages heard of a publisher since its last TickChain.
   struct Heard {
     std::int64_t messages = 0, tick = -1;
     std::int32_t crc = 0;

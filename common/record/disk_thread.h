@@ -1,5 +1,5 @@
 #pragma once
-/// A thread for what waits for the disk, so that no tick does.
+/// A thread for jobs that wait for the disk, so that no tick does.
 
 #include <condition_variable>
 #include <deque>

@@ -21,7 +21,7 @@ namespace seam {
 namespace {
 
 /// Bytes of TickChain::log_crc, the last ones of an encoded TickChain and so of its event.
-constexpr std::size_t kCrcBytes = 4;
+constexpr std::size_t kChainCrcBytes = 4;
 
 }  // namespace
 
@@ -86,10 +86,10 @@ void RoomLog::Seal(const std::string& channel, TickChain chain) {
   chain.log_events = events_ + 1;
   Publish(channel, chain.utime, Encode(chain));
   if (!trouble_.ok()) return;
-  std::uint8_t* const at = buffer_.data() + buffer_.size() - kCrcBytes;
-  place_.crc = Crc32c({buffer_.data(), buffer_.size() - kCrcBytes}, place_.crc);
-  for (std::size_t i = 0; i < kCrcBytes; ++i) {
-    at[i] = static_cast<std::uint8_t>(place_.crc >> (8 * (kCrcBytes - 1 - i)));
+  std::uint8_t* const at = buffer_.data() + buffer_.size() - kChainCrcBytes;
+  place_.crc = Crc32c({buffer_.data(), buffer_.size() - kChainCrcBytes}, place_.crc);
+  for (std::size_t i = 0; i < kChainCrcBytes; ++i) {
+    at[i] = static_cast<std::uint8_t>(place_.crc >> (8 * (kChainCrcBytes - 1 - i)));
   }
 }
 

@@ -41,13 +41,13 @@ class RoomLog : public Recorder {
   /// Writes all events since the last call, and `chain` with the checksum of their bytes. If they
   /// cannot be written the file ends where it did before, and nothing is written any more.
   void EndTick(const std::string& channel, const TickChain& chain) override;
-  /// Writes what was added since the last tick, with a TickChain of its own.
+  /// Writes the events since the last tick, with a TickChain of its own.
   void Flush();
   /// Number of events that were not written.
   std::int64_t failures() const override { return failures_; }
   /// Returns the first failure: "PATH: cannot be written: No space left on device".
   const Status& trouble() const { return trouble_; }
-  /// Returns the end of what is written.
+  /// Returns the end of the written bytes.
   const LogPlace& place() const { return place_; }
 
   /// Time between two syncs, us.

@@ -123,7 +123,8 @@ void Display::Edited(const BodyRemap& change) {
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
     Shown& shown = shown_[static_cast<int>(body)];
     if (shown.past) {
-      shown.jump = shown.edited < 0 ? change.jumps[body] : PlusScaled(shown.jump, change.jumps[body], 1);
+      shown.jump =
+          shown.edited < 0 ? change.jumps[body] : PlusScaled(shown.jump, change.jumps[body], 1);
       shown.edited = world_.tick() + 1;
     } else {
       smoother_.Moved(static_cast<int>(body), change.jumps[body]);
@@ -160,11 +161,11 @@ void Display::Glide(const Roles& roles, std::int64_t missing) {
 /// were closed anew in every tick, the view would jump whenever the simulated state does.
 void Display::KeepClosed(const Roles& roles) {
   const BodyColumn<BodyState>& poses = ShownPoses(roles, config_.shows_far);
-  for (const int m : seats_.gentle()) {
+  for (const int m : seats_.players()) {
     const bool simulated = roles.RoleOf(m) != kRoleRemote;
     if (!simulated && !config_.shows_far) continue;
     const std::vector<int>& bodies = joints_.bodies(m);
-    if (seats_.HoldBack(world_, bodies, &poses_.values())) {
+    if (seats_.IsGentle(m) && seats_.HoldBack(world_, bodies, &poses_.values())) {
       joints_.Close(m, simulated, &poses_.values());
     }
     seats_.Shown(world_, bodies, poses_.values());

@@ -59,10 +59,10 @@ class Display {
  private:
   /// The past moment at which a body is displayed.
   struct Shown {
-    bool past = false;        // false: it is displayed in the present
-    double moment = 0;        // tick, never runs backwards
-    std::int64_t since = -1;  // tick from which the body's past is known
-    BodyState then;           // its state at that moment, as known when displayed
+    bool past = false;         // false: it is displayed in the present
+    double moment = 0;         // tick, never runs backwards
+    std::int64_t since = -1;   // tick from which the body's past is known
+    BodyState then;            // its state at that moment, as known when displayed
     std::int64_t edited = -1;  // tick in which an edit moved it that is not displayed yet
     BodyState jump;            // by that edit
   };

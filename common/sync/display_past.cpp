@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/physics/part_places.h"
 #include "common/sync/display.h"
 #include "common/sync/state_arithmetic.h"
 
@@ -47,7 +48,8 @@ void MarkTogether(const World& world, const History& history, std::vector<char>*
 
 bool Display::ShowsPast(const Roles& roles) const {
   if (config_.show_age_ticks == 0 || config_.smooth_rate <= 0 || roles.self() == 0) return false;
-  return config_.policy->Reckons() || config_.policy->GoesBack(roles.self());
+  // A seat would join bodies that are shown at different moments.
+  return world_.scene().seats.empty() && config_.policy->GoesBack(roles.self());
 }
 
 BodyState Display::Base(int body) const {
@@ -131,6 +133,14 @@ void Display::ShowOthers(const Roles& roles, std::int64_t missing) {
   }
   std::vector<char> with_own = own;
   MarkTogether(world_, memory_.history(), &with_own);
+  // What another player moves, too, is not known in the present.
+  for (const Player& player : world_.scene().players) {
+    const int m = player.vehicle < 0 ? -1 : MechanismOf(world_, player.vehicle);
+    if (m < 0 || own[static_cast<std::size_t>(m)] == with_own[static_cast<std::size_t>(m)])
+      continue;
+    with_own = own;
+    break;
+  }
   for (const int body : memory_.unparked()) {
     const int m = world_.mechanism(body);
     const auto index = static_cast<std::size_t>(m);

@@ -1,8 +1,8 @@
 /// Replica: edits, and bodies that they split and merge. Records of a body (its past, states
 /// received, its displayed pose) are carried over to its successors.
 
-#include <cstdlib>
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 #include "common/physics/part_places.h"

@@ -33,7 +33,7 @@ struct PlayerView {
   bool has_region = false;
   Vec2 region_min{0, 0}, region_max{0, 0};  ///< m
   bool silent = false;  ///< not heard from for kSilentUs: the server simulates its moving bodies
-  bool untrusted = false;  ///< may have no authority; follows what it would have
+  bool untrusted = false;     ///< may have no authority; follows what it would have
   int capacity = kUnlimited;  ///< bodies that its machine can step
 
   static constexpr int kUnlimited = std::numeric_limits<int>::max();

@@ -20,8 +20,9 @@ constexpr float kWeighedS = 0.25f;
 /// Distance of a place from the way that the told velocities explain, m. Bots in collisions over
 /// every network: at most .48 m in a gap of .27 s.
 constexpr float kWaySlack = 0.6f;
-/// After a longer silence the server's own copy is the reference, s. A copy that the server does not
-/// simulate knows nothing of what the body met: it is the reference only beyond a holder's lease.
+/// After a longer silence the server's own copy is the reference, s. A copy that the server does
+/// not simulate knows nothing of what the body met: it is the reference only beyond a holder's
+/// lease.
 constexpr float kWayMaxS = 0.5f, kUnseenWayMaxS = 2;
 /// Time after an edit in which differences that are not gross say nothing, s: as long as every send
 /// has the states of what an edit has changed.
@@ -65,7 +66,8 @@ bool Plausible::Waits(const States& states) const {
 bool Plausible::Reachable(int body, std::int64_t tick, const Vec2& position, float times) const {
   const Accepted& last = accepted_[body];
   if (last.tick < 0) return true;
-  const float way = times * scene_.speed_limit * Seconds(std::max<std::int64_t>(1, tick - last.tick));
+  const float way =
+      times * scene_.speed_limit * Seconds(std::max<std::int64_t>(1, tick - last.tick));
   return (position - last.state.position).norm() <= way;
 }
 
@@ -102,17 +104,16 @@ bool Plausible::Judge(int body, std::int64_t tick, const BodyState& state, bool 
 bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off) {
   Memory& memory = memory_[body];
   const float way = Way(off), kick = Kick(off);
-  if (way <= kAgrees && kick <= kAgreesVelocity) return true;
+  if (way <= kAgrees && kick <= kAlikeVelocity) return true;
   // A holder that has not applied the newest edit yet, or has just gone back for it, differs.
   const bool settles = Seconds(replica_.tick() - edited_) < kSettlesS;
   if (settles && way <= kGross && kick <= kGrossVelocity) return true;
-  const float forgotten =
-      std::min(1.0f, Seconds(std::max<std::int64_t>(0, replica_.tick() - memory.forgotten)) / kForgetS);
+  const float forgotten = std::min(
+      1.0f, Seconds(std::max<std::int64_t>(0, replica_.tick() - memory.forgotten)) / kForgetS);
   memory.forgotten = replica_.tick();
   memory.moved = std::max(0.0f, memory.moved - forgotten * kAllowed);
   memory.kicked = std::max(0.0f, memory.kicked - forgotten * kAllowedVelocity);
-  const bool believed =
-      memory.moved + way <= kAllowed && memory.kicked + kick <= kAllowedVelocity;
+  const bool believed = memory.moved + way <= kAllowed && memory.kicked + kick <= kAllowedVelocity;
   if (believed) memory.moved += way, memory.kicked += kick;
   NoteDoubt(body, tick, state, Minus(state, off), !believed);
   return believed;
@@ -139,8 +140,7 @@ bool Plausible::JudgeByWay(int body, std::int64_t tick, const BodyState& state, 
   if (!simulated) slack += kCollisionVelocity * seconds;  // it may have met anything
   const float sign = known || tick >= world.tick() ? 1.0f : -1.0f;
   const Vec2 way = state.position - from.position;
-  const float off =
-      DistanceFrom(way, sign * seconds * from.velocity, sign * seconds * told);
+  const float off = DistanceFrom(way, sign * seconds * from.velocity, sign * seconds * told);
   if (off <= slack) return true;
   NoteDoubt(body, tick, state, from, true);
   return false;

@@ -55,7 +55,7 @@ class Plausible {
 
   /// Differences from the server's copy that are no doubt, m and m/s. Honest ones are at most
   /// .0014 and .003 in 999 of 1000 states; angles count as at .5 m from the centre.
-  static constexpr float kAgrees = 0.01f, kAgreesVelocity = 0.1f;
+  static constexpr float kAgrees = 0.01f, kAlikeVelocity = 0.1f;
   /// Largest sum of differences that is believed, m and m/s; it falls to 0 in kForgetS. Smaller
   /// refuses honest holders of chaos; larger lets a liar move that far before it is stopped.
   static constexpr float kAllowed = 1, kAllowedVelocity = 5;
@@ -64,9 +64,9 @@ class Plausible {
  private:
   /// Of one body.
   struct Memory {
-    std::int64_t judged = -1;         // tick of the newest judged state
-    float moved = 0, kicked = 0;      // believed against the copy, m and m/s
-    std::int64_t forgotten = 0;       // tick up to which they have fallen
+    std::int64_t judged = -1;     // tick of the newest judged state
+    float moved = 0, kicked = 0;  // believed against the copy, m and m/s
+    std::int64_t forgotten = 0;   // tick up to which they have fallen
     char probation = 0;
   };
 

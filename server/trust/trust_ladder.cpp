@@ -63,8 +63,7 @@ std::vector<TrustLadder::Change> TrustLadder::Update(std::int64_t tick) {
     Standing& standing = standings_[p];
     const TrustStep before = standing.step;
     standing.step = Next(&standing, tick);
-    standing.score =
-        std::max(0.0f, standing.score - kLeakPerS / static_cast<float>(tick_hz_));
+    standing.score = std::max(0.0f, standing.score - kLeakPerS / static_cast<float>(tick_hz_));
     if (standing.step != before) changes.push_back({static_cast<int>(p), before, standing.step});
   }
   return changes;

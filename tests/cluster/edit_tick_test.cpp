@@ -22,7 +22,7 @@ Recording Break(const std::string& impair, std::int64_t seed) {
   config.impair = impair;
   config.seed = seed;
   config.duration_s = 2.9;  // before the pieces meet
-  config.show_age_ticks = 0;   // the error is that of the present
+  config.show_age_ticks = 0;  // the error is that of the present
   return RunCluster(config);
 }
 

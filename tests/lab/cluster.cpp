@@ -69,6 +69,7 @@ Cluster::Cluster(const ClusterConfig& config)
   server.sync.smooth_rate = config.smooth_rate;
   server.impair = config.impair;
   server.publish = config.publish;
+  server.trust = config.trust;
   server.client_bytes_per_s = config.client_bytes_per_s;
   server.seed = config.seed;
   std::size_t players = scene_.players.size();

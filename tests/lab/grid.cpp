@@ -103,6 +103,7 @@ Grid ReadGrid(const std::string& path) {
       point.scene = std::make_shared<Scene>(LoadSceneWith(scene, set));
       point.settings.scene = scene;
       point.settings.set = set;
+      point.settings.show_age = file.show_age;
       const bool own = file.duration_s == 0;
       point.settings.duration_s = own ? point.scene->duration_s : file.duration_s;
       for (const std::string& method : file.methods) {

@@ -54,6 +54,7 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   config.publish = ParsePublish(settings.publish);
   config.send_hz = settings.send_hz;
   config.smooth_rate = ParseSmoothRate(settings.smooth);
+  if (settings.show_age >= 0) config.show_age_ticks = settings.show_age;
   return config;
 }
 

@@ -30,6 +30,7 @@ struct SessionSettings {
   int players = 0;  ///< the first so many of the scene's join, the rest are absent; 0: all
   std::string publish = "all";   ///< for server and clients
   std::string smooth = "on";     ///< on | off | a rate, 1/s
+  int show_age = -1;             ///< ticks; -1: the scene's
   std::vector<std::string> set;  ///< of the scene: "solver.substeps=2", "buffer=5"
 };
 

@@ -157,7 +157,7 @@ SweepFile ReadSweepFile(const std::string& path) {
                        "skin",   "buffer_m",   "input_delay", "methods",  "position_iterations",
                        "impair", "one_way_ms", "jitter_ms",   "send_hz",  "loss_percent",
                        "drive",  "smooth",     "duration",    "seeds",    "floor",
-                       "limit"});
+                       "limit",  "show_age"});
   SweepFile file;
   file.scenes = Texts(r, "scenes", nullptr);
   for (std::string& scene : file.scenes) scene = FindScene(scene);
@@ -178,6 +178,7 @@ SweepFile ReadSweepFile(const std::string& path) {
   }
   file.seeds = Seeds(r, tree, path);
   file.duration_s = r.Seconds("duration", {0, kDurationMax}, 0.0);
+  file.show_age = r.Integer("show_age", {-1, kShowAgeTicksMax}, -1);
   file.floor = r.Flag("floor", true);
   file.limit = r.Flag("limit", false);
   return file;

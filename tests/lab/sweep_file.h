@@ -17,6 +17,7 @@ struct SweepFile {
   std::vector<std::int64_t> send_hz, seeds;
   std::vector<std::string> drive, smooth;
   double duration_s = 0;  ///< 0: each scene's own
+  int show_age = -1;      ///< ticks, of others' bodies; -1: each scene's own
   bool floor = true;
   bool limit = false;
 };

@@ -162,7 +162,9 @@ TEST_F(EndToEnd, TheServersOwnRecordEqualsTheLoggersCapture) {
   const Messages recorded = Count(Played().folder / "server.lcm");
   EXPECT_GT(recorded.size(), static_cast<std::size_t>(3 * kTicks));
   // The logger listened before the server began and after it ended: it has all that was recorded.
+  // But for the checksums of the record itself.
   for (const auto& [message, times] : recorded) {
+    if (message.first.find(".chain") != std::string::npos) continue;
     const auto found = captured.find(message);
     EXPECT_EQ(found == captured.end() ? 0 : found->second, times) << message.first;
   }

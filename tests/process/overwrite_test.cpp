@@ -154,7 +154,7 @@ TEST_F(Overwrite, ValidSaysWhatARecordingLacks) {
   folder_.Write("hole.lcm",
                 whole.substr(0, whole.size() / 2) + whole.substr(whole.size() * 6 / 10));
   std::string story;
-  EXPECT_EQ(RunIn(folder_, {"seam-measure", "hole.lcm", "--csv", "hole.csv"}, &story), 0) << story;
+  EXPECT_EQ(RunIn(folder_, {"seam-measure", "hole.lcm", "--csv", "hole.csv"}, &story), 1) << story;
   const std::string table = ContentOf(folder_ / "hole.csv");
   EXPECT_NE(table.find(" messages missing"), std::string::npos) << table;
   EXPECT_EQ(table.find(",,,,,,"), std::string::npos) << "the figures of the rest: " << table;

@@ -52,8 +52,7 @@ TEST(TrustLadder, AStepEndsByItself) {
 TEST(TrustLadder, TheThirdTimeItHasToLeave) {
   TrustLadder ladder(1, kHz);
   std::int64_t tick = 0;
-  for (const TrustStep step :
-       {TrustStep::kServerHolds, TrustStep::kInputsOnly, TrustStep::kOut}) {
+  for (const TrustStep step : {TrustStep::kServerHolds, TrustStep::kInputsOnly, TrustStep::kOut}) {
     while (!ladder.MayHold(0, tick)) ladder.Update(tick++);
     Doubt(&ladder, &tick, 4, 1, 3);
     EXPECT_EQ(ladder.step(0), step);
@@ -61,7 +60,7 @@ TEST(TrustLadder, TheThirdTimeItHasToLeave) {
   }
 }
 
-TEST(TrustLadder, WhoDidNotLetGoHoldsNothingForHalfAMinute) {
+TEST(TrustLadder, APlayerThatDidNotLetGoHoldsNothingForHalfAMinute) {
   TrustLadder ladder(1, kHz);
   ladder.NoteWithheld(0, 100);
   EXPECT_FALSE(ladder.MayHold(0, 100));

@@ -61,7 +61,7 @@ inline const std::vector<BadScene>& BadScenes() {
       {"players.toml", tail + "[[player]]\nname = \"ann\"\n", "players.toml:7: "},
       {"dangling.toml", axle + "b = \"chasis\"\nanchor = [0, 0]\n", "no part 'chasis'"},
       {"itself.toml", axle + "b = \"ground\"\nanchor = [0, 0]\n", "itself.toml:1"},
-      {"long.toml", tail + std::string(60000, '#') + "\n", "long.toml:1: "}};
+      {"long.toml", tail + std::string(4100000, '#') + "\n", "long.toml:1: "}};
   return scenes;
 }
 

@@ -42,7 +42,8 @@ TEST(ShowAge, GlidesAtTheRatesOfItsLimits) {
 /// its speed (m/s) and has done so in the past.
 class Row {
  public:
-  explicit Row(std::vector<float> speeds) : speeds_(std::move(speeds)), row_(ParseScene(Text(), "row.toml")) {
+  explicit Row(std::vector<float> speeds)
+      : speeds_(std::move(speeds)), row_(ParseScene(Text(), "row.toml")) {
     for (int i = 0; i < static_cast<int>(speeds_.size()); ++i) bodies_.push_back({Body(i)});
   }
   /// Returns the ages after KeepApart, of boxes that have these ages before, ticks.

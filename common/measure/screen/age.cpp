@@ -41,7 +41,9 @@ std::optional<Trial> Try(const BodyPath& shown, const BodyPath& truth, double ra
 }  // namespace
 
 ViewAges::ViewAges(const BodyPath& shown, const BodyPath& truth, double radius, int tick_hz)
-    : first_(shown.first()), length_(std::max<std::int64_t>(1, std::llround(kAgeSpan * tick_hz))) {
+    : first_(shown.first()),
+      length_(std::max<std::int64_t>(1, std::llround(kAgeSpan * tick_hz))),
+      begin_(static_cast<double>(std::max(truth.first(), shown.first_known()))) {
   for (std::int64_t first = first_; first <= shown.last(); first += length_) {
     const std::int64_t last = std::min(first + length_ - 1, shown.last());
     spans_.push_back(FitAge(shown, truth, radius, first, last, tick_hz));

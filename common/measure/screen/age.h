@@ -39,9 +39,12 @@ class ViewAges {
   /// Requires a tick of `shown`.
   const ViewAge& SpanOf(std::int64_t tick) const;
   double TicksAt(std::int64_t tick) const { return SpanOf(tick).ticks; }
+  /// Returns the first tick that the views can show: they have nothing of before they began.
+  double begin() const { return begin_; }
 
  private:
   std::int64_t first_, length_;
+  double begin_;
   std::vector<ViewAge> spans_;
 };
 

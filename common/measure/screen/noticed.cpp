@@ -15,9 +15,7 @@ std::optional<double> BodySeconds::Share() const {
 
 std::optional<Place3> ShownBody::TrueWay(std::int64_t from, std::int64_t to,
                                          std::int64_t aged) const {
-  // A view cannot show what was before it began.
-  const auto begin = static_cast<double>(std::max(truth.first(), shown.first_known()));
-  const double age = ages.TicksAt(aged);
+  const double age = ages.TicksAt(aged), begin = ages.begin();
   const double a = std::max(begin, static_cast<double>(from) - age);
   const double b = std::max(begin, static_cast<double>(to) - age);
   if (!truth.Whole(a, b)) return std::nullopt;

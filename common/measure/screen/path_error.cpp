@@ -7,7 +7,7 @@ namespace seam {
 std::optional<DoublePose> TruthShown(const BodyPath& truth, const ViewAges& ages,
                                      std::int64_t tick) {
   const double shown = static_cast<double>(tick) - ages.TicksAt(tick);
-  const double at = std::max(shown, static_cast<double>(truth.first()));
+  const double at = std::max(shown, ages.begin());
   if (truth.Has(at)) return truth.At(at);
   if (truth.Has(tick)) return truth.At(tick);
   return std::nullopt;

@@ -11,8 +11,8 @@
 
 namespace seam {
 
-/// Returns the oracle's pose at the tick that the view of `tick` shows; before the oracle's first
-/// tick its pose in that. nullopt where the pose is not known.
+/// Returns the oracle's pose at the tick that the view of `tick` shows, at the earliest
+/// ViewAges::begin. nullopt where the pose is not known.
 std::optional<DoublePose> TruthShown(const BodyPath& truth, const ViewAges& ages,
                                      std::int64_t tick);
 

@@ -27,11 +27,14 @@ void SeatGlide::Look(const World& world) {
     ticks_[static_cast<std::size_t>(seat.player)] = kAfter * scene.solver.tick_hz + 1;
   }
   gentle_.clear();
+  players_.clear();
   for (std::size_t p = 0; p < ticks_.size(); ++p) {
     ticks_[p] = std::max(0, ticks_[p] - 1);
     const PartId own = scene.players[p].vehicle;
-    const int mechanism = ticks_[p] == 0 || own < 0 ? -1 : MechanismOf(world, own);
-    if (mechanism >= 0) gentle_.push_back(mechanism);
+    const int mechanism = own < 0 ? -1 : MechanismOf(world, own);
+    if (mechanism < 0) continue;
+    players_.push_back(mechanism);
+    if (ticks_[p] > 0) gentle_.push_back(mechanism);
   }
 }
 

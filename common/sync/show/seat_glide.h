@@ -12,7 +12,7 @@ namespace seam {
 
 class SeatGlide {
  public:
-  explicit SeatGlide(const BodyTable& table) : shown_(table, BodyRule::kFresh) {}
+  explicit SeatGlide(const BodyTable& table) : shown_(table, BodyRule::kSame) {}
 
   /// Call once a tick.
   void Look(const World& world);
@@ -20,6 +20,8 @@ class SeatGlide {
   bool IsGentle(int mechanism) const;
   /// Mechanisms for which IsGentle is true.
   const std::vector<int>& gentle() const { return gentle_; }
+  /// The mechanisms of all players, in a scene with seats: each may become a gentle one's part.
+  const std::vector<int>& players() const { return players_; }
 
   /// Limits the move of a mechanism's displayed poses (by body) since the last tick: scales all of
   /// them back by one share, so that none moves further than its velocity explains plus
@@ -36,7 +38,7 @@ class SeatGlide {
     BodyState pose;
   };
   std::vector<int> ticks_;   // by player: ticks left
-  std::vector<int> gentle_;  // mechanisms
+  std::vector<int> gentle_, players_;  // mechanisms
   BodyColumn<ShownPose> shown_;
 };
 

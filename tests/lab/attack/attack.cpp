@@ -29,6 +29,7 @@ AttackOutcome RunAttack(ClusterConfig config, const std::string& attack) {
   const Scene scene = config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")
                                                 : ParseScene(config.scene_text, config.scene);
   Cheat cheat(attack, scene);
+  config.trust = TrustMode::kAct;
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
     if (client != 0 || attack == "none") return net;
     return cheat.Around(std::move(net));

@@ -10,12 +10,15 @@ Values AttackValues(const AttackOutcome& o, int tick_hz) {
   const bool acted = o.acted_tick >= 0;
   const double acted_s =
       acted ? static_cast<double>(o.acted_tick - o.first_tick) / static_cast<double>(tick_hz) : -1;
-  return Judged("", {Count("lies", o.lies), Decimals("acted_s", acted_s, 2),
+  return Judged("", {Count("lies", o.lies),
+                     Decimals("acted_s", acted_s, 2),
                      {"step", ToString(static_cast<TrustStep>(o.step))},
                      {"others_step", ToString(static_cast<TrustStep>(o.others_step))},
                      Decimals("score", static_cast<double>(o.highest_score), 2),
-                     Count("refused", o.refused), Decimals("won", static_cast<double>(o.won), 1),
-                     Decimals("hurt", static_cast<double>(o.hurt), 1), Count("broken", o.broken)});
+                     Count("refused", o.refused),
+                     Decimals("won", static_cast<double>(o.won), 1),
+                     Decimals("hurt", static_cast<double>(o.hurt), 1),
+                     Count("broken", o.broken)});
 }
 
 Values MeasureAttack(const ProbeRun& run) {
@@ -27,7 +30,8 @@ Values MeasureAttack(const ProbeRun& run) {
 void AddAttackFlags(Command& attack, ProbeOptions& options) {
   attack.Option("SCENES", options.scenes, "scene files or names").Required();
   AddTableFlag(attack, options.output).Required();
-  attack.Option("--attack", options.methods, "none | silence | x1.2 ...; repeatable (default: all)");
+  attack.Option("--attack", options.methods,
+                "none | silence | x1.2 ...; repeatable (default: all)");
   AddSessionFlags(attack, options);
   AddRunFlags(attack, options.output, "runs at a time (default: 1)");
 }

@@ -7,7 +7,7 @@
 #include "common/codec/codec.h"
 #include "common/scene/part_rules.h"
 #include "common/sync/edits/edit_order.h"
-#include "tests/support/rewriting_net.h"
+#include "tests/support/path/rewriting_net.h"
 
 namespace seam {
 namespace {
@@ -36,9 +36,9 @@ double WayX(const WireBody& body, const WireBody& from) {
 
 const std::vector<std::string>& AttackNames() {
   static const std::vector<std::string> names = {
-      "none",   "silence", "firstword", "x1.05", "x1.2",   "x1.5",  "speed1.2", "ram",
-      "vel10",  "fly",     "lift",      "freeze", "tear",  "spin",  "rest",     "exact",
-      "impact", "break",   "withhold"};
+      "none", "silence", "firstword", "x1.05", "x1.2",    "x1.5", "speed1.2",
+      "ram",  "vel10",   "fly",       "lift",  "freeze",  "tear", "spin",
+      "rest", "exact",   "impact",    "break", "withhold"};
   return names;
 }
 
