@@ -144,11 +144,12 @@ TEST_F(EndToEnd, TheStockLoggerCapturesEveryTickOfEveryPeer) {
 
 using Messages = std::map<std::pair<std::string, Bytes>, int>;
 
-/// Counts each (channel, bytes) of the room in a log.
+/// Counts each (channel, bytes) of the room in a log, but for checksums, which are the log's own.
 Messages Count(const std::string& path) {
   Messages messages;
   LogReader log(path);
   for (LogEvent event; log.Next(&event);) {
+    if (event.channel.rfind("SEAM.main.chain", 0) == 0) continue;
     if (event.channel.rfind("SEAM.", 0) == 0) ++messages[{event.channel, event.data}];
   }
   EXPECT_EQ(log.skipped_bytes(), 0);
@@ -162,9 +163,7 @@ TEST_F(EndToEnd, TheServersOwnRecordEqualsTheLoggersCapture) {
   const Messages recorded = Count(Played().folder / "server.lcm");
   EXPECT_GT(recorded.size(), static_cast<std::size_t>(3 * kTicks));
   // The logger listened before the server began and after it ended: it has all that was recorded.
-  // But for the checksums of the record itself.
   for (const auto& [message, times] : recorded) {
-    if (message.first.find(".chain") != std::string::npos) continue;
     const auto found = captured.find(message);
     EXPECT_EQ(found == captured.end() ? 0 : found->second, times) << message.first;
   }

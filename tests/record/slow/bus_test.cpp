@@ -271,7 +271,7 @@ TEST_F(BusInNamespace, TheStockLoggerRecordsItsMessages) {
   publish(ChannelName("r", "room"), Encode(room));
   constexpr std::int32_t kViews = 120;
   for (std::int32_t i = 0; i < kViews; ++i) {
-    publish(ChannelName("r", "view", 1), Encode(MakeView(i, 1900)));
+    publish(ChannelName("r", "view", 1), Encode(MakeView(i, 1700)));
   }
   const auto views_written = [&file] {
     const Recording recording = ReadRecording(file.path());
@@ -292,7 +292,7 @@ TEST_F(BusInNamespace, TheStockLoggerRecordsItsMessages) {
   EXPECT_EQ(recording.undecodable, 0);
   EXPECT_EQ(recording.skipped_bytes, 0);
   for (const auto& [tick, view] : recording.views.at(1)) {
-    EXPECT_EQ(view.x, std::vector<float>(1900, static_cast<float>(tick)));
+    EXPECT_EQ(view.x, std::vector<float>(1700, static_cast<float>(tick)));
   }
 }
 
