@@ -70,7 +70,7 @@ run_session() {
     server=$!
     clients=()
     for name in $(players "$scene"); do
-      "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" \
+      "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" --show-age 0 \
         $publish --duration 90 --quiet >"$log-$name.log" 2>&1 &
       clients+=($!)
     done
