@@ -11,38 +11,12 @@
 namespace seam {
 namespace measure_overlap_test {
 
-/// Bodies 3 and 7 are balls; ball 3 is ann's.
-const char* const kTwoBalls = R"(
-gravity = [0, 0]
-[[part]]
-name = "far"
-box = [1, 1]
-position = [90, 90]
-anchored = true
-repeat = {count = 3, step = [2, 0]}
-[[part]]
-name = "three"
-circle = 0.5
-[[part]]
-name = "farther"
-box = [1, 1]
-position = [90, 95]
-anchored = true
-repeat = {count = 3, step = [2, 0]}
-[[part]]
-name = "seven"
-circle = 0.5
-position = [-5, 0]
-[[player]]
-name = "ann"
-vehicle = "three"
-)";
-
 /// Two moving balls a metre apart, which touch.
 Recording SideBySide(const Path& three) {
   Recording run = MakeRecording(2, 255, three);
   run.room.scene_name = "made";
-  run.room.scene_text = kTwoBalls;
+  run.room.scene_text =
+      std::string(kTwoBalls) + "[[player]]\nname = \"ann\"\nvehicle = \"three\"\n";
   for (auto& [peer, views] : run.views) {
     for (auto& [tick, view] : views) {
       view.x[1] = static_cast<float>(2 * kH * static_cast<double>(tick));

@@ -178,35 +178,12 @@ TEST(Seen, FindsAKinkThatTheOracleLacks) {
   EXPECT_TRUE(Kinks(Made(bent(20), bent(20)).Body()).empty());
 }
 
-/// Bodies 3 and 7 as balls, 3 of them at rest where 7 strikes it at tick 100.
-const char* const kBalls = R"(
-gravity = [0, 0]
-[[part]]
-name = "far"
-box = [1, 1]
-position = [90, 90]
-anchored = true
-repeat = {count = 3, step = [2, 0]}
-[[part]]
-name = "three"
-circle = 0.5
-[[part]]
-name = "farther"
-box = [1, 1]
-position = [90, 95]
-anchored = true
-repeat = {count = 3, step = [2, 0]}
-[[part]]
-name = "seven"
-circle = 0.5
-position = [-5, 0]
-)";
-
-/// The blow moves 3 with `delay` ticks of delay; 7 stands still at once.
+/// Ball 7 strikes ball 3, which is at rest, at tick 100. The blow moves 3 with `delay` ticks of
+/// delay; 7 stands still at once.
 Recording Blow(int peers, std::int64_t delay) {
   Recording run = MakeRecording(peers, 255, Moving(0));
   run.room.scene_name = "made";
-  run.room.scene_text = kBalls;
+  run.room.scene_text = kTwoBalls;
   for (auto& [peer, views] : run.views) {
     for (auto& [tick, view] : views) {
       const auto t = static_cast<double>(tick);
@@ -229,7 +206,7 @@ TEST(Seen, FindsAResponseATenthOfASecondAfterTheOtherBodys) {
 }
 
 TEST(Seen, FindsALinkStretchedByMoreThanThreeHundredths) {
-  const std::string jointed = std::string(kBalls) + R"(
+  const std::string jointed = std::string(kTwoBalls) + R"(
 [[joint]]
 kind = "revolute"
 name = "hinge"

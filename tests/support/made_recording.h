@@ -51,6 +51,30 @@ inline View MakeView(int peer, std::int64_t tick, const BodyState& body) {
   return view;
 }
 
+/// A scene in which bodies 3 and 7 are balls without gravity.
+constexpr const char* kTwoBalls = R"(
+gravity = [0, 0]
+[[part]]
+name = "far"
+box = [1, 1]
+position = [90, 90]
+anchored = true
+repeat = {count = 3, step = [2, 0]}
+[[part]]
+name = "three"
+circle = 0.5
+[[part]]
+name = "farther"
+box = [1, 1]
+position = [90, 95]
+anchored = true
+repeat = {count = 3, step = [2, 0]}
+[[part]]
+name = "seven"
+circle = 0.5
+position = [-5, 0]
+)";
+
 /// Returns the views of `peers` peers that all show `motion`, from tick 0 to `last_tick`.
 inline Recording MakeRecording(int peers, std::int64_t last_tick, const Path& motion) {
   Recording recording;
