@@ -61,7 +61,7 @@ void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playba
   const double tick = playback.TickAt(times[i]);
   const Moment now = playback.MomentAt(peer, tick);
   const float opacity = 0.2f + 0.7f * Opacity(i, times.size());
-  VisitTruth(playback, *playback.RevisionOf(now), now, tick,
+  VisitTruth(playback, *playback.RevisionOf(now), now,
              [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
                if (!viewport.Sees(truth.position, body.reach)) return;
                if (shown && PixelsApart(viewport, body, *shown, truth) < 2) return;
@@ -107,8 +107,8 @@ void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   if (!playback.measures() || playback.policy().IsOracle()) return;
   const Measures& measures = *playback.measures();
   if (measures.rebound) figure("rebound", FormatNumber(*measures.rebound, 2));
-  figure("error RMS", FormatLength(measures.error_rms_m));
-  figure("error max", FormatLength(measures.error_max_m));
+  figure("error RMS", FormatLength(measures.shown_error_rms_m));
+  figure("error max", FormatLength(measures.shown_error_max_m));
 }
 
 }  // namespace

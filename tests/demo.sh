@@ -70,7 +70,7 @@ run_session() {
     server=$!
     clients=()
     for name in $(players "$scene"); do
-      "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" --show-age 0 \
+      "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" \
         $publish --duration 90 --quiet >"$log-$name.log" 2>&1 &
       clients+=($!)
     done
@@ -176,7 +176,7 @@ for scene in $worlds; do
   fi
   awk -v OFS="  " -v scene="$scene" '
     NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
-    NR == 2 { error = $column["error_others_m"]; stutter = $column["stutter_mps2"] }
+    NR == 2 { error = $column["path_error_rms_m"]; stutter = $column["stutter_mps2"] }
     /^  seam / { seam = $2 }
     /bodies lost/ { lost = $(NF - 5) }
     END { printf "  %-11s error of others %9s m, stutter %8s m/s2, seam %9s m RMS", scene, error,

@@ -68,9 +68,12 @@ struct Measures {
   double cpu_us_per_s = 0;               ///< mean over peers, per simulated second
   /// Number of compared poses: peers x ticks x bodies. With 0 the errors mean nothing.
   std::int64_t compared = 0;
-  // RMS over peers' views and bodies, indexed by [tick - first_tick] for all ticks of the
+  // Pose errors over the views of all peers against the oracle at the tick that is shown, as
+  // pictures draw it.
+  double shown_error_rms_m = 0, shown_error_p95_m = 0, shown_error_max_m = 0;
+  // Their RMS over peers' views and bodies, indexed by [tick - first_tick] for all ticks of the
   // recording; the renderer's strip draws it. 0 where nothing was compared.
-  std::vector<double> error_by_tick_m;
+  std::vector<double> shown_error_by_tick_m;
   std::int64_t first_tick = 0;
   std::map<int, double> error_rms_by_peer_m;
 };

@@ -1,11 +1,13 @@
 #include "common/measure/oracle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "common/measure/pose.h"
 #include "common/measure/revisions.h"
 #include "common/scene/mass.h"
+#include "common/sync/state_arithmetic.h"
 
 namespace seam {
 namespace {
@@ -59,6 +61,17 @@ std::optional<BodyState> Oracle::At(std::int64_t tick, PartId part) const {
   const Place& place = places[static_cast<std::size_t>(own)];
   if (place.body == -2) return std::nullopt;
   return Placed(place, ticks[row]);
+}
+
+std::optional<BodyState> Oracle::AtMoment(double moment, PartId part) const {
+  const double at = std::max(moment, static_cast<double>(first_tick));
+  const double low = std::floor(at);
+  const auto tick = static_cast<std::int64_t>(low);
+  const std::optional<BodyState> state = At(tick, part);
+  if (!state || at == low) return state;
+  const std::optional<BodyState> after = At(tick + 1, part);
+  if (!after) return std::nullopt;
+  return PlusScaled(*state, Minus(*after, *state), static_cast<float>(at - low));
 }
 
 bool Oracle::SameBody(std::int64_t tick_a, std::int64_t tick_b, PartId part) const {

@@ -55,6 +55,9 @@ struct Oracle {
   /// Returns the state of a part, by its id in the recording: the pose of the part and the velocity
   /// of its body. nullopt when the tick or the part is unknown, or the part was removed.
   std::optional<BodyState> At(std::int64_t tick, PartId part) const;
+  /// Returns the state of a part at a moment, in ticks: linear between two ticks, and that of the
+  /// first tick before it. nullopt where one of the ticks is unknown.
+  std::optional<BodyState> AtMoment(double moment, PartId part) const;
   /// Returns the ids of the moving bodies in a row of `ticks`, in the oracle's own numbering.
   const std::vector<PartId>& IdsOf(std::size_t row) const;
   /// True if the body of `part` had the same parts at both ticks.

@@ -15,7 +15,7 @@ namespace seam {
 /// Returns the seconds per tick of a recording.
 double TickSeconds(const Recording& recording);
 
-/// error.cpp: sets error_*, error_by_tick_m, error_rms_by_peer_m and compared.
+/// error.cpp: sets error_*, shown_error_*, error_rms_by_peer_m and compared.
 void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures);
 
 // `revisions` below: nullptr where bodies never change.

@@ -5,7 +5,6 @@
 
 #include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
-#include "common/sync/state_arithmetic.h"
 
 namespace seam {
 namespace {
@@ -22,19 +21,6 @@ struct Point {
 Point Shown(const View& view, int i) {
   const auto index = static_cast<std::size_t>(i);
   return {view.x[index], view.y[index]};
-}
-
-/// Returns the oracle's state at a moment: linear between two ticks; that of its first tick before
-/// it.
-std::optional<BodyState> TruthAt(const Oracle& oracle, double moment, PartId id) {
-  const double at = std::max(moment, static_cast<double>(oracle.first_tick));
-  const double low = std::floor(at);
-  const auto tick = static_cast<std::int64_t>(low);
-  std::optional<BodyState> state = oracle.At(tick, id);
-  if (!state || at == low) return state;
-  const std::optional<BodyState> after = oracle.At(tick + 1, id);
-  if (!after) return std::nullopt;
-  return PlusScaled(*state, Minus(*after, *state), static_cast<float>(at - low));
 }
 
 /// Returns the tick of a view, or the moment that it shows of body `i`.
@@ -67,9 +53,9 @@ bool IsOwnBackstep(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
   const PartId id = now.id[i];
   const int k = IndexOf(before, id);
   if (k < 0 || !Same(oracle, revisions, now, before, id)) return false;
-  const std::optional<BodyState> truth = TruthAt(oracle, MomentShown(now, i), id);
+  const std::optional<BodyState> truth = oracle.AtMoment(MomentShown(now, i), id);
   const std::optional<BodyState> truth_before =
-      TruthAt(oracle, MomentShown(before, static_cast<std::size_t>(k)), id);
+      oracle.AtMoment(MomentShown(before, static_cast<std::size_t>(k)), id);
   if (!truth || !truth_before) return false;
   return IsBackstep(Shown(before, k), {now.x[i], now.y[i]}, now.vx[i], now.vy[i]) &&
          !IsBackstep(At(*truth_before), At(*truth), truth->velocity.x(), truth->velocity.y());
@@ -87,9 +73,9 @@ std::optional<double> StutterSquared(const ViewTrio& trio, std::size_t i, const 
   if (!Same(oracle, revisions, now, before, id) || !Same(oracle, revisions, before, earlier, id)) {
     return std::nullopt;
   }
-  const auto due = TruthAt(oracle, MomentOf(now, l, truth), id);
-  const auto due_before = TruthAt(oracle, MomentOf(before, k, truth), id);
-  const auto due_earlier = TruthAt(oracle, MomentOf(earlier, j, truth), id);
+  const auto due = oracle.AtMoment(MomentOf(now, l, truth), id);
+  const auto due_before = oracle.AtMoment(MomentOf(before, k, truth), id);
+  const auto due_earlier = oracle.AtMoment(MomentOf(earlier, j, truth), id);
   if (!due || !due_before || !due_earlier) return std::nullopt;
   const Point p = Shown(now, l), q = Shown(before, k), r = Shown(earlier, j);
   const Point o = At(*due), n = At(*due_before), m = At(*due_earlier);

@@ -101,6 +101,9 @@ std::string More(const MeasuredRun& run) {
   for (const auto& [peer, rms] : m.error_rms_by_peer_m) {
     out += fmt::format("  peer {:<2}          {:.6g} m RMS\n", peer, rms);
   }
+  out += fmt::format(
+      "  error shown      {:.6g} m RMS, {:.6g} m p95, {:.6g} m at most, at the tick shown\n",
+      m.shown_error_rms_m, m.shown_error_p95_m, m.shown_error_max_m);
   out += fmt::format("  error            {}\n",
                      Beside(m.error_server_m, std::nullopt, "m in the server's view"));
   out += fmt::format("  response         {}\n",

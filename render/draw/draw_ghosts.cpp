@@ -5,12 +5,13 @@
 namespace seam {
 
 void VisitTruth(const Playback& playback, const DrawnRevision& revision, const Moment& moment,
-                double tick, const GhostVisitor& visit) {
+                const GhostVisitor& visit) {
   if (!playback.has_oracle()) return;
-  const auto whole = static_cast<std::int64_t>(std::floor(tick));
   for (const BodyShapes& body : revision.moving) {
     const auto shown = playback.Find(moment, body.id);
     const std::optional<Pose> pose = shown ? std::optional<Pose>(shown->pose) : std::nullopt;
+    const double tick = shown ? shown->tick : moment.tick;
+    const auto whole = static_cast<std::int64_t>(std::floor(tick));
     if (body.parts.size() == 1 || playback.oracle().Together(whole, body.parts)) {
       const auto truth = playback.Truth(body.id, tick);
       if (truth) visit(body, *truth, pose);

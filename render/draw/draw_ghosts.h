@@ -14,8 +14,9 @@ namespace seam {
 using GhostVisitor =
     std::function<void(const BodyShapes&, const Pose& truth, const std::optional<Pose>& shown)>;
 
-/// Visits all moving bodies of the revision that the oracle has.
+/// Visits all moving bodies of the revision that the oracle has, each at the tick whose pose the
+/// view shows.
 void VisitTruth(const Playback& playback, const DrawnRevision& revision, const Moment& moment,
-                double tick, const GhostVisitor& visit);
+                const GhostVisitor& visit);
 
 }  // namespace seam

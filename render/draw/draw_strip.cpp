@@ -195,8 +195,9 @@ void DrawStrip(DrawList& list, const Rect& area, const std::vector<Curve>& curve
   list.FillRect(axes.plot, kPanel);
   DrawDecades(list, axes);
   DrawSeconds(list, axes);
-  const std::string title = curves.empty() ? "error: unknown without an oracle"
-                                           : "error against the oracle, RMS, log scale";
+  const std::string title = curves.empty()
+                                ? "error: unknown without an oracle"
+                                : "error against the oracle at the tick shown, RMS, log scale";
   float x = axes.plot.x;
   const float base = area.y + 12 * scale;
   x += list.Text(x, base, TextStyle::kSmall, title, kFaintInk) + 22 * scale;

@@ -106,7 +106,7 @@ void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playba
   const Moment now = playback.MomentAt(look.peer, look.tick);
   int apart = 0;
   const auto visit = [&](const auto& draw) {
-    VisitTruth(playback, revision, now, look.tick,
+    VisitTruth(playback, revision, now,
                [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
                  if (look.cull && !viewport.Sees(truth.position, body.reach)) return;
                  const float px = ApartPx(list, viewport, body, truth, shown);
@@ -126,7 +126,7 @@ void DrawVectors(DrawList& list, const Viewport& viewport, const Playback& playb
                  const DrawnRevision& revision, const WorldLook& look) {
   const float scale = list.font().scale();
   const Moment now = playback.MomentAt(look.peer, look.tick);
-  VisitTruth(playback, revision, now, look.tick,
+  VisitTruth(playback, revision, now,
              [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
                if (!shown || !viewport.Sees(truth.position, body.reach)) return;
                const Vec2 from = viewport.ToPx(truth.position), to = viewport.ToPx(shown->position);
@@ -143,9 +143,9 @@ void DrawVectors(DrawList& list, const Viewport& viewport, const Playback& playb
 
 /// Returns the distance of a body's displayed position from the oracle's, m; 0 if unknown.
 float ErrorOf(const Playback& playback, const Moment& now, const BodyShapes& body) {
-  const auto truth = playback.Truth(body.id, now.tick);
   const auto shown = playback.Find(now, body.id);
-  if (!truth || !shown) return 0;
+  const auto truth = shown ? playback.Truth(body.id, shown->tick) : std::nullopt;
+  if (!truth) return 0;
   const float turn = body.round ? 0 : std::abs(WrapAngle(shown->pose.angle - truth->angle));
   return (shown->pose.position - truth->position).norm() + turn * body.reach;
 }

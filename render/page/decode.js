@@ -89,10 +89,14 @@ function readTrack(reader, count, isView) {
     error += reader.signed();
     track.error[i] = error - 1;
   }
+  track.age = new Int32Array(count);
+  let age = 0;
+  for (const i of places) track.age[i] = age += reader.signed();
   return track;
 }
 
-// Returns {first, count, world, bodies}: poses in mm and mrad, by body; errors in the head's unit.
+// Returns {first, count, world, bodies}: poses in mm and mrad, by body; errors and ages in the
+// head's units.
 function readTracks(bytes, section, isView) {
   const reader = new Reader(bytes, section);
   const first = reader.signed();

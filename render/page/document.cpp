@@ -165,8 +165,9 @@ PageBytes PageData(const std::vector<PageRun>& runs) {
   std::vector<std::string> list;
   for (const PageRun& run : runs) list.push_back(RunJson(run, &sections));
   const std::string head = fmt::format(
-      R"({{"version":{},"error_unit":{},"stutter_unit":{},"colours":{},"runs":{}}})",
-      JsonText(kVersion), kPageErrorUnit_m, kStutterUnit_mps2, PaletteJson(), JsonList(list));
+      R"({{"version":{},"error_unit":{},"age_unit":{},"stutter_unit":{},"colours":{},"runs":{}}})",
+      JsonText(kVersion), kPageErrorUnit_m, kPageAgeUnit, kStutterUnit_mps2, PaletteJson(),
+      JsonList(list));
   PageBytes data;
   for (int shift = 0; shift < 32; shift += 8)
     data.push_back(static_cast<std::uint8_t>(head.size() >> shift & 0xff));

@@ -5,7 +5,7 @@ const $ = (id) => document.getElementById(id);
 class Page {
   constructor(head, bytes) {
     this.runs = [];
-    const units = {error: head.error_unit, stutter: head.stutter_unit};
+    const units = {error: head.error_unit, age: head.age_unit, stutter: head.stutter_unit};
     Object.assign(COLOURS, head.colours);
     for (const run of head.runs)
       for (const [peer, colour] of run.colours) COLOURS.peers[peer] = colour;

@@ -2,7 +2,7 @@
 // first one; lengths are metres.
 
 const MEASURES = {
-  error: {name: 'Error', unit: 'm', log: true, each: 'body and tick'},
+  error: {name: 'Error at the tick shown', unit: 'm', log: true, each: 'body and tick'},
   path: {name: 'Path error', unit: 'm', log: true, each: 'tick'},
   stutter: {name: 'Stutter', unit: 'm/s²', each: 'tick'},
   rtt: {name: 'Round trip', unit: 'ms', each: 'second'},
@@ -31,6 +31,15 @@ class View {
     for (let i = Math.min(Math.floor(tick), this.tracks.count - 1); i >= 0; --i)
       if (this.tracks.world[i] >= 0) return this.run.worlds[this.tracks.world[i]];
     return this.run.worlds[0];
+  }
+  // Returns the tick whose pose a body has in the view of a tick: that less its show age.
+  tickShown(id, tick) {
+    const track = this.tracks.bodies.get(id);
+    if (!track) return tick;
+    const i = Math.floor(tick);
+    const now = track.age[i] || 0;
+    const next = track.has[i + 1] ? track.age[i + 1] : now;
+    return Math.max(0, tick - (now + (tick - i) * (next - now)) * this.units.age);
   }
   errorOf(id, tick) {
     const track = this.tracks.bodies.get(id);
@@ -175,7 +184,7 @@ function percentile(values, share) {
 }
 
 // Returns {rms, p95, max, count} of a measure over views, from tick `from` to `to`, both included;
-// equals the output of seam-measure --from --to for the same views.
+// equals the output of seam-measure --more --from --to for the same views.
 function rangeStats(views, measure, from, to) {
   const values = [];
   let sum = 0;

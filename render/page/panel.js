@@ -31,7 +31,7 @@ function visitTruth(view, tick, visit) {
   if (!view.run.oracle) return;
   const world = view.worldAt(tick);
   for (const body of world.moving) {
-    const truth = poseOf(view.run.oracle.bodies.get(body.id), tick);
+    const truth = poseOf(view.run.oracle.bodies.get(body.id), view.tickShown(body.id, tick));
     const shown = poseOf(view.tracks.bodies.get(body.id), tick);
     if (truth) visit(body, truth, shown);
   }

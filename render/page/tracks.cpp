@@ -49,13 +49,15 @@ void PutTrack(PageBytes* out, const std::vector<TrackSample>& samples, std::int6
   for (const auto field : {&TrackSample::x, &TrackSample::y, &TrackSample::angle})
     PutColumn(out, samples, spans, field);
   if (!views) return;
-  std::vector<std::int64_t> owners, errors;
+  std::vector<std::int64_t> owners, errors, ages;
   for (const TrackSample& sample : samples) {
     owners.push_back(3 * sample.authority + sample.role);
     errors.push_back(ErrorUnits(sample.error_m));
+    ages.push_back(std::llround(sample.age / kPageAgeUnit));
   }
   PutRuns(out, owners);
   PutFirstDifferences(out, errors);
+  PutFirstDifferences(out, ages);
 }
 
 }  // namespace
@@ -64,9 +66,11 @@ Tracks TracksOf(const std::map<std::int64_t, View>& views, const Oracle* oracle)
   Tracks tracks;
   for (const auto& [tick, view] : views) {
     for (std::size_t i = 0; i < view.id.size(); ++i) {
-      TrackSample sample{tick,         view.x[i], view.y[i], view.angle[i], view.authority[i],
-                         view.role[i], -1};
-      const auto truth = oracle != nullptr ? oracle->At(tick, view.id[i]) : std::nullopt;
+      TrackSample sample{
+          tick,         view.x[i], view.y[i],          view.angle[i], view.authority[i],
+          view.role[i], -1,        double{view.age[i]}};
+      const auto truth =
+          oracle != nullptr ? oracle->AtMoment(MomentShown(view, i), view.id[i]) : std::nullopt;
       if (truth) {
         sample.error_m = std::hypot(sample.x - double{truth->position.x()},
                                     sample.y - double{truth->position.y()});
@@ -84,7 +88,7 @@ Tracks TruthOf(const Recording& recording, const Oracle& oracle) {
       const std::optional<BodyState> state = oracle.At(tick, id);
       if (!state) continue;
       tracks[id].push_back(
-          {tick, state->position.x(), state->position.y(), state->angle, 0, 0, -1});
+          {tick, state->position.x(), state->position.y(), state->angle, 0, 0, -1, 0});
     }
   }
   return tracks;

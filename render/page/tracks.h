@@ -1,6 +1,6 @@
 #pragma once
 /// Displayed and oracle's poses as columns of a review page: positions in whole millimetres, angles
-/// in whole milliradians, errors in tenths of a millimetre.
+/// in whole milliradians, errors in tenths of a millimetre, show ages in sixteenths of a tick.
 ///
 /// Format of a section, all numbers varints:
 ///
@@ -11,6 +11,7 @@
 ///     x, y, angle: second differences, restarted in each span
 ///     runs: 3 * authority + role       (views only)
 ///     first differences of errors + 1; 0 where the oracle knows nothing  (views only)
+///     first differences of show ages  (views only)
 
 #include <functional>
 #include <map>
@@ -23,13 +24,17 @@ namespace seam {
 
 /// Unit of a page's position errors, m.
 constexpr double kPageErrorUnit_m = 1e-4;
+/// Unit of a page's show ages, ticks.
+constexpr double kPageAgeUnit = 1.0 / 16;
 
 /// Pose of a body at a tick.
 struct TrackSample {
   std::int64_t tick = 0;
   double x = 0, y = 0, angle = 0;  ///< m, rad
   int authority = 0, role = 0;     ///< views only
-  double error_m = -1;             ///< views only: from the oracle's position; -1: not known
+  /// Views only: from the oracle's position at the tick that is shown, m; -1: not known.
+  double error_m = -1;
+  double age = 0;  ///< views only: show age, ticks
 };
 using Tracks = std::map<int, std::vector<TrackSample>>;  ///< by body, ticks ascending
 
@@ -39,7 +44,7 @@ Tracks TracksOf(const std::map<std::int64_t, View>& views, const Oracle* oracle)
 Tracks TruthOf(const Recording& recording, const Oracle& oracle);
 
 /// Encodes a section. `world_at`: returns the world of a tick, -1 where there is none. `views`:
-/// with authority and error.
+/// with authority, error and show age.
 PageBytes EncodeTracks(const Tracks& tracks, std::int64_t first_tick, std::int64_t last_tick,
                        const std::function<int(std::int64_t)>& world_at, bool views);
 

@@ -67,8 +67,8 @@ std::set<PartId> WorstBody(const Playback& playback, double tick) {
     const Moment moment = playback.MomentAt(peer, tick);
     for (const BodyShapes& body : playback.RevisionOf(moment)->moving) {
       const auto shown = playback.Find(moment, body.id);
-      const auto truth = playback.Truth(body.id, tick);
-      if (!shown || !truth) continue;
+      const auto truth = shown ? playback.Truth(body.id, shown->tick) : std::nullopt;
+      if (!truth) continue;
       const float apart = (shown->pose.position - truth->position).norm();
       if (apart <= most) continue;
       most = apart;

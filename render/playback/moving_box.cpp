@@ -23,8 +23,8 @@ PartId WorstBodyOf(const std::vector<CameraView>& views, const std::vector<doubl
       const Moment moment = playback.MomentAt(playback.PeerOr(view.peer), tick);
       for (const BodyShapes& body : playback.RevisionOf(moment)->moving) {
         const auto shown = playback.Find(moment, body.id);
-        const auto truth = playback.Truth(body.id, tick);
-        if (!shown || !truth) continue;
+        const auto truth = shown ? playback.Truth(body.id, shown->tick) : std::nullopt;
+        if (!truth) continue;
         const float apart = (shown->pose.position - truth->position).norm();
         if (apart <= most) continue;
         most = apart;

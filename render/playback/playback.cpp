@@ -139,12 +139,12 @@ bool Playback::Compared(int peer, std::int64_t tick) const {
 /// Copies a measure's errors by tick to a peer's.
 void Playback::Keep(int peer, const Measures& measures) {
   std::vector<double>& errors = errors_[peer];
-  for (std::size_t i = 0; i < measures.error_by_tick_m.size(); ++i) {
+  for (std::size_t i = 0; i < measures.shown_error_by_tick_m.size(); ++i) {
     const std::int64_t tick = measures.first_tick + static_cast<std::int64_t>(i);
     if (tick < error_first_tick_ || !Compared(peer, tick)) continue;
     const auto place = static_cast<std::size_t>(tick - error_first_tick_);
     if (place >= errors.size()) errors.resize(place + 1, std::numeric_limits<double>::quiet_NaN());
-    errors[place] = measures.error_by_tick_m[i];
+    errors[place] = measures.shown_error_by_tick_m[i];
   }
 }
 
@@ -236,8 +236,12 @@ std::optional<Shown> Playback::Find(const Moment& moment, PartId id) const {
   shown.role = moment.before->role[i];
   shown.authority = moment.before->authority[i];
   const std::size_t j = moment.blend > 0 ? PlaceOf(*moment.after, id) : std::string::npos;
-  if (j != std::string::npos)
+  double age = double{moment.before->age[i]};
+  if (j != std::string::npos) {
     shown.pose = Blend(shown.pose, PoseIn(*moment.after, j), moment.blend);
+    age += double{moment.blend} * (double{moment.after->age[j]} - age);
+  }
+  shown.tick = moment.tick - age;
   return shown;
 }
 
@@ -259,13 +263,9 @@ std::optional<Pose> Playback::FindPart(const Moment& moment, PartId part) const 
 
 std::optional<Pose> Playback::Truth(PartId id, double tick) const {
   if (!oracle_) return std::nullopt;
-  const auto whole = static_cast<std::int64_t>(std::floor(tick));
-  const std::optional<BodyState> before = oracle_->At(whole, id);
-  if (!before) return std::nullopt;
-  const Pose pose{before->position, before->angle};
-  const auto blend = static_cast<float>(tick - static_cast<double>(whole));
-  const std::optional<BodyState> after = blend > 0 ? oracle_->At(whole + 1, id) : std::nullopt;
-  return after ? Blend(pose, {after->position, after->angle}, blend) : pose;
+  std::optional<BodyState> state = oracle_->AtMoment(tick, id);
+  if (!state) state = oracle_->At(static_cast<std::int64_t>(std::floor(tick)), id);
+  return state ? std::optional<Pose>(Pose{state->position, state->angle}) : std::nullopt;
 }
 
 Pose Playback::Anchored(const BodyShapes& body, double tick) const {

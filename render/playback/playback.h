@@ -24,6 +24,7 @@ struct Shown {
   Pose pose;
   int role = kRoleRemote;
   int authority = 0;
+  double tick = 0;  ///< the tick whose pose is shown: that of the moment, less the show age
 };
 
 /// Two neighbouring views of one peer, and the position of the moment between them.
@@ -86,7 +87,8 @@ class Playback {
 
   Moment MomentAt(int peer, double tick) const;
   std::optional<Shown> Find(const Moment& moment, PartId id) const;
-  /// Returns the oracle's pose of any part, interpolated between ticks.
+  /// Returns the oracle's pose of any part, interpolated between ticks. Views are compared with
+  /// the truth of Shown::tick.
   std::optional<Pose> Truth(PartId id, double tick) const;
   /// Returns the pose of an anchored body: its start, unless it is kinematic.
   Pose Anchored(const BodyShapes& body, double tick) const;
@@ -96,8 +98,9 @@ class Playback {
   /// without a reliable age (view_age_ms in docs/metrics.md).
   std::optional<double> ViewAgeMs(int peer) const;
 
-  /// Returns the RMS error of a peer's view by tick, m; peer -1: of all views. NaN where the oracle
-  /// or the views lack the tick; empty without an oracle.
+  /// Returns the RMS error of a peer's view by tick, m, against the oracle at the tick that is
+  /// shown; peer -1: of all views. NaN where the oracle or the views lack the tick; empty without
+  /// an oracle.
   const std::vector<double>& ErrorByTick(int peer) const;
   /// Returns the tick of the first entry of ErrorByTick.
   std::int64_t ErrorFirstTick() const { return error_first_tick_; }

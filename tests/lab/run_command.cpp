@@ -22,7 +22,8 @@ std::string Metres(const std::optional<double>& metres) {
   return metres ? fmt::format("{:.3g} m", *metres) : "–";
 }
 
-/// Returns the headline, the error of others' bodies, with the disagreement of the peers beside it.
+/// Returns the headline, the error of others' bodies at the tick that is shown, with its age, the
+/// error of the present and the disagreement of the peers beside it.
 std::string Summary(const Recording& recording) {
   try {
     const Oracle plain = ComputeOracle(recording);
@@ -30,10 +31,12 @@ std::string Summary(const Recording& recording) {
     const Measures m = Measure(
         recording, barriers ? ComputeOracle(recording, WithBarriers(recording.room)) : plain);
     return fmt::format(
-        "error of others {} RMS, peers {} apart, stutter {:.3g} m/s2; floor {:.3g} m (the oracle "
-        "against itself, one body moved by 1e-6 m)",
-        Metres(m.error_others_m), Metres(PeersApart(recording)), m.stutter_mps2,
-        ErrorFloor(recording, plain));
+        "error of others {} RMS at the tick shown, {:.0f} ms ago ({} against the present), views "
+        "of "
+        "one tick {} apart, stutter {:.3g} m/s2; floor {:.3g} m (the oracle against itself, one "
+        "body moved by 1e-6 m)",
+        Metres(m.path_error_rms_m), m.view_age_ms.value_or(0), Metres(m.error_others_m),
+        Metres(PeersApart(recording)), m.stutter_shown_mps2, ErrorFloor(recording, plain));
   } catch (const OperatorError& error) {  // the log is whole all the same
     return std::string("not measured: ") + error.what();
   }

@@ -27,7 +27,7 @@ TEST(Measure, ARecordingEqualToItsOracleHasNoErrorAtAll) {
   EXPECT_EQ(m.stutter_mps2, 0);
   EXPECT_EQ(m.backsteps, 0);
   EXPECT_EQ(m.handovers, 0);
-  EXPECT_EQ(m.error_by_tick_m, std::vector<double>(201, 0.0));
+  EXPECT_EQ(m.shown_error_by_tick_m, std::vector<double>(201, 0.0));
   EXPECT_EQ(m.error_rms_by_peer_m, (std::map<int, double>{{0, 0.0}, {1, 0.0}, {2, 0.0}}));
 }
 
@@ -44,7 +44,7 @@ TEST(Measure, AConstantOffsetIsAnErrorButNoStutter) {
   EXPECT_DOUBLE_EQ(m.error_p95_m, 0.625);
   EXPECT_DOUBLE_EQ(m.error_rms_by_peer_m.at(0), 0);
   EXPECT_DOUBLE_EQ(m.error_rms_by_peer_m.at(1), 0.625 / std::sqrt(2));
-  EXPECT_DOUBLE_EQ(m.error_by_tick_m.at(50), 0.625 / 2);
+  EXPECT_DOUBLE_EQ(m.shown_error_by_tick_m.at(50), 0.625 / 2);
   EXPECT_EQ(m.stutter_mps2, 0);
 }
 
@@ -59,8 +59,8 @@ TEST(Measure, OneJumpHasExactlyTheStutterAndTheErrorOfItsSize) {
   // A step shows in two second differences, +a and -a, among 99 for each of two bodies.
   EXPECT_DOUBLE_EQ(m.stutter_mps2, 0.125 / (kH * kH) * std::sqrt(2.0 / 198));
   EXPECT_EQ(m.backsteps, 0);
-  EXPECT_EQ(m.error_by_tick_m.at(59), 0);
-  EXPECT_DOUBLE_EQ(m.error_by_tick_m.at(60), 0.125 / std::sqrt(2));
+  EXPECT_EQ(m.shown_error_by_tick_m.at(59), 0);
+  EXPECT_DOUBLE_EQ(m.shown_error_by_tick_m.at(60), 0.125 / std::sqrt(2));
 }
 
 TEST(Measure, StutterNeedsThreeViewsInARow) {

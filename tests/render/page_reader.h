@@ -17,6 +17,7 @@ struct PageBody {
   struct Sample {
     std::int64_t x = 0, y = 0, angle = 0;  ///< mm, mrad
     std::int64_t owner = 0, error = -1;    ///< 3 * authority + role; units
+    std::int64_t age = 0;                  ///< units
   };
   std::map<std::int64_t, Sample> samples;
 };
@@ -107,6 +108,8 @@ class PageReader {
       body.samples[ticks[i]].owner = owners[i];
       body.samples[ticks[i]].error = error - 1;
     }
+    std::int64_t age = 0;
+    for (const std::int64_t tick : ticks) body.samples[tick].age = age += Signed();
     return body;
   }
 

@@ -120,7 +120,7 @@ inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer
         view.vx.push_back(state.velocity.x());
         view.vy.push_back(state.velocity.y());
         view.spin.push_back(state.spin);
-        view.age.push_back(owner == peer ? 0 : static_cast<float>(late_ticks));
+        view.age.push_back(0);
       }
       recording.views[peer][tick] = view;
     }
@@ -141,6 +141,14 @@ inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer
     recording.stats[peer].push_back(stats);
   }
   return recording;
+}
+
+/// Lets the views of MakeRecording(late_ticks) say that they show others so long ago.
+inline void SayAges(int late_ticks, Recording* recording) {
+  for (auto& [peer, views] : recording->views)
+    for (auto& [tick, view] : views)
+      for (std::size_t i = 0; i < view.id.size(); ++i)
+        view.age[i] = view.authority[i] == peer ? 0 : static_cast<float>(late_ticks);
 }
 
 /// Returns the same scene as the text of a scene file.
