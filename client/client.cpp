@@ -107,11 +107,7 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
   const bool settled = clock_.settled() && timeline_.known();
   std::int64_t every_us = settled ? kPingSlowUs : kPingFastUs;
   if (Quiet()) {
-    const bool answered = answered_us_ >= last_ping_us_;
-    const std::int64_t usual_us = std::min<std::int64_t>(clock_.rtt_p90_us(), kUsualMaxUs);
-    const std::int64_t wait_us = usual_us + kPingAgainUs;
-    const bool again = !answered && now_us - answered_us_ >= kPingQuietUs + wait_us;
-    every_us = again ? kPingAgainUs : kPingQuietUs;
+    every_us = PongOverdue(now_us) ? kPingAgainUs : kPingQuietUs;
   }
   link_->SetQuiet(Quiet());
   if (now_us - last_ping_us_ >= every_us) {
@@ -130,6 +126,13 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
     }
     link_->SendUnreliable(Encode(ping));
   }
+}
+
+bool Client::PongOverdue(std::int64_t now_us) const {
+  if (answered_us_ >= last_ping_us_) return false;
+  const std::int64_t usual_us = std::min<std::int64_t>(clock_.rtt_p90_us(), kUsualMaxUs);
+  const std::int64_t period_us = Quiet() ? kPingQuietUs : kPingSlowUs;
+  return now_us - answered_us_ >= period_us + usual_us + kPingAgainUs;
 }
 
 std::int64_t Client::LeadTarget() const {

@@ -125,6 +125,8 @@ class Client {
   void SendLoose(const Bytes& message);
   /// Handles a datagram outside of a session; false if it is none of ours.
   bool OnHandshake(std::int64_t now_us, const Bytes& datagram);
+  /// Joins anew if the server says, and its silence shows, that it does not have our session.
+  void OnUnknownSession(std::int64_t now_us);
   /// Handles a datagram of the session, if it opens. The first one shows which of our joins the
   /// server has granted.
   bool OnSealed(std::int64_t now_us, const Bytes& datagram);
@@ -154,6 +156,8 @@ class Client {
 
   // client.cpp
   void SendReadyAndPing(std::int64_t now_us);
+  /// True if the answer to a ping is late by more than is usual.
+  bool PongOverdue(std::int64_t now_us) const;
   void StartIfDue(std::int64_t now_us);
   void CatchUp(std::int64_t tick);
   void StepDue(std::int64_t now_us);

@@ -90,8 +90,18 @@ void Client::SendLoose(const Bytes& message) {
   net_.Send(config_.server, datagram);
 }
 
+void Client::OnUnknownSession(std::int64_t now_us) {
+  // Anybody on the path can say so: our session goes on as long as it is answered.
+  if (PongOverdue(now_us)) Join(now_us);
+}
+
 bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
-  if (number_ == 0 || LooseNumber(datagram) != number_) return false;
+  const std::uint64_t number = LooseNumber(datagram);
+  if (number != 0 && link_ != nullptr && number == link_->session()) {
+    if (std::holds_alternative<Bye>(Decode(LooseMessage(datagram)))) OnUnknownSession(now_us);
+    return true;
+  }
+  if (number_ == 0 || number != number_) return false;
   // Once we have joined, such a datagram is a late answer, or somebody else's.
   if (peer_ >= 0) return true;
   const AnyMessage any = Decode(LooseMessage(datagram));

@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/base/process.h"
+#include "common/net/datagram.h"
 #include "common/net/farewell.h"
 #include "common/net/loose_datagram.h"
 #include "common/physics/prepare_threads.h"
@@ -64,6 +65,7 @@ void Hub::Take(std::int64_t now_us) {
       handshake_.Refuse(now_us, from, number, datagram.size(), finder_.Refusal(), false);
     } else {
       ++strangers_;
+      if (SessionOfDatagram(datagram) != 0) handshake_.RefuseSession(now_us, from, datagram);
     }
   }
   udp_.Flush();

@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/codec/codec.h"
+#include "common/net/datagram.h"
 #include "common/net/loose_datagram.h"
 
 namespace seam {
@@ -161,6 +162,10 @@ void Handshake::Refuse(std::int64_t now_us, const Address& to, std::uint64_t num
   const Bytes datagram = LooseDatagram(number, Encode(bye));
   const std::size_t earned = proved ? sent_bytes : sent_bytes / 3;
   if (credit_.Draw(to, earned, datagram.size())) Send(to, datagram);
+}
+
+void Handshake::RefuseSession(std::int64_t now_us, const Address& to, ByteView datagram) {
+  Refuse(now_us, to, SessionOfDatagram(datagram), datagram.size, "no such session", false);
 }
 
 void Handshake::Send(const Address& to, const Bytes& datagram) {

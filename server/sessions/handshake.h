@@ -64,6 +64,10 @@ class Handshake {
   void Refuse(std::int64_t now_us, const Address& to, std::uint64_t number, std::size_t sent_bytes,
               const std::string& reason, bool proved);
 
+  /// Tells the sender of a sealed datagram that its session is not known here, as after a restart,
+  /// likewise.
+  void RefuseSession(std::int64_t now_us, const Address& to, ByteView datagram);
+
   /// Wipes keys that no join can need any more. To be called at least every second.
   void Forget(std::int64_t now_us) { slot_keys_.Forget(AddressToken::SlotAt(now_us)); }
 

@@ -52,6 +52,7 @@ SessionTable::Verdict SessionTable::Receive(std::int64_t now_us, const Address& 
       return OnSession(now_us, *found->second, from, datagram, deliver);
     }
     traffic_.AddLoose(datagram, false);
+    handshake_.RefuseSession(now_us, from, datagram);
     return Verdict::kNoRight;
   }
   traffic_.AddLoose(datagram, false);

@@ -189,6 +189,42 @@ TEST_F(ClientJoin, ARefusalThatComesAfterTheWelcomeIsTooLate) {
   EXPECT_EQ(client_.stats().dropped_malformed, 0);
 }
 
+TEST_F(ClientJoin, AServerThatLostTheSessionIsJoinedAnewAtOnceButOnlyIfItIsSilent) {
+  Next(0);
+  Answer(Encode(ChallengeOf(1)));
+  const AnyMessage any = Next(10000);
+  Link server(SecretsOf(std::get<Join>(any)).keys());
+  Welcome welcome;
+  welcome.peer = 1;
+  welcome.room_bytes = 1000;
+  server.SendReliable(Encode(welcome));
+  server.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
+  const std::uint64_t first = session_;
+  const auto tick = [&] {
+    now_us_ += 10000;
+    client_.Tick(now_us_, 0);
+  };
+  const auto say_unknown = [&](std::uint64_t session) {
+    server_->Send({2, 1}, LooseDatagram(session, Refusal("no such session")));
+    tick();
+  };
+  tick();
+  for (int n = 0; n < 10; ++n) say_unknown(server.session());
+  EXPECT_EQ(client_.peer(), 1) << "somebody on the path says so of a server that is there";
+  for (int n = 0; n < 100; ++n) tick();
+  say_unknown(server.session() + 1);
+  EXPECT_EQ(client_.peer(), 1) << "another session";
+  say_unknown(server.session());
+  EXPECT_EQ(client_.peer(), -1);
+  Address from;
+  Bytes datagram;
+  while (server_->Receive(&from, &datagram)) {
+    if (LooseNumber(datagram) != 0) session_ = LooseNumber(datagram);
+  }
+  EXPECT_NE(session_, first);
+  EXPECT_TRUE(client_.fatal().empty() && !client_.closed());
+}
+
 TEST_F(ClientJoin, ARoomThatDoesNotUnpackIsRefusedInOneLine) {
   const Bytes room = Encode(Room());
   Bytes damaged = Compress(room), longer = Compress(room);

@@ -207,6 +207,7 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
       "back after %.1f s\n",
       worst_back_s, static_cast<long long>(most_lost), worst_jump_m, worst_pause_s);
   EXPECT_LT(worst_jump_m, 0.05);
+  EXPECT_LT(worst_pause_s, 3) << "a server that does not know a session says so";
   server->Signal(SIGTERM);
   EXPECT_TRUE(server->Wait(kPatience));
   EXPECT_EQ(server->status(), 0) << server->Story();

@@ -34,9 +34,15 @@ struct Pusher {
 void KeepApart(const World& world, double oldest,
                const std::function<BodyState(int body, double moment)>& pose_at,
                std::vector<ShownMechanism>* shown) {
+  std::vector<float> radii(static_cast<std::size_t>(world.body_count()), -1);  // scratch, by body
+  const auto radius_of = [&](int body) {
+    float& radius = radii[static_cast<std::size_t>(body)];
+    if (radius < 0) radius = Radius(world, body);
+    return radius;
+  };
   // Returns the first moment from `moment`, at most `latest`, at which the body is clear of `a`.
   const auto clear_from = [&](const Pusher& a, int b, double moment, double latest) {
-    const float reach = a.radius + Radius(world, b);
+    const float reach = a.radius + radius_of(b);
     std::optional<float> now;
     for (; moment < latest; moment = std::min(moment + kMomentStep, latest)) {
       const BodyState pose = pose_at(b, moment);
@@ -57,7 +63,7 @@ void KeepApart(const World& world, double oldest,
     const ShownMechanism& from = (*shown)[pushing.front()];
     pushers.clear();
     for (const int body : *from.bodies) {
-      pushers.push_back({body, pose_at(body, from.moment), Radius(world, body)});
+      pushers.push_back({body, pose_at(body, from.moment), radius_of(body)});
     }
     for (std::size_t i = 0; i < shown->size(); ++i) {
       ShownMechanism& other = (*shown)[i];
