@@ -155,6 +155,18 @@ $(OUT)/.flags:
 	@mkdir -p $(@D)
 	@printf '%s\n' '$(subst ','\'',$(FLAGS))' > $@
 
+# Tables of seam-lab name the commit that they were computed with.
+COMMIT := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
+BUILD_ID := $(OUT)/unity/tests/lab/experiment.o $(OUT)/tests/lab/experiment/build_id.o
+ifneq ($(file <$(OUT)/.commit),$(COMMIT))
+$(OUT)/.commit: force
+endif
+$(OUT)/.commit:
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(COMMIT)' > $@
+$(BUILD_ID): $(OUT)/.commit
+$(BUILD_ID): private ALL_CXXFLAGS += -DSEAM_COMMIT='"$(COMMIT)"'
+
 # Which sources there are: without it a deleted one would stay in what is linked.
 ifneq ($(file <$(OUT)/.sources),$(SOURCES))
 $(OUT)/.sources: force
@@ -399,6 +411,8 @@ install-built:                       ## the same, of what is built: builds nothi
 	install -m 644 scenes/*.toml '$(DEST)/share/seam2d/scenes'
 	install -m 644 scenes/hard/*.toml '$(DEST)/share/seam2d/scenes/hard'
 	install -m 644 scenes/exact/*.toml '$(DEST)/share/seam2d/scenes/exact'
+	install -d '$(DEST)/share/seam2d/cluster'
+	install -m 755 tests/lab/cluster/seam-sweep-parallel tests/lab/cluster/seam-sweep.sbatch '$(DEST)/share/seam2d/cluster'
 	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
 	strip --strip-debug '$(DEST)/lib/libseam.a'
 	install -d '$(DEST)/share/man/man1' '$(DEST)/share/bash-completion/completions'

@@ -56,6 +56,30 @@ struct SweepCommand {
 /// or a signal came.
 int RunSweep(const SweepCommand& command);
 
+struct MergeCommand {
+  std::string file;                 ///< sweep file of the whole table
+  std::vector<std::string> tables;  ///< of its shards
+  std::string whole;                ///< CSV file to write
+  bool partial = false;             ///< write it although rows are missing
+  bool force = false;               ///< overwrite it
+};
+
+/// Writes the table that one process would have written. 1: rows are missing, and nothing is
+/// written unless `partial`. Throws OperatorError when a table is of another sweep or build, or two
+/// tables disagree.
+int RunMerge(const MergeCommand& command);
+
+struct VerifyCommand {
+  std::string file, table;   ///< a sweep file, and its table
+  double share_percent = 1;  ///< of the rows to run again; at least one row
+  std::int64_t seed = 1;     ///< draws them
+  int jobs = 0;              ///< runs at a time; 0: as many as there are cores
+  bool quiet = false;        ///< no progress line
+};
+
+/// Runs drawn rows again and compares all but times. 1: some differ, or a signal came.
+int RunVerify(const VerifyCommand& command);
+
 struct PhysicsCommand {
   std::vector<std::string> scenes;  ///< files or names: cases of the user's own
   double seconds = 0;               ///< of those; 0: each scene's duration, 60 at most

@@ -7,6 +7,7 @@
 #include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/sync/method.h"
+#include "tests/lab/experiment/build_id.h"
 #include "tests/lab/scene_settings.h"
 #include "tests/lab/sweep_file.h"
 
@@ -51,6 +52,8 @@ Values GridKey(const GridPoint& point) {
   const SessionSettings& s = point.settings;
   const std::string& text = point.scene->text;
   return {{"version", kLabVersion},
+          {"commit", BuiltCommit()},
+          {"numerics", Numerics()},
           {"scene", s.scene},
           {"scene_hash", fmt::format("{:016x}", Fnv1a(text.data(), text.size()))},
           {"set", JoinSettings(s.set)},

@@ -77,7 +77,31 @@ Command* DefineSweep(Command& app, SweepCommand& c) {
   sweep->Option("FILE", c.file, "what to vary (TOML; docs/lab.md)").Required();
   AddTableFlag(*sweep, c.output).Required();
   AddRunFlags(*sweep, c.output);
+  sweep->Option("--shard", c.output.shard, "I/N: run one of N shards, into a table in folder -o");
+  sweep->Option("--have", c.output.have, "leave out rows that tables like PATTERN have");
   return sweep;
+}
+
+Command* DefineMerge(Command& app, MergeCommand& c) {
+  Command* merge = &app.Add("merge", "make one table of a sweep's shards");
+  merge->Option("FILE", c.file, "the sweep file").Required();
+  merge->Option("TABLES", c.tables, "the shards' tables").Required();
+  merge->Option("-o,--output", c.whole, "CSV table to write").Required();
+  merge->Switch("--partial", c.partial, "write it although rows are missing");
+  merge->Switch("--force", c.force, "overwrite it");
+  return merge;
+}
+
+Command* DefineVerify(Command& app, VerifyCommand& c) {
+  Command* verify = &app.Add("verify", "run drawn rows of a sweep's table again, and compare");
+  verify->Option("FILE", c.file, "the sweep file").Required();
+  verify->Option("TABLE", c.table, "its table").Required();
+  verify->Option("--share", c.share_percent, "rows to run again, % (default: 1)")
+      .Range(0.0001, 100.0);
+  verify->Option("--seed", c.seed, "draws the rows (default: 1)");
+  verify->Option("--jobs", c.jobs, "runs at a time (default: one a core)").Range(1, 256);
+  verify->Switch("--quiet", c.quiet, "no progress line");
+  return verify;
 }
 
 Command* DefinePhysics(Command& app, PhysicsCommand& c) {
@@ -161,6 +185,8 @@ int main(int argc, char** argv) {
   CheckCommand check;
   DivergenceCommand divergence;
   SweepCommand sweep;
+  MergeCommand merge;
+  VerifyCommand verify;
   PhysicsCommand physics;
   TuneCommand tune;
   TuneGaitCommand gait;
@@ -177,6 +203,8 @@ int main(int argc, char** argv) {
                 {DefineCheck(app, check), [&] { return RunCheck(check); }},
                 {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
                 {DefineSweep(app, sweep), [&] { return RunSweep(sweep); }},
+                {DefineMerge(app, merge), [&] { return RunMerge(merge); }},
+                {DefineVerify(app, verify), [&] { return RunVerify(verify); }},
                 {DefinePhysics(app, physics), [&] { return RunPhysics(physics); }},
                 {DefineTune(app, tune, gait),
                  [&] { return gait.objective.empty() ? RunTune(tune) : RunTuneGait(gait); }},

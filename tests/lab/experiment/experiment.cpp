@@ -60,7 +60,7 @@ RowsDone MakeRows(const Experiment& experiment, const TableFlags& flags, ResultT
           progress.End();
           std::fprintf(stderr, "seam-lab: failed: %s: %s\n", key.c_str(), result.text.c_str());
         }
-        progress(static_cast<std::int64_t>(i) + 1);
+        progress(static_cast<std::int64_t>(done.added + done.failed));
       },
       [] { return g_stop != 0; });
   return done;

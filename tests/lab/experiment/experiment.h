@@ -31,6 +31,8 @@ struct TableFlags {
   int jobs = 0;        ///< runs at a time; 0: as many as there are cores
   bool force = false;  ///< begin the table anew
   bool quiet = false;  ///< no progress line
+  std::string shard;   ///< "I/N": one shard of the rows (shard.h), and `table` is a folder; "": all
+  std::string have;    ///< pattern of tables whose rows are left out; "": none
 };
 
 /// Adds -o, which says where the table goes.

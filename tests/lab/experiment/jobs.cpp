@@ -90,11 +90,12 @@ struct Running {
       Finish(job);
     }
   }
-  /// Waits at most half a second, hears what there is, and moves what has ended to `results`.
-  void Hear(std::map<std::size_t, JobResult>* results) {
+  /// Waits at most half a second, hears what there is, and returns what has ended, by index.
+  std::map<std::size_t, JobResult> Hear() {
+    std::map<std::size_t, JobResult> results;
     std::vector<pollfd> polls;
     for (const Job& job : jobs) polls.push_back({job.fd, POLLIN, 0});
-    if (poll(polls.data(), polls.size(), 500) <= 0) return;
+    if (poll(polls.data(), polls.size(), 500) <= 0) return results;
     for (std::size_t i = jobs.size(); i-- > 0;) {
       if (polls[i].revents == 0) continue;
       char buffer[4096];
@@ -103,8 +104,9 @@ struct Running {
       if (bytes > 0 || (bytes < 0 && errno == EINTR)) continue;
       const Job job = jobs[i];
       jobs.erase(jobs.begin() + static_cast<std::ptrdiff_t>(i));
-      (*results)[job.index] = Finish(job);
+      results[job.index] = Finish(job);
     }
+    return results;
   }
 };
 
@@ -114,19 +116,16 @@ void RunJobs(std::size_t count, int jobs, const std::function<std::string(std::s
              const std::function<void(std::size_t, const JobResult&)>& done,
              const std::function<bool()>& stop) {
   Running running;
-  std::map<std::size_t, JobResult> results;  // that wait for an earlier one
   std::size_t begun = 0, handed = 0;
   while (handed < count && !stop()) {
     while (begun < count && running.jobs.size() < static_cast<std::size_t>(jobs)) {
       running.jobs.push_back(Start(begun++, work));
     }
-    running.Hear(&results);
-    while (!results.empty() && results.begin()->first == handed) {
-      done(handed++, results.begin()->second);
-      results.erase(results.begin());
+    for (const auto& [index, result] : running.Hear()) {
+      ++handed;
+      done(index, result);
     }
   }
-  for (const auto& [index, result] : results) done(index, result);  // stopped: keep what there is
 }
 
 }  // namespace seam

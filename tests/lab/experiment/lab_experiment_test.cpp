@@ -54,16 +54,42 @@ TEST(ResultTable, ATruncatedTableIsCompletedToTheSameFile) {
   EXPECT_EQ(files.Names(), std::vector<std::string>{"t.csv"});
 }
 
-TEST(ResultTable, RowsThatCameLaterStayBehindAtEveryMoment) {
+TEST(ResultTable, ARowIsThereAtOnceAndInItsPlaceWhenAllAre) {
   const LabWorkspace files;
-  files.Write("t.csv", std::string(kHeader) + "\n" + LineOf(1) + "\n" + LineOf(3) + "\n");
+  const std::string header = std::string(kHeader) + "\n";
+  files.Write("t.csv", header + LineOf(3) + "\n" + LineOf(1) + "\n");
+  {
+    ResultTable table(files / "t.csv", "name,size", "value", kKeys, false);
+    EXPECT_EQ(table.count(), 2u);
+    table.Add(0, LineOf(0));
+    EXPECT_EQ(files.Read("t.csv"), header + LineOf(1) + "\n" + LineOf(3) + "\n" + LineOf(0) + "\n");
+  }
   ResultTable table(files / "t.csv", "name,size", "value", kKeys, false);
-  EXPECT_EQ(table.count(), 2u);
-  table.Add(0, LineOf(0));
-  EXPECT_EQ(files.Read("t.csv"),
-            std::string(kHeader) + "\n" + LineOf(0) + "\n" + LineOf(1) + "\n" + LineOf(3) + "\n");
+  EXPECT_EQ(files.Read("t.csv"), header + LineOf(0) + "\n" + LineOf(1) + "\n" + LineOf(3) + "\n");
   table.Add(2, LineOf(2));
   EXPECT_EQ(files.Read("t.csv"), WholeTable());
+}
+
+TEST(ResultTable, HasOneWriterAtATime) {
+  const LabWorkspace files;
+  const auto open = [&] { ResultTable(files / "t.csv", "name,size", "value", kKeys, false); };
+  {
+    ResultTable table(files / "t.csv", "name,size", "value", kKeys, false);
+    std::string why;
+    try {
+      open();
+    } catch (const OperatorError& error) {
+      why = error.what();
+    }
+    EXPECT_NE(why.find("process " + std::to_string(getpid()) + " writes it"), std::string::npos)
+        << why;
+    table.Add(0, LineOf(0));
+  }
+  open();
+  EXPECT_EQ(files.Names(), std::vector<std::string>{"t.csv"}) << "the lock goes with its holder";
+  files.Write("t.csv.lock", "a host, process 1");  // killed: nobody holds it
+  open();
+  EXPECT_EQ(files.Names(), std::vector<std::string>{"t.csv"});
 }
 
 TEST(ResultTable, KeepsTheFileOfAnotherTable) {
@@ -88,29 +114,31 @@ TEST(ResultTable, RefusesTwoRowsOfOneKey) {
   EXPECT_TRUE(files.Names().empty());
 }
 
-TEST(Jobs, ResultsComeInOrderDespiteSlowJobs) {
+TEST(Jobs, ResultsComeAsJobsEnd) {
   for (const int jobs : {1, 2, 5}) {
-    std::vector<std::string> results;
+    std::vector<std::string> results(9);
+    std::vector<std::size_t> order;
     RunJobs(
         9, jobs,
         [](std::size_t i) {
-          usleep(i % 3 == 0 ? 30000 : 1000);
+          usleep(i % 3 == 0 ? 200000 : 1000);
           return std::string(i == 4 ? 200000 : 1, static_cast<char>('a' + i));  // beyond a pipe
         },
         [&](std::size_t i, const JobResult& result) {
-          EXPECT_EQ(i, results.size());
           EXPECT_TRUE(result.good);
-          results.push_back(result.text);
+          results[i] = result.text;
+          order.push_back(i);
         },
         [] { return false; });
-    ASSERT_EQ(results.size(), 9u);
+    ASSERT_EQ(order.size(), 9u);
+    EXPECT_EQ(std::is_sorted(order.begin(), order.end()), jobs == 1) << "slow ones hold up nobody";
     EXPECT_EQ(results[4], std::string(200000, 'e'));
     EXPECT_EQ(results[8], "i");
   }
 }
 
 TEST(Jobs, AnErrorOrACrashOfOneHarmsNoOther) {
-  std::vector<std::string> results;
+  std::vector<std::string> results(4);
   RunJobs(
       4, 2,
       [](std::size_t i) -> std::string {
@@ -118,8 +146,8 @@ TEST(Jobs, AnErrorOrACrashOfOneHarmsNoOther) {
         if (i == 2) raise(SIGKILL);
         return "fine";
       },
-      [&](std::size_t, const JobResult& result) {
-        results.push_back((result.good ? "+" : "-") + result.text);
+      [&](std::size_t i, const JobResult& result) {
+        results[i] = (result.good ? "+" : "-") + result.text;
       },
       [] { return false; });
   EXPECT_EQ(results,
@@ -179,6 +207,7 @@ TEST(LabExperiment, ARunThatFailsLeavesNoRowUnlessItIsRescued) {
   TableFlags flags;
   flags.table = files / "t.csv";
   flags.quiet = true;
+  flags.jobs = 1;
   Experiment experiment = Squares();
   EXPECT_EQ(CompleteTable(experiment, flags), 1);
   EXPECT_EQ(files.Read("t.csv"), "number,square\n1,1\n3,9\n");

@@ -37,8 +37,10 @@ Fields FieldsOr(const std::string& line) {
 ResultTable::ResultTable(const std::string& path, const std::string& key_columns,
                          const std::string& value_columns, const std::vector<std::string>& keys,
                          bool force)
-    : path_(path), header_(key_columns + ',' + value_columns), lines_(keys.size()) {
-  RequirePlainFile(path);
+    : path_(path),
+      header_(key_columns + ',' + value_columns),
+      lock_((RequirePlainFile(path), path)),
+      lines_(keys.size()) {
   const bool there = access(path.c_str(), F_OK) == 0;
   Load(there && !force ? ReadPlainFile(path, kTableBytesMax) : "", CsvFields(key_columns).size(),
        keys);
@@ -83,6 +85,7 @@ void ResultTable::Load(const std::string& text, std::size_t key_columns,
 void ResultTable::Rewrite() {
   if (file_ != nullptr) std::fclose(file_);
   file_ = nullptr;
+  ordered_ = true;
   const std::string draft = path_ + ".part";
   std::string text = header_ + '\n';
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -108,14 +111,12 @@ void ResultTable::Add(std::size_t row, const std::string& line) {
   SEAM_ASSERT(!Has(row));
   lines_[row] = line;
   ++count_;
-  if (row < end_) {  // an older sweep had later rows
-    Rewrite();
-    return;
-  }
+  ordered_ = ordered_ && row >= end_;
   end_ = row + 1;
   const std::string text = line + '\n';
   const bool written = std::fwrite(text.data(), 1, text.size(), file_) == text.size();
   if (std::fflush(file_) != 0 || !written) CannotWrite(path_);
+  if (count_ == lines_.size() && !ordered_) Rewrite();
 }
 
 }  // namespace seam

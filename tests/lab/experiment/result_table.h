@@ -1,10 +1,12 @@
 #pragma once
-/// The CSV file of an experiment. It holds complete lines in the order of the rows at any moment,
-/// whenever the program is killed.
+/// The CSV file of an experiment. It holds complete lines at any moment, whenever the program is
+/// killed: in the order in which they came, and of the rows once it is loaded again or has all.
 
 #include <cstdio>
 #include <string>
 #include <vector>
+
+#include "tests/lab/experiment/table_lock.h"
 
 namespace seam {
 
@@ -13,7 +15,8 @@ class ResultTable {
   /// Takes over the rows that an earlier run left in `path`; drops a last line without its end.
   /// `key_columns` and `value_columns` are names with commas between, `keys` the texts of all rows'
   /// key columns as CSV. Throws OperatorError when two keys are equal, when the file has other
-  /// columns or rows, unless `force` (then it begins anew), or when it cannot be written.
+  /// columns or rows, unless `force` (then it begins anew), when it cannot be written, or when
+  /// another process writes it.
   ResultTable(const std::string& path, const std::string& key_columns,
               const std::string& value_columns, const std::vector<std::string>& keys, bool force);
   ~ResultTable();
@@ -33,9 +36,11 @@ class ResultTable {
   void Rewrite();
 
   std::string path_, header_;
+  TableLock lock_;
   std::vector<std::string> lines_;  // by row; empty: not there yet
   std::size_t count_ = 0;
   std::size_t end_ = 0;        // one behind the last row in the file
+  bool ordered_ = true;        // the file has its rows in their order
   std::FILE* file_ = nullptr;  // open to append
 };
 

@@ -39,8 +39,9 @@ const std::array<SweepAxis, 13>& Axes() {
 
 /// Columns between seed and the first measure belong to the run as well.
 bool IsMeasureOrIdentity(const std::string& column) {
-  static const std::set<std::string> not_keys = {"version", "scene",     "scene_hash", "mode",
-                                                 "impair",  "reconcile", "drive",      "seed"};
+  static const std::set<std::string> not_keys = {"version",    "commit", "numerics", "scene",
+                                                 "scene_hash", "mode",   "impair",   "reconcile",
+                                                 "drive",      "seed"};
   return not_keys.count(column) > 0;
 }
 
