@@ -102,15 +102,15 @@ TEST(HttpPage, OtherMethodsOtherPagesAndNonsenseAreRefused) {
 TEST(HttpPage, CutsOffEndlessRequestsAndAnswersTheOthers) {
   Served served("page");
   Peer endless(served.port());
-  endless.Say("GET /" + std::string(2 * HttpPage::kRequestBytesMax, 'a'));
+  endless.Say("GET /" + std::string(2 * HttpServer::kRequestBytesMax, 'a'));
   EXPECT_EQ(endless.Hear(), "");
   // As many silent connections as allowed; the next one is answered when their time is over.
   std::vector<std::unique_ptr<Peer>> silent;
-  for (std::size_t i = 0; i < HttpPage::kConnectionsMax; ++i) {
+  for (std::size_t i = 0; i < HttpServer::kConnectionsMax; ++i) {
     silent.push_back(std::make_unique<Peer>(served.port()));
   }
   std::string body;
-  const Status status = FetchPage(served.address(), 3 * HttpPage::kConnectionUs, &body);
+  const Status status = FetchPage(served.address(), 3 * HttpServer::kConnectionUs, &body);
   EXPECT_TRUE(status.ok()) << status.why();
   EXPECT_EQ(body, "page");
 }
