@@ -260,6 +260,7 @@ void Client::Build(std::int64_t now_us) {
       std::vector<std::string> names;
       for (const Player& p : scene_->players) names.push_back(p.name);
       if (std::count(names.begin(), names.end(), config_.script_of) == 0) {
+        names.insert(names.end(), {"none", "bot", "keyboard"});  // of --drive, too
         throw OperatorError("it has no player \"" + config_.script_of + "\" to script" +
                             DidYouMean(config_.script_of, names));
       }

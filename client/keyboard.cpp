@@ -39,19 +39,34 @@ void Keyboard::Press(char key, std::int64_t now_us) {
     key = key == 'A' ? 'w' : key == 'B' ? 's' : key == 'C' ? 'd' : key == 'D' ? 'a' : '\0';
   }
   escape_ = 0;
-  if (key == 'd') right_us_ = now_us + kHoldUs;
-  if (key == 'a') left_us_ = now_us + kHoldUs;
-  if (key == 'w') up_us_ = now_us + kHoldUs;
-  if (key == 's') down_us_ = now_us + kHoldUs;
+  const auto hold = [now_us](std::int64_t* key_us, std::int64_t* opposite_us) {
+    *key_us = now_us + kHoldUs;
+    *opposite_us = 0;
+  };
+  if (key == 'd') hold(&right_us_, &left_us_);
+  if (key == 'a') hold(&left_us_, &right_us_);
+  if (key == 'w') hold(&up_us_, &down_us_);
+  if (key == 's') hold(&down_us_, &up_us_);
   if (key == ' ') button_us_[0] = now_us + kHoldUs;
   if (key >= '0' && key <= '9') button_us_[key - '0'] = now_us + kHoldUs;
   if (key == 'q' || key == '\003') quit_ = true;
 }
 
-Input Keyboard::Poll(std::int64_t now_us) {
+void Keyboard::HoldOn(std::int64_t now_us) {
+  for (std::int64_t* key_us : {&right_us_, &left_us_, &up_us_, &down_us_}) {
+    if (*key_us > 0) *key_us = now_us + kHoldUs;
+  }
+  for (std::int64_t& key_us : button_us_) {
+    if (key_us > 0) key_us = now_us + kHoldUs;
+  }
+}
+
+Input Keyboard::Poll(std::int64_t now_us, bool running) {
   char keys[64];
   const ssize_t count = read(0, keys, sizeof keys);
   for (ssize_t i = 0; i < count; ++i) Press(keys[i], now_us);
+  if (!running || waited_) HoldOn(now_us);
+  waited_ = !running;
   pollfd terminal{0, 0, 0};  // reports a hang-up unasked; read() alone returns 0 for that, too
   if (poll(&terminal, 1, 0) > 0) quit_ = true;
   Input input;

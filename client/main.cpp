@@ -11,12 +11,15 @@
 
 #include "client/client.h"
 #include "client/cpu_throttle.h"
+#include "client/input_lines.h"
 #include "client/key_file.h"
 #include "client/keyboard.h"
+#include "client/progress_text.h"
 #include "client/terminal_view.h"
 #include "common/base/command_line.h"
 #include "common/base/hex.h"
 #include "common/base/names.h"
+#include "common/base/nearest.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
@@ -36,6 +39,8 @@ struct Flags {
   bool watch = false;
   bool show = false;
   std::string drive = "none";
+  std::string inputs;  // "": none
+  std::string hint;
   std::string impair = "perfect";
   std::int64_t seed = 1;
   std::string smooth = "on";
@@ -60,6 +65,10 @@ void Define(Command& app, Flags& f) {
   app.Switch("--watch", f.watch, "only look on, as a guest or under --name");
   app.Switch("--show", f.show, "draw the world in this terminal (--drive keyboard does that too)");
   app.Option("--drive", f.drive, "none | bot | keyboard | name of the player whose script to play");
+  app.Option("--inputs", f.inputs,
+             "drive by the lines DRIVE LIFT BUTTONS of this file or pipe (-: standard input), as "
+             "seam-view --drive prints them; the keyboard may drive too");
+  app.Option("--hint", f.hint, "show this text beside the keys, in the terminal's view");
   app.Option("--impair", f.impair, "impair this client's network, both directions");
   app.Option("--seed", f.seed, "of the impairment").Range(0, 1000000000);
   app.Option("--smooth", f.smooth,
@@ -113,6 +122,25 @@ void TakeToken(const std::string& path, ClientConfig* config) {
   config->numbers_name = false;
 }
 
+/// Refuses a misspelt --drive before anything starts, as far as no player can have that name: short
+/// words may well be players' names, which only the server knows.
+void CheckDrive(const Flags& f) {
+  if (f.watch && (f.drive != "none" || !f.inputs.empty())) {
+    throw OperatorError("--watch drives nothing: not with --drive or --inputs");
+  }
+  if (!f.inputs.empty() && f.drive != "none" && f.drive != "keyboard") {
+    throw OperatorError("--inputs goes with --drive keyboard or alone");
+  }
+  if (f.inputs == "-" && f.drive == "keyboard") {
+    throw OperatorError("--inputs -: standard input is the keyboard");
+  }
+  if (f.drive != "keyboard" && f.drive != f.name && !NearestName(f.drive, {"keyboard"}).empty()) {
+    throw OperatorError("--drive " + f.drive + ": there is none, bot, keyboard or a player's name" +
+                        DidYouMean(f.drive, {"keyboard"}));
+  }
+  CheckName("--drive", f.drive);
+}
+
 ClientConfig Configure(const Flags& f) {
   if (!f.token.empty() && !(f.name.empty() && f.room.empty())) {
     throw OperatorError("--token names player and room: not with --name or --room");
@@ -120,7 +148,7 @@ ClientConfig Configure(const Flags& f) {
   if (f.token.empty() && f.name.empty() && !f.watch) {
     throw OperatorError("who are you? --name PLAYER, one of the scene's; or --watch");
   }
-  if (f.watch && f.drive != "none") throw OperatorError("--watch drives nothing: not with --drive");
+  CheckDrive(f);
   if (!f.name.empty()) CheckName("--name", f.name);
   if (!f.room.empty()) CheckName("--room", f.room);
   if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
@@ -146,7 +174,9 @@ ClientConfig Configure(const Flags& f) {
   if (f.show_age >= 0) config.show_age_ticks = f.show_age;
   config.publish = ParsePublish(f.publish);
   config.shows = f.show || f.drive == "keyboard";
-  if (f.drive == "bot") {
+  if (!f.inputs.empty()) {
+    config.drive = Drive::kLive;
+  } else if (f.drive == "bot") {
     config.drive = Drive::kBot;
   } else if (f.drive == "keyboard") {
     config.drive = Drive::kLive;
@@ -163,34 +193,13 @@ const char* const kKeys = "keys: arrows or WASD drive and lift, space and 0-9 pr
 /// Time for which a line of the server stays on the screen, us.
 constexpr std::int64_t kNoticeUs = 4000000;
 
-/// Formats a number: "10", "0.5".
-std::string Seconds(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", seconds);
-  return text;
-}
-
-/// Returns "ann: 12 s, peer 1, round trip 100 ms, loss 1.0 %, 12 corrections, 0 rejoin(s)".
-std::string Progress(const Client& client, double elapsed_s) {
-  char line[160];
-  std::snprintf(
-      line, sizeof line,
-      "%s: %.0f s, peer %d, round trip %.0f ms, loss %.1f %%, %lld corrections, %lld rejoin(s)",
-      client.name().c_str(), elapsed_s, client.peer(), std::max(0, client.stats().rtt_us) / 1000.0,
-      client.stats().loss_ppm / 10000.0, static_cast<long long>(client.corrections()),
-      static_cast<long long>(client.rejoins()));
-  if (client.speed_ppm() == kFullSpeedPpm) return line;
-  return line + (", the room runs at " + std::to_string(client.speed_ppm() / 10000) +
-                 " % of its speed: its server is overloaded");
-}
-
-/// Returns "ann: 3 s, the scene comes: 45 % of 581 kB".
-std::string Coming(const Client& client, double elapsed_s) {
-  char line[120];
-  std::snprintf(line, sizeof line, "%s: %.0f s, the scene comes: %.0f %% of %.0f kB",
-                client.name().c_str(), elapsed_s, 100 * client.room_share(),
-                static_cast<double>(client.room_size()) / 1000);
-  return line;
+/// Adds the inputs of two sources: axes of the first that moves them, buttons of both.
+Input Both(const Input& a, const Input& b) {
+  Input both = a;
+  if (both.drive == 0) both.drive = b.drive;
+  if (both.lift == 0) both.lift = b.lift;
+  both.buttons = static_cast<std::int16_t>(a.buttons | b.buttons);
+  return both;
 }
 
 int Play(const Flags& f) {
@@ -203,7 +212,9 @@ int Play(const Flags& f) {
   if (key_file != nullptr) config.key = key_file->key();
   const ImpairProfile profile = FindProfile(f.impair);
   std::unique_ptr<Keyboard> keyboard;
-  if (config.drive == Drive::kLive) keyboard = std::make_unique<Keyboard>();
+  if (f.drive == "keyboard") keyboard = std::make_unique<Keyboard>();
+  std::unique_ptr<InputLines> lines;
+  if (!f.inputs.empty()) lines = std::make_unique<InputLines>(f.inputs);
   std::unique_ptr<TerminalView> view;
   const bool shown = f.show || (keyboard != nullptr && isatty(1) != 0 && !f.quiet);
   if (shown) view = std::make_unique<TerminalView>();
@@ -213,18 +224,20 @@ int Play(const Flags& f) {
   Sink sink(f.lcm_url, f.record, f.force, f.room.empty() ? "main" : f.room);
   OsEntropy entropy;
   Client client(config, net, sink, entropy);
+  const std::string hint = f.hint.empty() ? "" : "; " + f.hint;
   StopOnSignals();
   const std::int64_t begin = SteadyClockUs();
   CpuThrottle throttle(f.throttle);
   ProgressLine line(f.quiet);
   TroubleReport recording("seam-client", "the game goes on");
-  std::string notice;
+  std::string notice, waiting;
   std::int64_t notice_until_us = 0;
   while (g_stop == 0 && !client.closed() && client.fatal().empty()) {
     const std::int64_t now = SteadyClockUs();
-    if (keyboard != nullptr) {
-      client.SetLiveInput(keyboard->Poll(now));
-      if (keyboard->quit()) break;
+    if (config.drive == Drive::kLive) {
+      const Input keys = keyboard != nullptr ? keyboard->Poll(now, client.running()) : Input();
+      client.SetLiveInput(lines != nullptr ? Both(keys, lines->Poll()) : keys);
+      if (keyboard != nullptr && keyboard->quit()) break;
     }
     client.Tick(now, static_cast<std::int64_t>(static_cast<double>(CpuUs()) * f.throttle));
     throttle.Slow();
@@ -234,7 +247,8 @@ int Play(const Flags& f) {
     const std::string told = client.TakeNotice();
     if (!told.empty()) {
       notice = told;
-      notice_until_us = now + kNoticeUs;
+      notice_until_us = client.running() ? now + kNoticeUs : 0;
+      waiting = told;
     }
     if (!told.empty() && view == nullptr) {
       line.End();
@@ -244,21 +258,19 @@ int Play(const Flags& f) {
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
       throw OperatorError((client.sessions() == 0 ? "no answer from " : "lost the server ") +
-                          ToString(config.server) + "; gave up after " + Seconds(f.join_s) +
+                          ToString(config.server) + "; gave up after " + SecondsText(f.join_s) +
                           " s (--join-timeout)");
     }
-    if (view != nullptr && client.running() && view->Due(now)) {
-      const std::string keys = keyboard != nullptr ? kKeys : "Ctrl-C stops";
-      view->Show(now, client, Progress(client, elapsed_s), now < notice_until_us ? notice : keys);
+    const std::string state = client.running() ? ProgressText(client, elapsed_s)
+                                               : WaitingText(client, waiting, elapsed_s);
+    if (view != nullptr && view->Due(now)) {
+      const std::string keys = (keyboard != nullptr ? kKeys : "Ctrl-C stops") + hint;
+      view->Show(now, client, state, now < notice_until_us ? notice : keys);
     }
-    if (!client.running() && client.room_size() > 0 && line.Due(now)) {
-      line.Show(now, Coming(client, elapsed_s) + "; Ctrl-C stops");
-    }
-    if (view == nullptr && client.running() && line.Due(now)) {
-      line.Show(now, Progress(client, elapsed_s) + "; Ctrl-C stops");
-    }
+    if (view == nullptr && line.Due(now)) line.Show(now, state + "; Ctrl-C stops");
     const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
-    udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);
+    const int other = keyboard != nullptr ? keyboard->fd() : lines != nullptr ? lines->fd() : -1;
+    udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), other);
   }
   line.End();
   view.reset();

@@ -10,12 +10,14 @@
 #include "common/base/check.h"
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
+#include "common/scene/planner/planner_rules.h"
+#include "common/sync/method.h"
 
 namespace seam {
 namespace {
 
 constexpr std::int64_t kFrameUs = 1000000 / 15;
-constexpr int kGroundColour = 250;
+constexpr int kGroundColour = 250, kGridColour = 240;
 constexpr float kBricksWithin = 30000;  // m; no brick is further away
 constexpr int kColumnsMax = 400, kRowsMax = 200;
 
@@ -122,6 +124,49 @@ void DrawBricks(const FeatherStore& bricks, const View2& camera, BrailleCanvas* 
   }
 }
 
+/// Draws a dot at each crossing of lines of 1, 2 or 5 times a power of ten metres, so that movement
+/// is seen against the background.
+void DrawGrid(const View2& camera, BrailleCanvas* canvas) {
+  constexpr float kLeastDots = 14;
+  const float least_m = kLeastDots / camera.dots_per_m;
+  const float decade = std::pow(10.0f, std::floor(std::log10(least_m)));
+  float step = 10 * decade;
+  for (const float factor : {5.0f, 2.0f, 1.0f}) {
+    if (factor * decade >= least_m) step = factor * decade;
+  }
+  const Vec2 half = Vec2(static_cast<float>(camera.width), static_cast<float>(camera.height)) /
+                    (2 * camera.dots_per_m);
+  const Vec2 first = ((camera.centre - half) / step).array().ceil();
+  const int columns = static_cast<int>(2 * half.x() / step) + 1;
+  const int rows = static_cast<int>(2 * half.y() / step) + 1;
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      const Vec2 at = camera((first + Vec2(static_cast<float>(i), static_cast<float>(j))) * step);
+      canvas->Dot(static_cast<int>(at.x()), static_cast<int>(at.y()), kGridColour);
+    }
+  }
+}
+
+/// Draws the players' regions, the seams, where they decide about authority; the buffer zones
+/// around them with fewer dots.
+void DrawBorders(const Client& client, const View2& camera, BrailleCanvas* canvas) {
+  const Scene& scene = client.replica()->world().scene();
+  const Policy& policy = PolicyOf(client.room());
+  if (!policy.PlansAuthority() || scene.planner->given) return;
+  for (std::size_t p = 0; p < scene.players.size(); ++p) {
+    const Player& player = scene.players[p];
+    if (!player.has_region) continue;
+    for (const bool zone : {false, true}) {
+      if (zone && !policy.PlansFollowers()) continue;
+      const Vec2 wider = Vec2(1, 1) * (zone ? scene.buffer_m : 0);
+      const Vec2 a = camera(player.region_min - wider), b = camera(player.region_max + wider);
+      const int colour = TerminalColour(static_cast<int>(p) + 1), every = zone ? 6 : 2;
+      for (const float x : {a.x(), b.x()}) canvas->Line({x, a.y()}, {x, b.y()}, colour, every);
+      for (const float y : {a.y(), b.y()}) canvas->Line({a.x(), y}, {b.x(), y}, colour, every);
+    }
+  }
+}
+
 }  // namespace
 
 BrailleCanvas::BrailleCanvas(int columns, int rows)
@@ -138,7 +183,7 @@ void BrailleCanvas::Dot(int x, int y, int colour) {
   cell.colour = static_cast<std::uint8_t>(colour);
 }
 
-void BrailleCanvas::Line(Vec2 from, Vec2 to, int colour) {
+void BrailleCanvas::Line(Vec2 from, Vec2 to, int colour, int every) {
   // Clip to the canvas first (Liang and Barsky): lines of the ground are kilometres long.
   const Vec2 way = to - from;
   float begin = 0, end = 1;
@@ -155,7 +200,7 @@ void BrailleCanvas::Line(Vec2 from, Vec2 to, int colour) {
   if (!(begin <= end)) return;
   const Vec2 a = from + begin * way, b = from + end * way;
   const int steps = static_cast<int>(std::ceil((b - a).cwiseAbs().maxCoeff())) + 1;
-  for (int i = 0; i <= steps; ++i) {
+  for (int i = 0; i <= steps; i += every) {
     const Vec2 p = a + (b - a) * (static_cast<float>(i) / static_cast<float>(steps));
     Dot(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())), colour);
   }
@@ -191,6 +236,8 @@ void DrawInTerminal(const Client& client, const FeatherStore* bricks, BrailleCan
   const World& world = client.replica()->world();
   const View view = client.replica()->MakeView();
   const View2 camera = Camera2(client, view, *canvas);
+  DrawGrid(camera, canvas);
+  DrawBorders(client, camera, canvas);
   if (bricks != nullptr) DrawBricks(*bricks, camera, canvas);
   for (const Part& part : world.scene().parts) {
     ShownPart shown;
@@ -205,6 +252,16 @@ void DrawInTerminal(const Client& client, const FeatherStore* bricks, BrailleCan
       canvas->Line(camera(a), camera(b), colour);
     }
   }
+}
+
+std::optional<float> OwnSpeed(const Client& client) {
+  const PartId vehicle = client.replica() != nullptr ? client.vehicle() : -1;
+  if (vehicle < 0) return std::nullopt;
+  const World& world = client.replica()->world();
+  BodyState state;
+  const auto read = [&world](int body) { return world.Read(body); };
+  if (!ReadPart(world, vehicle, read, &state)) return std::nullopt;
+  return state.velocity.norm();
 }
 
 namespace {
@@ -233,11 +290,13 @@ void TerminalView::Show(std::int64_t now_us, const Client& client, const std::st
   const bool known = ioctl(1, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 1;
   const int columns = known ? size.ws_col : 80;
   BrailleCanvas canvas(columns, known ? std::max(1, size.ws_row - 2) : 22);
-  const Scene& scene = client.replica()->world().scene();
-  if (bricks_ == nullptr && !scene.bricks.empty()) {
-    bricks_ = std::make_unique<FeatherStore>(scene.bricks);
+  if (client.replica() != nullptr) {
+    const Scene& scene = client.replica()->world().scene();
+    if (bricks_ == nullptr && !scene.bricks.empty()) {
+      bricks_ = std::make_unique<FeatherStore>(scene.bricks);
+    }
+    DrawInTerminal(client, bricks_.get(), &canvas);
   }
-  DrawInTerminal(client, bricks_.get(), &canvas);
   const std::string frame = "\033[H" + canvas.Text() + CutTo(status, columns) + "\033[K\r\n" +
                             CutTo(keys, columns) + "\033[K";
   std::fwrite(frame.data(), 1, frame.size(), stdout);

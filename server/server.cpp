@@ -6,6 +6,7 @@
 #include "common/sync/lease.h"
 #include "common/sync/method.h"
 #include "server/authority_source.h"
+#include "server/console.h"
 #include "server/room_state.h"
 #include "server/rules/rules.h"
 #include "server/server_commands.h"
@@ -15,6 +16,9 @@ namespace {
 
 /// Most ticks stepped in one call: a server that catches up answers its clients in between.
 constexpr int kStepsMax = 2;
+/// Time between two lines to those who wait for the room to start, us. Less would fall into the
+/// time in which clients that were started together join.
+constexpr std::int64_t kTellWaitingUs = 800000;
 /// Radius of the blast that lets hanging bricks fall, m.
 constexpr float kLetFallRadius = 0.5f;
 
@@ -146,11 +150,28 @@ void Server::TellRest(std::int64_t now_us) {
       0, [&](Session& session) { session.link.SetQuiet(quiet && session.rest_agrees); });
 }
 
+void Server::TellWaiting(std::int64_t now_us, int needed) {
+  if (waiting_told_us_ < 0) waiting_told_us_ = now_us;  // who joins at the same time needs no news
+  if (now_us - waiting_told_us_ < kTellWaitingUs) return;
+  waiting_told_us_ = now_us;
+  const bool all = static_cast<std::size_t>(needed) == missing().size();
+  Event event;
+  event.utime = now_us;
+  event.tick = replica_.tick();
+  event.text =
+      "waiting for " + (all ? "" : std::to_string(needed) + " more of ") + MissingPlayers(*this);
+  const Bytes message = Encode(event);
+  sessions_.ForEachReady(0, [&](Session& session) { sessions_.SendTo(session, message); });
+}
+
 void Server::StartIfReady(std::int64_t now_us) {
   if (started()) return;
   const std::vector<int>& peers = sessions_.PeerOfPlayer();
   const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
-  if (ready < config_.wait_players) return;
+  if (ready < config_.wait_players) {
+    if (ready > 0) TellWaiting(now_us, config_.wait_players - static_cast<int>(ready));
+    return;
+  }
   clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
   // Clients that are ready at the start have their mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);

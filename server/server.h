@@ -209,6 +209,8 @@ class Server {
   /// Sends the bodies that came to rest in the last step; tells the links if the room is quiet.
   void TellRest(std::int64_t now_us);
   void StartIfReady(std::int64_t now_us);
+  /// Tells those who are ready for whom the room waits.
+  void TellWaiting(std::int64_t now_us, int needed);
   void WatchClock(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
@@ -241,6 +243,7 @@ class Server {
   std::unique_ptr<EditLog> edits_;
   SeatBonds seat_bonds_;
   std::set<int> seats_freed_;                 // edits that free them are on their way
+  std::int64_t waiting_told_us_ = -1;         // or when the first was ready; -1: nobody is
   std::map<int, std::int64_t> seat_told_us_;  // by player: the last refusal that it was told
   BoundsWatch bounds_;
   StateFilter filter_;

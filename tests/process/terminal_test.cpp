@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "common/record/recording.h"
 #include "tests/support/program.h"
 
 namespace seam {
@@ -117,6 +118,47 @@ TEST_F(Terminals, DrivingByKeyboardShowsTheWorldAndItsKeys) {
   Program piped({"sh", "-c", "echo | " + command + "--drive keyboard"});
   ASSERT_TRUE(piped.Wait(kPatience));
   EXPECT_EQ(piped.status(), 2) << "a pipe has no keys: " << piped.Story();
+}
+
+TEST_F(Terminals, KeysPressedWhileOthersAreMissingCountWhenTheRoomStarts) {
+  const Workspace folder;
+  Start({"--wait", "2", "--record", folder / "session.lcm"});
+  PseudoTerminal terminal;
+  if (!terminal.good()) GTEST_SKIP() << "no pseudo terminals here";
+  std::string command;
+  for (const std::string& word : ClientWords("ann")) command += "'" + word + "' ";
+  Program ann({"script", "-qefc", command + "--drive keyboard", folder / "seen"}, "",
+              terminal.terminal());
+  ASSERT_TRUE(server_->WaitForErrors("ann is here", kPatience)) << server_->Story();
+  terminal.Type("d");
+  sleep(2);  // much longer than a key is held
+  EXPECT_NE(ann.output().find("waiting for bob"), std::string::npos) << "says who is missing";
+  EXPECT_NE(ann.output().find("\xe2\xa0"), std::string::npos) << "and draws the scene";
+  EXPECT_EQ(ann.output().find("round trip 0 ms"), std::string::npos);
+  Program bob(ClientWords("bob"));
+  ASSERT_TRUE(server_->WaitForErrors("the room starts", kPatience)) << server_->Story();
+  sleep(2);
+  terminal.Type("q");
+  ASSERT_TRUE(ann.Wait(kPatience)) << ann.Story();
+  server_->Signal(SIGINT);
+  ASSERT_TRUE(server_->Wait(kPatience));
+  int driven = 0;
+  for (const auto& [tick, inputs] : ReadRecording(folder / "session.lcm").inputs[0]) {
+    driven += static_cast<int>(std::count(inputs.drive.begin(), inputs.drive.end(), 127));
+  }
+  EXPECT_GT(driven, 4) << "a tenth of a second";
+}
+
+TEST(ClientFlags, AMisspeltDriveIsRefusedBeforeAnythingStarts) {
+  for (const char* drive : {"keybord", "Keyboard", "keyboards"}) {
+    Program client({BuiltProgram("seam-client"), "127.0.0.1:9", "--name", "ann", "--drive", drive,
+                    "--lcm-url", "none"});
+    ASSERT_TRUE(client.Wait(5)) << "it does not try to join";
+    EXPECT_EQ(client.status(), 2);
+    EXPECT_EQ(client.errors(), "seam-client: --drive " + std::string(drive) +
+                                   ": there is none, bot, keyboard or a player's name (did you "
+                                   "mean 'keyboard'?)\n");
+  }
 }
 
 }  // namespace terminal_test
