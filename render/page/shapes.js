@@ -63,7 +63,7 @@ function strokeBody(c, viewport, body, pose) {
 // is followed, palest where it is only displayed.
 function bodyFill(owner, role, heat) {
   if (heat !== null) return heatColour(heatOf(heat));
-  const share = role === 0 ? 0 : role === 1 ? 0.45 : 0.75;
+  const share = [0.75, 0.45, 0][role];  // remote, secondary, authority
   return mixColours(peerColour(owner), COLOURS.theme.panel, share);
 }
 
