@@ -1,8 +1,8 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds the mains of seam-measure, seam-export and seam-import too, client/swarm/
-# and client/top/ those of seam-swarm and seam-top); tests/ is one
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure, seam-export, seam-import and seam-view too, client/swarm/,
+# client/top/ and client/front/ those of seam-swarm, seam-top and seam); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
@@ -63,7 +63,7 @@ DEBS_lint := clang-tidy git
 
 # All .cpp below a folder.
 below = $(sort $(shell find $(1) -name '*.cpp'))
-MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp render/view_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 
 # The objects of sources. Two thirds of a build is parsing headers, so the sources of a folder are compiled together
@@ -94,7 +94,7 @@ TESTS := $(call obj,$(TEST_SOURCES))
 OBJECTS_ALONE := $(call alone,$(SOURCES))
 OBJECTS := $(OBJECTS_ALONE) $(UNITS:%=$(OUT)/unity/%.o)
 CODEC := $(filter $(OUT)/common/codec/% $(OUT)/unity/common/codec%,$(OBJECTS))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-token seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-token seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-view seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
@@ -237,6 +237,8 @@ $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-import: $(OUT)/render/import_main.o $(IMPORT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -ltinyxml2 -o $@
+$(OUT)/seam-view: $(OUT)/render/view_main.o $(RENDER) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.

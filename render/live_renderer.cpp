@@ -13,10 +13,7 @@
 namespace seam {
 namespace {
 
-constexpr double kBehind_s = 0.5;           ///< frames further behind the bus than this are skipped
-constexpr std::int64_t kAheadTicks = 3600;  ///< a view further ahead than this is a stray
-constexpr std::int64_t kAgoTicks = 600;     ///< as is a view this long ago
-constexpr int kStraysMax = 30;              ///< this many strays in a row are a new session
+constexpr double kBehind_s = 0.5;  ///< frames further behind the bus than this are skipped
 
 /// Removes data before a tick, which no frame will show any more.
 void Prune(Recording* recording, std::int64_t before_tick) {
@@ -45,13 +42,9 @@ LiveRenderer::LiveRenderer(const RenderOptions& options)
 }
 
 bool LiveRenderer::IsStray(std::int64_t tick) {
-  if (newest_tick_ < 0 || (tick < newest_tick_ + kAheadTicks && tick > newest_tick_ - kAgoTicks)) {
-    newest_tick_ = std::max(newest_tick_, tick);
-    strays_ = 0;
-    return false;
-  }
+  if (!ticks_.IsStray(tick)) return false;
   ++dropped_;
-  if (++strays_ < kStraysMax) return true;
+  if (!ticks_.restarted()) return true;
   builder_ = RecordingBuilder(options_.room);  // its room is repeated every second
   Restart();
   return true;
@@ -59,8 +52,7 @@ bool LiveRenderer::IsStray(std::int64_t tick) {
 
 void LiveRenderer::Restart() {
   playback_.reset();
-  newest_tick_ = -1;
-  strays_ = 0;
+  ticks_ = StrayTicks();
 }
 
 bool LiveRenderer::Add(const std::string& channel, ByteView message) {

@@ -11,6 +11,7 @@
 #include "render/options.h"
 #include "render/output.h"
 #include "render/playback/playback.h"
+#include "render/playback/stray_ticks.h"
 
 namespace seam {
 
@@ -57,8 +58,7 @@ class LiveRenderer {
   Image image_;
   bool prepared_ = false;
   double next_s_ = 0;              // the next frame's moment
-  std::int64_t newest_tick_ = -1;  // greatest of all accepted views
-  int strays_ = 0;                 // views dropped in a row
+  StrayTicks ticks_;               // of all accepted views
   int frames_ = 0, skipped_ = 0;
   std::int64_t dropped_ = 0;
 };

@@ -24,6 +24,9 @@ SEAM_EMBED(seam_page_player, "player.js")
 SEAM_EMBED(seam_page_main, "main.js")
 SEAM_EMBED(seam_page_gestures, "gestures.js")
 SEAM_EMBED(seam_page_controls, "controls.js")
+SEAM_EMBED(seam_page_tape, "tape.js")
+SEAM_EMBED(seam_page_live, "live.js")
+SEAM_EMBED(seam_page_drive, "drive.js")
 
 namespace seam {
 
@@ -31,7 +34,9 @@ std::string PageTemplate() { return {seam_page_template_begin, seam_page_templat
 
 std::string PageStyle() { return {seam_page_style_begin, seam_page_style_end}; }
 
-std::string PageScript() {
+namespace {
+
+std::string Script(bool live) {
   std::string script;
   const auto add = [&script](const char* begin, const char* end) { script.append(begin, end); };
   add(seam_page_decode_begin, seam_page_decode_end);
@@ -47,8 +52,19 @@ std::string PageScript() {
   add(seam_page_player_begin, seam_page_player_end);
   add(seam_page_main_begin, seam_page_main_end);
   add(seam_page_gestures_begin, seam_page_gestures_end);
+  if (live) {
+    add(seam_page_tape_begin, seam_page_tape_end);
+    add(seam_page_live_begin, seam_page_live_end);
+    add(seam_page_drive_begin, seam_page_drive_end);
+  }
   add(seam_page_controls_begin, seam_page_controls_end);
   return script;
 }
+
+}  // namespace
+
+std::string PageScript() { return Script(false); }
+
+std::string LivePageScript() { return Script(true); }
 
 }  // namespace seam

@@ -7,6 +7,8 @@ namespace seam {
 
 std::string PageTemplate();  ///< page.html
 std::string PageStyle();     ///< page.css
-std::string PageScript();    ///< the .js files, in order of dependency
+std::string PageScript();    ///< the .js files of a review page, in order of dependency
+/// Returns the same with live.js and drive.js, for a page that shows a running session.
+std::string LivePageScript();
 
 }  // namespace seam

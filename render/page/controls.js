@@ -90,12 +90,29 @@ function addPanelHeads(page) {
 
 function addLegend(page) {
   const kinds = new Set(page.runs.flatMap((run) => run.events.map((event) => event.kind)));
+  const entries = [];
   for (const [kind, look] of Object.entries(EVENT_KINDS)) {
     if (!kinds.has(kind)) continue;
     const entry = element('span');
     entry.append(swatch(themed(look.colour)), look.name);
-    $('legend').append(entry);
+    entries.push(entry);
   }
+  $('legend').replaceChildren(...entries);
+}
+
+// Explains the colours of bodies: whose machine simulates them.
+function addOwners(page) {
+  const views = page.runs.flatMap((run) => run.views);
+  const named = new Map(views.map((view) => [view.peer, view.name]));
+  const entries = [...named].sort((a, b) => a[0] - b[0]).slice(0, 12).map(([peer, name]) => {
+    const entry = element('span');
+    entry.append(swatch(peerColour(peer)), name);
+    return entry;
+  });
+  const more = named.size > 12 ? `and ${named.size - 12} more; ` : '';
+  $('owners').replaceChildren(
+      element('span', 'Simulated by'), ...entries,
+      element('span', `${more}paler in views that only follow or show it`));
 }
 
 function wireButtons(page) {
@@ -197,15 +214,14 @@ function titles(page) {
   $('subtitle').textContent = `${labels}${network} · ${run.hz} ticks/s`;
 }
 
-async function start() {
-  const {head, bytes} = splitData(await inflate($('data').textContent));
-  readTheme();
+function openPage(head, bytes) {
   const page = new Page(head, bytes);
   window.review = {page, state};
   titles(page);
   addToggles(page);
   addPanelHeads(page);
   addLegend(page);
+  addOwners(page);
   wireButtons(page);
   wireCamera(page);
   wireStrip(page);
@@ -214,6 +230,7 @@ async function start() {
   new ResizeObserver(() => page.changed()).observe($('world'));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     readTheme();
+    addOwners(page);
     page.changed();
   });
   window.addEventListener('hashchange', () => {
@@ -222,6 +239,15 @@ async function start() {
     page.changed();
   });
   page.changed();
+  return page;
+}
+
+async function start() {
+  readTheme();
+  const data = $('data').textContent.trim();
+  if (data === '') return followLive();
+  const {head, bytes} = splitData(await inflate(data));
+  openPage(head, bytes);
 }
 
 start().catch((error) => {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "common/base/json_text.h"
 #include "common/base/version.h"
@@ -111,7 +112,8 @@ std::string LossesJson(const PageRun& run) {
 std::string RunJson(const PageRun& run, Sections* sections) {
   const Playback& playback = *run.playback;
   const Recording& recording = playback.recording();
-  PageWorlds worlds(playback);
+  std::optional<PageWorlds> own;
+  PageWorlds& worlds = run.live != nullptr ? *run.live->worlds : own.emplace(playback);
   PageSeries stutter, path;
   std::string truth = "null";
   if (playback.has_oracle()) {
@@ -125,7 +127,8 @@ std::string RunJson(const PageRun& run, Sections* sections) {
   std::vector<std::string> views, events;
   for (const int peer : playback.peers())
     views.push_back(ViewJson(playback, peer, &worlds, stutter, path, sections));
-  for (const PageEvent& event : EventsOf(playback)) events.push_back(EventJson(event));
+  for (const PageEvent& event : run.live != nullptr ? *run.live->events : EventsOf(playback))
+    events.push_back(EventJson(event));
   const Room& room = recording.room;
   const std::string drawn = worlds.Json();
   const PageBytes world_section(drawn.begin(), drawn.end());
@@ -136,7 +139,7 @@ std::string RunJson(const PageRun& run, Sections* sections) {
       JsonText(playback.scene().title), JsonText(room.impair), playback.tick_hz(),
       recording.first_tick, recording.last_tick, truth, sections->Add(world_section),
       sections->Add(EncodeBricks(playback)), JsonList(views), JsonList(events),
-      ColoursJson(playback), LossesJson(run));
+      ColoursJson(playback), run.live != nullptr ? "[]" : LossesJson(run));
 }
 
 /// Returns the colours of pictures, so that a page and a picture of a run look alike. Heat: from
@@ -158,6 +161,15 @@ void Fill(std::string* text, const std::string& name, const std::string& value) 
   if (at != std::string::npos) text->replace(at, mark.size(), value);
 }
 
+std::string Html(const std::string& policy, const std::string& script, const std::string& data) {
+  std::string html = PageTemplate();
+  Fill(&html, "policy", policy);
+  Fill(&html, "style", PageStyle());
+  Fill(&html, "script", script);
+  Fill(&html, "data", data);
+  return html;
+}
+
 }  // namespace
 
 PageBytes PageData(const std::vector<PageRun>& runs) {
@@ -177,11 +189,9 @@ PageBytes PageData(const std::vector<PageRun>& runs) {
 }
 
 std::string PageHtml(const std::vector<PageRun>& runs) {
-  std::string html = PageTemplate();
-  Fill(&html, "style", PageStyle());
-  Fill(&html, "script", PageScript());
-  Fill(&html, "data", Base64(Gzip(PageData(runs))));
-  return html;
+  return Html("", PageScript(), Base64(Gzip(PageData(runs))));
 }
+
+std::string LivePageHtml() { return Html("; connect-src 'self'", LivePageScript(), ""); }
 
 }  // namespace seam

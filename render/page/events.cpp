@@ -39,14 +39,8 @@ std::vector<PageEvent> FindImpacts(const Playback& playback) {
   for (const int peer : playback.peers()) {
     for (double end = static_cast<double>(recording.first_tick) + window;
          end < static_cast<double>(recording.last_tick) + window; end += window) {
-      for (const Mark& mark : MarksBefore(recording, peer, end, window)) {
-        const auto dv = static_cast<double>(mark.dv);
-        PageEvent event = Make(std::llround(mark.tick), "impact", peer, dv,
-                               fmt::format("impact of {:.1f} m/s", dv));
-        event.placed = true;
-        event.at = mark.point;
-        events.push_back(event);
-      }
+      const std::vector<PageEvent> some = ImpactsBefore(playback, peer, end, window);
+      events.insert(events.end(), some.begin(), some.end());
     }
   }
   return events;
@@ -66,25 +60,7 @@ std::vector<PageEvent> FindHandOvers(const Playback& playback) {
   return events;
 }
 
-std::vector<PageEvent> FindEdits(const Playback& playback) {
-  static const char* const kMarkNames[] = {"nothing", "joint broken", "bond", "parts inserted",
-                                           "removed", "set free",     "push", "seat taken or left",
-                                           "blast"};
-  std::vector<PageEvent> events;
-  for (const auto& [number, order] : playback.recording().edits) {
-    const Edit edit = ToEdit(order);
-    const std::size_t kind = edit.what.index();
-    if (kind == 0) continue;
-    std::string text = kMarkNames[kind];
-    if (order.a >= 0) text += ": " + BodyName(playback, order.a);
-    events.push_back(Make(order.tick, "edit", -1, 0, text));
-    if (const BlastEdit* blast = edit.As<BlastEdit>()) {
-      events.back().placed = true;
-      events.back().at = blast->centre;
-    }
-  }
-  return events;
-}
+std::vector<PageEvent> FindEdits(const Playback& playback) { return EditsAfter(playback, -1); }
 
 /// Finds ticks without a view, peers that begin late or end early, and recorded notes.
 std::vector<PageEvent> FindPresence(const Playback& playback) {
@@ -126,6 +102,49 @@ std::vector<PageEvent> EventsOf(const Playback& playback) {
   std::stable_sort(all.begin(), all.end(),
                    [](const PageEvent& a, const PageEvent& b) { return a.tick < b.tick; });
   return all;
+}
+
+std::vector<PageEvent> EditsAfter(const Playback& playback, int number) {
+  static const char* const kMarkNames[] = {"nothing", "joint broken", "bond", "parts inserted",
+                                           "removed", "set free",     "push", "seat taken or left",
+                                           "blast"};
+  std::vector<PageEvent> events;
+  const auto& edits = playback.recording().edits;
+  for (auto place = edits.upper_bound(number); place != edits.end(); ++place) {
+    const EditOrder& order = place->second;
+    const Edit edit = ToEdit(order);
+    const std::size_t kind = edit.what.index();
+    if (kind == 0) continue;
+    std::string text = kMarkNames[kind];
+    if (order.a >= 0) text += ": " + BodyName(playback, order.a);
+    events.push_back(Make(order.tick, "edit", -1, 0, text));
+    if (const BlastEdit* blast = edit.As<BlastEdit>()) {
+      events.back().placed = true;
+      events.back().at = blast->centre;
+    }
+  }
+  return events;
+}
+
+std::vector<PageEvent> ImpactsBefore(const Playback& playback, int peer, double tick, double span) {
+  std::vector<PageEvent> events;
+  for (const Mark& mark : MarksBefore(playback.recording(), peer, tick, span)) {
+    const auto dv = static_cast<double>(mark.dv);
+    PageEvent event =
+        Make(std::llround(mark.tick), "impact", peer, dv, fmt::format("impact of {:.1f} m/s", dv));
+    event.placed = true;
+    event.at = mark.point;
+    events.push_back(event);
+  }
+  return events;
+}
+
+PageEvent HandOverEvent(const Playback& playback, std::int64_t tick, int body, int from, int to) {
+  PageEvent event = Make(tick, "hand-over", to, 0,
+                         fmt::format("{}: {} to {}", BodyName(playback, body),
+                                     playback.PeerName(from), playback.PeerName(to)));
+  event.body = body;
+  return event;
 }
 
 std::string EventJson(const PageEvent& event) {

@@ -24,6 +24,13 @@ struct PageEvent {
 std::vector<PageEvent> EventsOf(const Playback& playback);
 constexpr std::size_t kPageEventsMax = 500;
 
+/// Returns the events of the edits with numbers above `number`.
+std::vector<PageEvent> EditsAfter(const Playback& playback, int number);
+/// Returns the impacts marked in (tick - span, tick] of a peer's view.
+std::vector<PageEvent> ImpactsBefore(const Playback& playback, int peer, double tick, double span);
+/// Returns a hand-over's event, without the distance of the two views.
+PageEvent HandOverEvent(const Playback& playback, std::int64_t tick, int body, int from, int to);
+
 std::string EventJson(const PageEvent& event);
 
 }  // namespace seam

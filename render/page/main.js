@@ -4,23 +4,28 @@ const $ = (id) => document.getElementById(id);
 
 class Page {
   constructor(head, bytes) {
-    this.runs = [];
-    const units = {error: head.error_unit, age: head.age_unit, stutter: head.stutter_unit};
-    Object.assign(COLOURS, head.colours);
-    for (const run of head.runs)
-      for (const [peer, colour] of run.colours) COLOURS.peers[peer] = colour;
-    for (const run of head.runs) this.runs.push(new Run(this, run, bytes, this.runs.length, units));
-    for (const run of this.runs) {
-      run.events = run.events.map((event) => ({...event, at: event.tick - run.first}));
-    }
+    this.load(head, bytes);
     this.strip = new Strip($('strip'));
     this.marks = new Marks($('marks'));
     this.losses = new Losses($('losses'));
     this.drawing = false;
+    this.word = 'error';  // for the distance that the page measures
     this.firstPanels();
     this.player = new Player(this.runs, () => this.changed());
     this.firstMoment();
     readFragment(this.runs);
+  }
+
+  load(head, bytes) {
+    const units = {error: head.error_unit, age: head.age_unit, stutter: head.stutter_unit};
+    Object.assign(COLOURS, head.colours);
+    for (const run of head.runs)
+      for (const [peer, colour] of run.colours) COLOURS.peers[peer] = colour;
+    this.runs = [];  // a run asks how many there are
+    for (const run of head.runs) this.runs.push(new Run(this, run, bytes, this.runs.length, units));
+    for (const run of this.runs) {
+      run.events = run.events.map((event) => ({...event, at: event.tick - run.first}));
+    }
   }
 
   // Shows two views side by side: of two runs, or of one run's first and last client; in a large
@@ -147,10 +152,11 @@ class Page {
     this.losses.draw(state.tick, this.player.last);
     this.drawControls(views);
     // Tables are slow to lay out: updated four times a second while playing.
-    if (!state.playing || !(now_ms - this.tables_ms < 250)) {
+    const moving = state.playing || state.live;
+    if (!moving || !(now_ms - this.tables_ms < 250)) {
       this.tables_ms = now_ms;
       this.drawTables(views);
-      writeFragment();
+      if (!this.tape) writeFragment();
     }
   }
 
@@ -159,8 +165,10 @@ class Page {
     const tick = Math.floor(state.tick);
     $('clock').textContent = `${run.seconds(state.tick).toFixed(3)} s · tick ${run.first + tick}`;
     $('scrub').value = tick;
-    $('play').textContent = state.playing ? '❚❚' : '▶';
-    $('play').setAttribute('aria-label', state.playing ? 'Pause' : 'Play');
+    const moving = state.playing || state.live;
+    $('play').textContent = moving ? '❚❚' : '▶';
+    $('play').setAttribute('aria-label', moving ? 'Pause' : 'Play');
+    $('live').setAttribute('aria-pressed', String(state.live));
     $('speed').value = state.speed;
     $('divider').hidden = state.mode !== 'wipe';
     $('divider').style.left = `${100 * state.wipe}%`;
@@ -174,7 +182,7 @@ class Page {
     document.querySelectorAll('.panel-head output').forEach((output, i) => {
       const error = views[i].curve('error')[tick];
       output.textContent =
-          error === undefined || Number.isNaN(error) ? '' : `error ${formatLength(error)}`;
+          error === undefined || Number.isNaN(error) ? '' : `${this.word} ${formatLength(error)}`;
     });
   }
 
@@ -191,7 +199,7 @@ class Page {
     const key = [state.measure, range, JSON.stringify(state.panels)].join(' ');
     if (key !== this.rangeKey) fillRangeTable($('range-body'), views, state.measure, range);
     this.rangeKey = key;
-    $('bodies-hint').textContent = 'The largest error on any panel. A click follows a body.';
+    $('bodies-hint').textContent = `The largest ${this.word} on any panel. A click follows a body.`;
     fillBodyTable($('bodies-body'), views, state.tick, range, (id) => this.follow(id));
   }
 

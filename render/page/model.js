@@ -105,7 +105,8 @@ class Run {
     this.regions = drawn.regions;
     this.held = drawn.held / 1000;  // margin around held bodies, m; 0: regions are fixed
     this.motions = new Map(drawn.motions.map((motion) => [motion.id, motion.path]));
-    this.worlds = drawn.worlds.map((world) => makeWorld(world, drawn.bodies));
+    this.pool = drawn.bodies;  // all bodies of all worlds
+    this.worlds = drawn.worlds.map((world) => makeWorld(world, this.pool));
     this.views = head.views.map((view) => new View(this, view, bytes, units));
     this.names = new Map(drawn.bodies.map((body) => [body.id, body.name]));
   }

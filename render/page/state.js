@@ -24,6 +24,7 @@ const state = {
   tick: 0,
   speed: 1,
   playing: false,
+  live: false,   // follows the newest tick of a running session
   camera: null,  // {x, y, height}: m; null: fit the scene
   follow: null,  // id of a body
   layers: {truth: true, dots: false, vectors: false, heat: false, contacts: true},

@@ -83,10 +83,7 @@ std::string HolesJson(const Scene& scene) {
 
 }  // namespace
 
-PageWorlds::PageWorlds(const Playback& playback)
-    : playback_(playback), revisions_(playback.scene(), playback.recording()) {
-  IndexOf(0);
-}
+PageWorlds::PageWorlds(const Playback& playback) : playback_(playback) { IndexOf(0); }
 
 int PageWorlds::Pool(const std::string& body) {
   const auto [place, added] = pooled_.emplace(body, static_cast<int>(bodies_.size()));
@@ -95,10 +92,15 @@ int PageWorlds::Pool(const std::string& body) {
 }
 
 int PageWorlds::IndexOf(int edits) {
-  const int key = revisions_.Key(edits);
+  const Recording& recording = playback_.recording();
+  if (revisions_ == nullptr || edits_ != recording.edits.size()) {
+    edits_ = recording.edits.size();
+    revisions_ = std::make_unique<const RevisionHistory>(playback_.scene(), recording);
+  }
+  const int key = revisions_->Key(edits);
   const auto known = index_of_key_.find(key);
   if (known != index_of_key_.end()) return known->second;
-  const auto revision = revisions_.At(key);
+  const auto revision = revisions_->At(key);
   const DrawnRevision drawn = RevisionOf(revision->scene(), revision->composition());
   std::vector<std::string> moving, anchored, joints;
   const auto pooled = [&](const BodyShapes& body) {
@@ -116,6 +118,18 @@ int PageWorlds::IndexOf(int edits) {
                                 JsonList(moving), JsonList(anchored), JsonList(joints),
                                 HolesJson(revision->scene())));
   return index;
+}
+
+std::string PageWorlds::TakeNewJson() {
+  const auto since = [](const std::vector<std::string>& all, std::size_t taken) {
+    return JsonList({all.begin() + static_cast<std::ptrdiff_t>(taken), all.end()});
+  };
+  std::string json =
+      fmt::format(R"({{"body":{},"bodies":{},"world":{},"worlds":{}}})", bodies_taken_,
+                  since(bodies_, bodies_taken_), worlds_taken_, since(worlds_, worlds_taken_));
+  bodies_taken_ = bodies_.size();
+  worlds_taken_ = worlds_.size();
+  return json;
 }
 
 std::string PageWorlds::Json() const {

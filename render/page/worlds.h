@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,16 +20,26 @@ class PageWorlds {
   /// `playback` must outlive this.
   explicit PageWorlds(const Playback& playback);
 
-  /// Returns the index of the world after `edits` edits; creates it at the first call.
+  /// Returns the index of the world after `edits` edits; creates it at the first call. Edits that a
+  /// growing recording has received since are known.
   int IndexOf(int edits);
   /// Returns {"bodies":[...],"worlds":[...],"moved":[...],...}; call it last.
   std::string Json() const;
+  /// True if TakeNewJson has something.
+  bool has_new() const { return worlds_taken_ < worlds_.size(); }
+  /// Returns the number of worlds so far.
+  int count() const { return static_cast<int>(worlds_.size()); }
+  /// Returns the bodies and worlds made since the last call, with their first indices:
+  /// {"body":0,"bodies":[...],"world":0,"worlds":[...]}.
+  std::string TakeNewJson();
 
  private:
   int Pool(const std::string& body);
 
   const Playback& playback_;
-  const RevisionHistory revisions_;
+  std::size_t edits_ = 0;  // of the recording, as revisions_ knows them
+  std::unique_ptr<const RevisionHistory> revisions_;
+  std::size_t bodies_taken_ = 0, worlds_taken_ = 0;
   std::map<int, int> index_of_key_;
   std::vector<std::string> bodies_, worlds_;
   std::map<std::string, int> pooled_;

@@ -19,7 +19,8 @@ TEST_F(NoRoute, EveryBusProgramNamesTheFixInOneLineAndWritesNothing) {
   const std::vector<std::vector<std::string>> commands = {
       {"seam-server", scene, "--bind", "127.0.0.1:0", "--record", "new.lcm"},
       {"seam-client", "127.0.0.1:9", "--watch", "--record", "new.lcm"},
-      {"seam-render", "--live", "-o", "new"}};
+      {"seam-render", "--live", "-o", "new"},
+      {"seam-view", "--port", "0"}};
   for (std::vector<std::string> words : commands) {
     const Workspace folder;
     const std::string begin = words[0] + ": LCM: this machine has no route for multicast; ";

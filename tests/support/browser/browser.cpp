@@ -143,7 +143,8 @@ void Browser::Listen(const std::string& message) {
   const std::size_t request = message.find("\"request\":");
   const std::string url = request == std::string::npos ? "" : Field(message.substr(request), "url");
   const bool inside = url.rfind("data:", 0) == 0 || url.rfind("blob:", 0) == 0 ||
-                      (url.rfind("file:", 0) == 0 && address.rfind(url, 0) == 0);
+                      (url.rfind("file:", 0) == 0 && address.rfind(url, 0) == 0) ||
+                      (!server_.empty() && url.rfind(server_, 0) == 0);
   if (!inside) complaints_.push_back("left the file: " + url);
 }
 
@@ -167,7 +168,10 @@ std::string Browser::Call(const std::string& method, const std::string& paramete
 bool Browser::Open(const std::string& path, const std::string& fragment, const std::string& ready) {
   // Over an empty page, since a change of the fragment alone loads nothing.
   Call("Page.navigate", R"({"url":"about:blank"})");
-  const std::string url = "file://" + path + (fragment.empty() ? "" : "#" + fragment);
+  const bool served = path.rfind("http://", 0) == 0;
+  server_ = served ? path.substr(0, path.find('/', 7) + 1) : "";
+  const std::string url =
+      (served ? "" : "file://") + path + (fragment.empty() ? "" : "#" + fragment);
   Call("Page.navigate", fmt::format(R"({{"url":{}}})", JsonText(url)));
   for (int i = 0; i < 600; ++i) {
     if (Evaluate("String(Boolean(" + ready + "))") == "true") {
@@ -218,8 +222,13 @@ void Browser::Drag(const std::string& selector, double from_x, double to_x, doub
 }
 
 void Browser::Press(const std::string& key) {
-  for (const char* type : {"keyDown", "keyUp"})
-    Call("Input.dispatchKeyEvent", fmt::format(R"({{"type":"{}","key":{}}})", type, JsonText(key)));
+  Hold(key, true);
+  Hold(key, false);
+}
+
+void Browser::Hold(const std::string& key, bool down) {
+  Call("Input.dispatchKeyEvent",
+       fmt::format(R"({{"type":"{}","key":{}}})", down ? "keyDown" : "keyUp", JsonText(key)));
   Settle();
 }
 

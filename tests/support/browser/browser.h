@@ -1,6 +1,7 @@
 #pragma once
-/// A headless Chromium that a test drives as a person would: opens a page from disk, uses mouse and
-/// keys, and reads the page, its errors, and its requests outside the file. Controlled over two
+/// A headless Chromium that a test drives as a person would: opens a page from disk or of a server
+/// on this machine, uses mouse and keys, and reads the page, its errors, and its requests outside
+/// the file or the server. Controlled over two
 /// pipes (the DevTools protocol), so that no port is opened.
 
 #include <string>
@@ -22,8 +23,8 @@ class Browser {
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
 
-  /// Opens a file's page, with the part of its address after #, and waits until `ready` (an
-  /// expression) is true; returns false if it never is.
+  /// Opens a file's page, or an address "http://...", with the part of its address after #, and
+  /// waits until `ready` (an expression) is true; returns false if it never is.
   bool Open(const std::string& path, const std::string& fragment, const std::string& ready);
   /// Returns the value of an expression, as text.
   std::string Evaluate(const std::string& expression);
@@ -37,6 +38,8 @@ class Browser {
   void Drag(const std::string& selector, double from_x, double to_x, double y = 0.5);
   /// Presses and releases a key: "ArrowRight", " ", "w".
   void Press(const std::string& key);
+  /// Presses a key, or releases it.
+  void Hold(const std::string& key, bool down);
 
   /// Console errors, exceptions, and requests for anything outside the file.
   const std::vector<std::string>& complaints() const { return complaints_; }
@@ -51,6 +54,7 @@ class Browser {
   Workspace profile_;
   int pid_ = -1, to_ = -1, from_ = -1, commands_ = 0;
   std::string session_, heard_;
+  std::string server_;  // "http://127.0.0.1:8080/" of a page that has one; else ""
   std::vector<std::string> complaints_;
 };
 

@@ -1,0 +1,35 @@
+#pragma once
+/// Logs that are being written, read as they grow, in the order of their times.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/record/log_file.h"
+
+namespace seam {
+
+class LogTails {
+ public:
+  /// Throws OperatorError for a path that is something else than a regular file. A file that does
+  /// not exist yet is waited for.
+  explicit LogTails(const std::vector<std::string>& paths);
+
+  /// Returns the next event of all logs; false when there is none now. A log that is cut is read
+  /// anew from its begin.
+  bool Next(LogEvent* event);
+
+ private:
+  struct Tail {
+    std::string path;
+    LogPlace place;  // behind the last event read
+    std::unique_ptr<LogReader> reader;
+    std::optional<LogEvent> next;
+  };
+  static void Fill(Tail* tail);
+
+  std::vector<Tail> tails_;
+};
+
+}  // namespace seam

@@ -1,0 +1,98 @@
+#include "render/view/view_page.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "render/page/document.h"
+
+namespace seam {
+namespace {
+
+HttpResponse Refuse(const char* status, const std::string& why) {
+  HttpResponse response;
+  response.status = status;
+  response.body = why + "\n";
+  return response;
+}
+
+/// True if a request comes from a page of this server, or from no page at all.
+bool IsOwnOrigin(const HttpRequest& request) {
+  return request.origin.empty() || request.origin == "http://" + request.host;
+}
+
+}  // namespace
+
+bool ParseDrive(const std::string& text, std::int64_t* number, Input* input) {
+  long long n = 0;
+  int drive = 0, lift = 0, buttons = 0;
+  char rest = 0;
+  if (text.size() > 64) return false;
+  if (std::sscanf(text.c_str(), "%18lld %4d %4d %4d %c", &n, &drive, &lift, &buttons, &rest) != 4)
+    return false;
+  const bool good = n >= 0 && drive >= -127 && drive <= 127 && lift >= -127 && lift <= 127 &&
+                    buttons >= 0 && buttons <= 1023;
+  if (!good) return false;
+  *number = n;
+  input->drive = static_cast<std::int8_t>(drive);
+  input->lift = static_cast<std::int8_t>(lift);
+  input->buttons = static_cast<std::int16_t>(buttons);
+  return true;
+}
+
+ViewPage::ViewPage(std::string token, std::function<void(const Input&)> drive)
+    : token_(std::move(token)), page_(LivePageHtml()), drive_(std::move(drive)) {}
+
+HttpResponse ViewPage::Answer(std::int64_t now_us, const HttpRequest& request) {
+  if (!IsLoopbackHost(request.host)) {
+    return Refuse("403 Forbidden", "this page is at 127.0.0.1 and localhost only");
+  }
+  if (request.path == "/drive") return Drive(now_us, request);
+  if (request.method != "GET") {
+    return Refuse("405 Method Not Allowed", "only GET is answered here");
+  }
+  HttpResponse response;
+  if (request.path == "/") {
+    response.type = "text/html; charset=utf-8";
+    response.body = page_;
+  } else if (request.path == "/live") {
+    if (!IsOwnOrigin(request)) return Refuse("403 Forbidden", "another site asks");
+    response.type = "text/event-stream";
+    response.stream = true;
+  } else {
+    return Refuse("404 Not Found", "the page is /");
+  }
+  return response;
+}
+
+HttpResponse ViewPage::Drive(std::int64_t now_us, const HttpRequest& request) {
+  if (request.method != "POST") return Refuse("405 Method Not Allowed", "/drive takes POST");
+  if (token_.empty()) return Refuse("403 Forbidden", "nobody is driven from here (--drive)");
+  if (request.query != "token=" + token_ || !IsOwnOrigin(request)) {
+    return Refuse("403 Forbidden", "driving needs the token of the address that was printed");
+  }
+  std::int64_t number = 0;
+  Input input;
+  if (!ParseDrive(request.body, &number, &input)) {
+    return Refuse("400 Bad Request", "the body must be NUMBER DRIVE LIFT BUTTONS");
+  }
+  if (number > number_) {
+    number_ = number;
+    held_us_ = now_us;
+    Set(input);
+  }
+  HttpResponse response;
+  response.status = "204 No Content";
+  return response;
+}
+
+void ViewPage::Tick(std::int64_t now_us) {
+  if (now_us - held_us_ > kHeldUs) Set(Input());
+}
+
+void ViewPage::Set(const Input& input) {
+  if (input == input_) return;
+  input_ = input;
+  drive_(input);
+}
+
+}  // namespace seam
