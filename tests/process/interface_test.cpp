@@ -94,7 +94,7 @@ Names Below(const std::string& help, const std::string& title) {
 void AddPrograms(Interface* interface) {
   for (const char* program :
        {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top", "seam-render",
-        "seam-measure", "seam-export", "seam-import", "seam-lab"}) {
+        "seam-measure", "seam-export", "seam-import", "seam-view", "seam-lab"}) {
     const std::string help = Output({program, "--help"});
     interface->Add(std::string(program) + " flag", Below(help, "options"));
     if (std::string(program) != "seam-lab") continue;
@@ -104,6 +104,12 @@ void AddPrograms(Interface* interface) {
       interface->Add("seam-lab " + command + " flag",
                      Below(Output({program, command, "--help"}), "options"));
     }
+  }
+  const Names verbs = Below(Output({"seam", "--help"}), "subcommands");
+  interface->Add("seam subcommand", verbs);
+  for (const char* verb : {"play", "demo"}) {
+    interface->Add("seam " + std::string(verb) + " flag",
+                   Below(Output({"seam", verb, "--help"}), "options"));
   }
 }
 

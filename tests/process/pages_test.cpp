@@ -16,8 +16,9 @@ namespace pages_test {
 
 using Words = std::vector<std::string>;
 
-constexpr const char* kPrograms[] = {"seam-server", "seam-client", "seam-render", "seam-measure",
-                                     "seam-export", "seam-import", "seam-lab"};
+constexpr const char* kPrograms[] = {"seam-server",  "seam-client", "seam-render",
+                                     "seam-measure", "seam-export", "seam-import",
+                                     "seam-view",    "seam",        "seam-lab"};
 
 std::string Generated(const std::string& program, const std::string& kind) {
   Program run({BuiltProgram(program), "--generate", kind});
@@ -54,7 +55,7 @@ std::string Complaints(const Words& words) {
 TEST(Pages, DocumentEveryFlagAndSubcommand) {
   for (const std::string program : kPrograms) {
     const Words names = NamesOf(program);
-    EXPECT_GT(names.size(), program == "seam-import" ? 6u : 8u) << program;
+    EXPECT_GT(names.size(), program == "seam-import" || program == "seam" ? 6u : 8u) << program;
     const std::string man = Generated(program, "man"), bash = Generated(program, "bash"),
                       zsh = Generated(program, "zsh"), fish = Generated(program, "fish");
     for (const std::string& name : names) {

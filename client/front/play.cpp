@@ -1,0 +1,259 @@
+#include "client/front/play.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "client/front/child.h"
+#include "client/front/verbs.h"
+#include "common/base/check.h"
+#include "common/base/find_scene.h"
+#include "common/base/nearest.h"
+#include "common/base/plain_file.h"
+#include "common/base/process.h"
+#include "common/record/bus.h"
+#include "common/scene/scene.h"
+
+namespace seam {
+namespace {
+
+constexpr double kStart_s = 10;  ///< for a program to say that it is there
+
+/// A folder for what the programs say and, without the bus, for their logs; removed with us.
+class PlayFolder {
+ public:
+  PlayFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "seam-play-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw OperatorError("no folder for temporary files");
+    path_ = pattern;
+  }
+  ~PlayFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  PlayFolder(const PlayFolder&) = delete;
+  PlayFolder& operator=(const PlayFolder&) = delete;
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+/// Returns the word that follows `mark` in a text, up to a space, a semicolon or the line's end.
+std::string WordAfter(const std::string& text, const std::string& mark) {
+  const std::size_t at = text.find(mark);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + mark.size(), end = text.find_first_of("; \n", begin);
+  return end == std::string::npos ? "" : text.substr(begin, end - begin);
+}
+
+/// True if LCM's bus works here.
+bool BusWorks() {
+  try {
+    const Bus bus("");
+    return true;
+  } catch (const OperatorError&) {
+    return false;
+  }
+}
+
+bool IsTerminal() { return isatty(0) != 0 && isatty(1) != 0; }
+
+/// The programs of a session. They say what they have to say into files.
+class Session {
+ public:
+  explicit Session(const PlayOptions& options)
+      : options_(options), on_bus_(BusWorks()), room_("play-" + std::to_string(getpid())) {}
+
+  int Run() {
+    ChoosePlayers();
+    StartServer();
+    if (g_stop == 0) StartView();
+    if (g_stop == 0) StartPlayers();
+    if (g_stop == 0 && options_.browser) OpenBrowser();
+    while (g_stop == 0 && AllRun()) SleepUs(50000);
+    return End();
+  }
+
+ private:
+  void ChoosePlayers() {
+    const Scene scene = LoadScene(FindScene(options_.scene));
+    std::vector<std::string> names;
+    for (const Player& player : scene.players) names.push_back(player.name);
+    if (names.empty()) throw OperatorError(options_.scene + ": a scene without players");
+    own_ = options_.name.empty() ? names.front() : options_.name;
+    const auto found = std::find(names.begin(), names.end(), own_);
+    if (found == names.end()) {
+      throw OperatorError("--name " + own_ + ": " + options_.scene + " has no such player; " +
+                          Suggestion(own_, names));
+    }
+    if (options_.drive) names.erase(found);
+    bots_ = names;
+    const auto most = static_cast<std::size_t>(std::max(0, options_.bots));
+    if (bots_.size() > most) bots_.resize(most);
+  }
+
+  std::string FileOf(const std::string& program) const { return folder_ / (program + ".txt"); }
+
+  Child* Start(const std::string& as, const std::vector<std::string>& words, ChildFiles files) {
+    files.errors = open(FileOf(as).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    children_.push_back(std::make_unique<Child>(words, files));
+    names_.push_back(as);
+    if (files.errors >= 0) close(files.errors);
+    return children_.back().get();
+  }
+
+  /// Waits for a text among what a program says. Throws its first line if it ends before.
+  std::string WaitFor(Child* child, const std::string& as, const std::string& mark) {
+    const std::int64_t begin_us = SteadyClockUs();
+    while (g_stop == 0) {
+      const std::string text = ReadPlainFile(FileOf(as), 1 << 20);
+      const std::string word = WordAfter(text, mark);
+      if (!word.empty()) return word;
+      if (!child->running()) throw OperatorError(FirstLine(as));
+      if (static_cast<double>(SteadyClockUs() - begin_us) * 1e-6 > kStart_s) {
+        throw OperatorError(as + " does not start");
+      }
+      SleepUs(10000);
+    }
+    return "";
+  }
+
+  std::string FirstLine(const std::string& as) const {
+    const std::string text = ReadPlainFile(FileOf(as), 1 << 20);
+    const std::string line = text.substr(0, text.find('\n'));
+    return line.empty() ? as + " has ended" : line;
+  }
+
+  /// Adds the flags by which a program's messages reach the view.
+  void AddBus(const std::string& as, std::vector<std::string>* words) {
+    if (on_bus_) return;
+    logs_.push_back(folder_ / (as + ".lcm"));
+    words->insert(words->end(), {"--lcm-url", "none", "--record", logs_.back()});
+  }
+
+  void StartServer() {
+    const std::size_t players = bots_.size() + (options_.drive ? 1 : 0);
+    std::vector<std::string> words{"seam-server", options_.scene,
+                                   "--bind",      "127.0.0.1:0",
+                                   "--room",      room_,
+                                   "--impair",    options_.impair,
+                                   "--mode",      options_.mode,
+                                   "--wait",      std::to_string(players),
+                                   "--duration",  std::to_string(options_.duration_s)};
+    AddBus("server", &words);
+    Child* server = Start("server", words, {});
+    address_ = "127.0.0.1:" + WaitFor(server, "server", "on 127.0.0.1:");
+  }
+
+  void StartView() {
+    std::vector<std::string> logs = logs_;
+    std::vector<std::string> words{"seam-view", "--port", std::to_string(options_.port), "--room",
+                                   room_};
+    if (options_.drive) words.insert(words.end(), {"--drive", own_});
+    if (!on_bus_) {
+      logs.push_back(folder_ / (own_ + ".lcm"));
+      for (const std::string& bot : bots_) logs.push_back(folder_ / (bot + ".lcm"));
+      std::sort(logs.begin(), logs.end());
+      logs.erase(std::unique(logs.begin(), logs.end()), logs.end());
+      words.insert(words.end(), logs.begin(), logs.end());
+    }
+    int pipe[2] = {-1, -1};
+    if (options_.drive && pipe2(pipe, O_CLOEXEC) != 0) throw OperatorError("no pipe");
+    ChildFiles files;
+    files.output = pipe[1];
+    Child* view = Start("view", words, files);
+    if (pipe[1] >= 0) close(pipe[1]);
+    keys_ = pipe[0];
+    page_ = "http://127.0.0.1:" + WaitFor(view, "view", "http://127.0.0.1:");
+    if (g_stop == 0) std::fprintf(stderr, "seam: %s\n", page_.c_str());
+  }
+
+  void StartPlayers() {
+    for (const std::string& bot : bots_) {
+      std::vector<std::string> words = ClientWords(bot);
+      words.insert(words.end(), {"--drive", "bot"});
+      Start(bot, words, {});
+    }
+    if (!options_.drive) {
+      std::fprintf(stderr, "seam: bots play %s; Ctrl-C ends it\n", options_.scene.c_str());
+      return;
+    }
+    std::vector<std::string> words = ClientWords(own_);
+    words.insert(words.end(), {"--inputs", "/dev/fd/3"});
+    ChildFiles files;
+    files.third = keys_;
+    files.terminal = IsTerminal();
+    if (files.terminal) {
+      words.insert(words.end(), {"--drive", "keyboard", "--hint", "also " + page_});
+    } else {
+      std::fprintf(stderr, "seam: drive %s there by arrows or WASD; Ctrl-C ends it\n",
+                   own_.c_str());
+    }
+    player_ = Start(own_, words, files);
+    close(keys_);
+  }
+
+  std::vector<std::string> ClientWords(const std::string& name) {
+    std::vector<std::string> words{"seam-client", address_, "--name",   name,
+                                   "--room",      room_,    "--impair", options_.impair};
+    AddBus(name, &words);
+    return words;
+  }
+
+  void OpenBrowser() {
+    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+    Start("browser", {"xdg-open", page_}, {});
+  }
+
+  /// True while all programs run that have to; a browser's starter may end.
+  bool AllRun() {
+    for (std::size_t i = 0; i < children_.size(); ++i) {
+      if (!children_[i]->running() && names_[i] != "browser") return false;
+    }
+    return true;
+  }
+
+  /// Ends the programs, the players first; returns the exit status.
+  int End() {
+    std::string ended;
+    int status = 0;
+    for (std::size_t i = 0; i < children_.size() && g_stop == 0; ++i) {
+      if (children_[i]->running() || names_[i] == "browser") continue;
+      status = children_[i]->status();
+      if (status != 0) ended = FirstLine(names_[i]);
+      break;
+    }
+    if (player_ != nullptr) player_->Interrupt();
+    for (std::size_t i = children_.size(); i-- > 0;) children_[i].reset();
+    if (status != 0) std::fprintf(stderr, "%s\n", ended.c_str());
+    return status == 0 ? 0 : 1;
+  }
+
+  const PlayOptions options_;
+  const bool on_bus_;
+  const std::string room_;
+  const PlayFolder folder_;
+  std::string own_;
+  std::vector<std::string> bots_, logs_, names_;
+  std::vector<std::unique_ptr<Child>> children_;
+  Child* player_ = nullptr;  // among children_
+  std::string address_, page_;
+  int keys_ = -1;  // the page's inputs come here
+};
+
+}  // namespace
+
+int Play(const PlayOptions& options) {
+  StopOnSignals();
+  return Session(options).Run();
+}
+
+}  // namespace seam
