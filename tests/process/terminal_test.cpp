@@ -18,7 +18,7 @@ constexpr double kPatience = 60;
 /// A server of two players on a port of its own choice.
 class Terminals : public ::testing::Test {
  protected:
-  void Start(const std::vector<std::string>& more) {
+  void Start(const std::vector<std::string>& more, const std::string& wait = "1") {
     std::vector<std::string> words = {BuiltProgram("seam-server"),
                                       "crossing",
                                       "--bind",
@@ -26,7 +26,7 @@ class Terminals : public ::testing::Test {
                                       "--lcm-url",
                                       "none",
                                       "--wait",
-                                      "1"};
+                                      wait};
     words.insert(words.end(), more.begin(), more.end());
     server_ = std::make_unique<Program>(words);
     ASSERT_TRUE(server_->WaitForErrors("waiting for", kPatience)) << server_->Story();
@@ -122,7 +122,7 @@ TEST_F(Terminals, DrivingByKeyboardShowsTheWorldAndItsKeys) {
 
 TEST_F(Terminals, KeysPressedWhileOthersAreMissingCountWhenTheRoomStarts) {
   const Workspace folder;
-  Start({"--wait", "2", "--record", folder / "session.lcm"});
+  Start({"--record", folder / "session.lcm"}, "2");
   PseudoTerminal terminal;
   if (!terminal.good()) GTEST_SKIP() << "no pseudo terminals here";
   std::string command;
