@@ -19,8 +19,6 @@ constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
 /// An unanswered ping of a quiet room is repeated after the usual round trip and this, us: after
 /// the lease nobody would know the authorities.
 constexpr std::int64_t kPingAgainUs = 50000;
-/// Ticks between two checksums of what this peer published.
-constexpr std::int64_t kChainTicks = 6;
 /// Upper limit of that usual round trip, us, whatever the path or a pause of this process made of
 /// it: then a second and a half of repeats fit into the lease.
 constexpr std::int64_t kUsualMaxUs = 500000;
@@ -88,9 +86,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   if (started_) load_.Note(now_us, cpu_us, std::max(0, ticks), late_us_, 1000000 / room_.tick_hz);
   const bool stats_due = now_us - last_stats_us_ >= 1000000;
   if (publisher_ != nullptr && peer_ >= 0 && stats_due) PublishStats(now_us, cpu_us);
-  if (ticks > 0 && replica_->tick() / kChainTicks != before / kChainTicks) {
-    publisher_->EndTick(now_us, peer_, replica_->tick());
-  }
+  if (ticks > 0) publisher_->EndTick(now_us, peer_, replica_->tick());
   if (started_) SendInputs(now_us);
   if (LineReady(now_us)) Flush(now_us);
   net_.Flush();

@@ -49,13 +49,29 @@ class Broadcast {
   void Publish(const Message& message) {
     if (publisher_.listening() && !muted_) publisher_.Publish(message);
   }
+  /// Publishes what the server has taken from a client, or into its own table (peer 0).
+  template <class Message>
+  void NoteAccepted(std::int64_t now_us, int peer, int player, const Message& message) {
+    if (!publisher_.listening() || muted_) return;
+    Accepted accepted;
+    accepted.utime = now_us;
+    accepted.peer = peer;
+    accepted.player = player;
+    accepted.data = Encode(message);
+    publisher_.Publish(accepted);
+  }
   /// While muted publishes nothing: a log has it already.
   void Mute(bool muted) { muted_ = muted; }
   /// Publishes the checksum of a tick, and of what was published before tick 0. The log has all of
   /// it then, before the tick's datagrams leave.
-  void EndTick(std::int64_t now_us, bool stepped) {
-    if (!publisher_.listening() || (!stepped && !publisher_.pending())) return;
-    publisher_.EndTick(now_us, 0, std::max<std::int64_t>(0, replica_.tick()));
+  void EndTick(std::int64_t now_us, bool stepped, bool last = false) {
+    if (!publisher_.listening() || (!stepped && !last && !publisher_.pending())) return;
+    publisher_.EndTick(now_us, 0, std::max<std::int64_t>(0, replica_.tick()), last);
+  }
+  /// Notes in the log's checksums where a step begins, and where its tick ends.
+  void NoteStep() { publisher_.NoteStep(); }
+  void NoteTick() {
+    if (publisher_.listening()) publisher_.NoteTick(replica_.world().Hash());
   }
   /// Publishes on the bus and sends reliably to every session that was sent the room.
   template <class Message>

@@ -187,6 +187,7 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Publish(At(now_us, inputs));
   }
   ApplyEdits(now_us);
+  broadcast_.NoteStep();
   replica_.Step();
   ApplyQueued(now_us);  // edits of this very tick
   TakeWaitingBreaks();
@@ -210,6 +211,7 @@ void Server::StepOnce(std::int64_t now_us) {
   TellRest(now_us);
   PublishShown(now_us);
   RunRules(now_us);
+  broadcast_.NoteTick();
 }
 
 void Server::PublishShown(std::int64_t now_us) {
@@ -283,9 +285,21 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     if (session != nullptr) sessions_.SendUrgentTo(*session, Encode(given.exact));
   }
   broadcast_.Tell(grants);
+  NoteAuthority(now_us);
   UpdateInterest(now_us, !grants.empty());
   broadcast_.SendPendingGrants(now_us);
   EndLeases(now_us);
+}
+
+/// Puts changes of the server's own table into the log: it is not always what clients are told.
+void Server::NoteAuthority(std::int64_t now_us) {
+  std::vector<int> set = authority_.TakeSet();
+  std::sort(set.begin(), set.end());
+  set.erase(std::unique(set.begin(), set.end()), set.end());
+  for (const Grants& grants :
+       std::as_const(replica_).authority().Export(now_us, replica_.tick(), set)) {
+    broadcast_.NoteAccepted(now_us, 0, -1, grants);
+  }
 }
 
 void Server::UpdateInterest(std::int64_t now_us, bool changed) {
@@ -323,7 +337,7 @@ std::vector<std::string> Server::TakeWarnings() {
 bool Server::script_stopped() const { return rules_ != nullptr && rules_->stopped(); }
 
 void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
-  broadcast_.EndTick(now_us, false);
+  broadcast_.EndTick(now_us, false, true);
   sessions_.Close(now_us, reason, &stats_.counters);
 }
 

@@ -37,6 +37,7 @@ class SavedRoom;
 class ServerCommands;
 struct LogTail;
 struct LogTick;
+struct TickMessages;
 
 /// Most datagrams taken in one call: a flood must not keep rooms from stepping.
 constexpr int kDatagramsMax = 4096;
@@ -74,9 +75,15 @@ class Server {
   /// if all its clients had left then. Players' places are reserved as before. Returns one line if
   /// the bytes are damaged; the server must then not be used any more.
   Status Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail = nullptr);
+  /// Does the next tick of the room's log again, as it was. Requires the ticks in their order, from
+  /// the first one on, and no clients. Returns false if the rules come to other values than the
+  /// log's, which then count.
+  bool Replay(const TickMessages& log);
   /// Returns the room's state as bytes; see RoomState::Save. Not in mode oracle, where no peer can
   /// join a room that runs.
   Bytes Save(std::int64_t now_us);
+  /// Returns a copy that RoomState::Finish finishes; see RoomState::Copy.
+  Bytes CopyState(std::int64_t now_us, std::size_t expected_bytes);
 
   /// Receives, steps the ticks that are due, sends. `now_us`: any clock that never runs backwards;
   /// `cpu_us`: CPU time used so far, for the record (0: unknown); used only if stats_due.
@@ -147,6 +154,9 @@ class Server {
   /// `players`: those that were in the room.
   void ReplayTail(std::int64_t now_us, const LogTail& tail, const std::vector<int>& players);
   void ReplayTick(std::int64_t now_us, const LogTick& log);
+  void TakeLogged(const AnyMessage& message);
+  void TakeLogged(const Accepted& accepted);
+  bool RunRulesAgain(const std::vector<Meta>& values);
 
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
@@ -164,7 +174,7 @@ class Server {
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnRelease(std::int64_t now_us, Session& session, const Release& release);
   template <class Report>
-  void OnReport(const Session& session, const Report& report);
+  void OnReport(std::int64_t now_us, const Session& session, const Report& report);
   void OnProposal(Session& session, const EditOrder& proposal);
 
   // server_states.cpp
@@ -217,6 +227,7 @@ class Server {
   void LetFall(const Edit& applied, bool hung);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
+  void NoteAuthority(std::int64_t now_us);
   /// Recomputes relevance when that is due; `changed`: authority has changed.
   void UpdateInterest(std::int64_t now_us, bool changed);
   void PublishShown(std::int64_t now_us);
@@ -273,6 +284,7 @@ class Server {
   std::int64_t drivers_heard_us_ = 0;  // time of the next check for silent drivers
   std::vector<int> inputs_due_;        // players with new inputs
   std::int64_t inputs_due_tick_ = -1;  // tick of the last RelayInputs
+  std::vector<int> replayed_present_;  // players in the room, in a replay
   std::vector<Inputs> newest_inputs_;  // by player, to be relayed; without ticks: not looked up
   // Used while inputs are relayed to one session.
   InputsPacker inputs_packer_;

@@ -75,9 +75,9 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   } else if (const auto* release = std::get_if<Release>(&any)) {
     OnRelease(now_us, session, *release);
   } else if (const auto* report = std::get_if<ImpactReport>(&any)) {
-    OnReport(session, *report);
+    OnReport(now_us, session, *report);
   } else if (const auto* touches = std::get_if<TouchReport>(&any)) {
-    OnReport(session, *touches);
+    OnReport(now_us, session, *touches);
   } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
     OnProposal(session, *proposal);
   } else if (std::holds_alternative<Ready>(any)) {
@@ -292,6 +292,7 @@ void Server::OnRelease(std::int64_t now_us, Session& session, const Release& rel
     if (authority_.HoldsInEpoch(session.peer, release.mechanism[i], release.epoch[i])) {
       session.lapsed = true;
       broadcast_.Tell(authority_.TakeBack(now_us, session.peer));
+      NoteAuthority(now_us);
       return;
     }
     switch (authority_.AcceptRelease(session.peer, release.mechanism[i], release.epoch[i])) {
@@ -303,11 +304,12 @@ void Server::OnRelease(std::int64_t now_us, Session& session, const Release& rel
 }
 
 template <class Report>
-void Server::OnReport(const Session& session, const Report& report) {
+void Server::OnReport(std::int64_t now_us, const Session& session, const Report& report) {
   if (session.stage != SessionStage::kReady || rule_source_ == nullptr || InputsOnly(session)) {
     ++stats_.counters.dropped_right;
     return;
   }
+  broadcast_.NoteAccepted(now_us, session.peer, session.player, report);
   rule_source_->NoteReport(session.peer, report);
 }
 

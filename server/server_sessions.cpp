@@ -47,6 +47,7 @@ void Server::FollowSessions(std::int64_t now_us) {
       case SessionEvent::Kind::kReady:
         SendBodies(now_us, *sessions_.Find(event.peer));
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
+        broadcast_.NoteAccepted(now_us, event.peer, event.player, Ready());
         authority_.PlanSoon();
         look_soon_ = true;
         broadcast_.NotePeerReady();
@@ -59,7 +60,9 @@ void Server::FollowSessions(std::int64_t now_us) {
         if (rules_ != nullptr && event.player >= 0 && event.was_ready) {
           rules_->OnLeave(event.player);
         }
+        if (event.was_ready) broadcast_.NoteAccepted(now_us, event.peer, event.player, Bye());
         broadcast_.Tell(authority_.TakeBack(now_us, event.peer));
+        NoteAuthority(now_us);
         if (event.player >= 0 && event.was_ready) LetGo(now_us, event.player, 0);
         break;
     }

@@ -93,6 +93,7 @@ void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {
   FollowDoubts(now_us, session);
   if (kept.id.empty()) return;
   replica_.Receive(kept);
+  broadcast_.NoteAccepted(now_us, session.peer, session.player, kept);
   broadcast_.TellRest(kept, session.peer);
 }
 
@@ -102,6 +103,7 @@ void Server::OnExactStates(std::int64_t now_us, Session& session, const ExactSta
   if (kept.id.empty()) return;
   kept.utime = now_us;
   const BodyState off = replica_.TakeOver(kept);
+  broadcast_.NoteAccepted(now_us, session.peer, session.player, kept);
   const bool seen = off.position.norm() > AuthorityManager::kJump ||
                     off.velocity.norm() > AuthorityManager::kJumpVelocity;
   if (seen) ++stats_.jumps;

@@ -31,6 +31,7 @@ int FlagsOf(FileUse use) {
     case FileUse::kReplace:
       return O_WRONLY | O_CREAT;  // emptied once it is known to be a regular file
     case FileUse::kCreate: return O_WRONLY | O_CREAT | O_EXCL;
+    case FileUse::kGoOn: return O_WRONLY | O_CREAT;
     case FileUse::kAppend: return O_WRONLY | O_CREAT | O_APPEND;
   }
   SEAM_ASSERT(false);

@@ -15,6 +15,7 @@ enum class FileUse {
   kReplace,  ///< created, or emptied if it exists
   kCreate,   ///< created; refused if it exists
   kAppend,   ///< created if it does not exist
+  kGoOn,     ///< to be written from a place on; created if it does not exist
 };
 
 /// Throws OperatorError "PATH: is a FIFO, not a regular file" if `path` exists but is no regular

@@ -5,7 +5,9 @@
 
 #include <tuple>
 
+#include "common/codec/accepted.h"
 #include "common/codec/chain.h"
+#include "common/codec/log_seal.h"
 #include "common/codec/messages.h"
 #include "common/codec/packed/packed_inputs.h"
 #include "common/codec/packed/packed_states.h"
@@ -72,6 +74,10 @@
   X(Event, event_t, kBusPeer, "event", m.utime, m.session, m.sequence, m.peer, m.tick, m.text)     \
   X(TickChain, chain_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,         \
     m.messages, m.messages_crc, m.log_events, m.log_crc)                                           \
+  X(LogSeal, seal_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,            \
+    m.messages, m.messages_crc, m.ticks, m.log_events, m.log_crc)                                  \
+  X(Accepted, accepted_t, kBusPeer, "accepted", m.utime, m.session, m.sequence, m.peer, m.player,  \
+    m.data)                                                                                        \
   X(Audit, audit_t, kBusRoom, "audit", m.utime, m.session, m.sequence, m.tick, m.peer, m.player,   \
     m.body, m.refused, m.score_milli, m.step, m.told, m.expected)                                  \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                      \

@@ -298,6 +298,16 @@ bool Valid(const TickChain& m) {
          TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0;
 }
 
+bool Valid(const LogSeal& m) {
+  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Peer(m.peer) &&
+         TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0 && TicksOf(m);
+}
+
+bool Valid(const Accepted& m) {
+  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Peer(m.peer) &&
+         Within(m.player, -1, kPlayersMax - 1) && m.data.size() <= kAcceptedBytesMax;
+}
+
 bool Valid(const Audit& m) {
   const std::size_t numbers = m.body < 0 ? 0 : kAuditNumbers;
   return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Tick(m.tick) && Peer(m.peer) &&

@@ -4,7 +4,6 @@
 #include <utility>
 #include <variant>
 
-#include "common/codec/codec.h"
 #include "common/net/crc32c.h"
 #include "common/record/log_file.h"
 
@@ -31,21 +30,36 @@ std::int32_t ChainedCrc(std::int32_t crc, const std::string& channel, ByteView m
   return static_cast<std::int32_t>(Crc32c(message, Crc32c(TextBytes(channel), seed)));
 }
 
+struct ChainCheck::Seal {
+  std::int64_t session;
+  int peer;
+  std::int64_t tick, first_tick;
+  std::int32_t messages, messages_crc, log_events, log_crc;
+};
+
+std::optional<ChainCheck::Seal> ChainCheck::SealOf(const AnyMessage& message) {
+  const auto read = [](const auto& m, std::size_t ticks) {
+    const std::int64_t before = ticks > 0 ? static_cast<std::int64_t>(ticks) - 1 : 0;
+    return Seal{m.session,  m.peer,         m.tick,       m.tick - before,
+                m.messages, m.messages_crc, m.log_events, m.log_crc};
+  };
+  if (const auto* seal = std::get_if<LogSeal>(&message)) return read(*seal, TicksOf(*seal)->size());
+  if (const auto* chain = std::get_if<TickChain>(&message)) return read(*chain, 1);
+  return std::nullopt;
+}
+
 void ChainCheck::Note(ByteView header, const LogEvent& event) {
   const std::string room = RoomOfChannel(event.channel);
-  const AnyMessage message =
-      event.channel.find(".chain") == std::string::npos ? AnyMessage() : Decode(event.data);
-  const auto* chain = std::get_if<TickChain>(&message);
-  if (chain != nullptr && chain->messages >= 0) {
-    CheckMessages({room, chain->session, chain->peer}, *chain);
-  }
-  if (chain != nullptr && chain->log_events > 0) return CheckBytes(header, event, *chain);
+  std::optional<Seal> seal;
+  if (event.channel.find(".chain") != std::string::npos) seal = SealOf(Decode(event.data));
+  if (seal && seal->messages >= 0) CheckMessages({room, seal->session, seal->peer}, *seal);
+  if (seal && seal->log_events > 0) return CheckBytes(header, event, *seal);
   for (std::uint32_t* crc : {&crc_, &own_crc_}) {
     *crc = Crc32c(event.data, Crc32c(TextBytes(event.channel), Crc32c(header, *crc)));
   }
   ++events_;
   channels_.insert(event.channel);
-  if (chain != nullptr || room.empty()) return;
+  if (seal || room.empty()) return;
   const int peer = PublisherOfChannel(event.channel);
   Heard& heard = heard_[{room, SessionOf(event.data).value_or(0), peer}];
   ++heard.messages;
@@ -55,29 +69,29 @@ void ChainCheck::Note(ByteView header, const LogEvent& event) {
 
 /// Checks the messages of a publisher, unless some are missing (they are gaps in its numbers) or
 /// came twice.
-void ChainCheck::CheckMessages(const Publisher& publisher, const TickChain& chain) {
+void ChainCheck::CheckMessages(const Publisher& publisher, const Seal& seal) {
   Heard& heard = heard_[publisher];
-  if (heard.messages == chain.messages && heard.crc != chain.messages_crc) {
-    AddRange(heard.tick, chain.tick, heard.channels, &messages_damage_);
+  if (heard.messages == seal.messages && heard.crc != seal.messages_crc) {
+    AddRange(heard.tick, seal.tick, heard.channels, &messages_damage_);
   }
   heard = Heard();
-  heard.tick = chain.tick;
+  heard.tick = seal.tick;
 }
 
-void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const TickChain& chain) {
-  constexpr std::size_t kCrcBytes = sizeof chain.log_crc;
+void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& seal) {
+  constexpr std::size_t kCrcBytes = sizeof seal.log_crc;
   const ByteView data(event.data.data(), event.data.size() - kCrcBytes);
   const auto with = [&](std::uint32_t crc) {
     return Crc32c(data, Crc32c(TextBytes(event.channel), Crc32c(header, crc)));
   };
-  const auto written = static_cast<std::uint32_t>(chain.log_crc);
+  const auto written = static_cast<std::uint32_t>(seal.log_crc);
   const bool same = with(crc_) == written || with(own_crc_) == written;
-  const bool good = same && !skipped_ && events_ + 1 == chain.log_events;
+  const bool good = same && !skipped_ && events_ + 1 == seal.log_events;
   sealed_ = sealed_ || good;  // in a log of another logger none is: it has numbers of its own
   channels_.insert(event.channel);
   if (good) {
-    CloseDamage(chain.tick - 1);
-    tick_ = chain.tick;
+    CloseDamage(seal.first_tick - 1);
+    tick_ = seal.tick;
   } else {  // its tick may be what is damaged: the next good one says where the damage ended
     damaged_ = true;
     damaged_channels_.insert(channels_.begin(), channels_.end());
@@ -98,11 +112,11 @@ void ChainCheck::CloseDamage(std::int64_t last_tick) {
 
 std::vector<DamagedRange> ChainCheck::Damage() const {
   if (!sealed_) return messages_damage_;
-  ChainCheck whole = *this;
-  whole.CloseDamage(tick_ + 1);
-  std::vector<DamagedRange> all = std::move(whole.bytes_damage_);
-  if (events_ > 0 || skipped_) {
-    AddRange(tick_, tick_ + 1, channels_, &all);
+  std::vector<DamagedRange> all = bytes_damage_;
+  if (damaged_ || events_ > 0 || skipped_) {
+    std::set<std::string> channels = damaged_channels_;
+    channels.insert(channels_.begin(), channels_.end());
+    AddRange(tick_, tick_ + 1, channels, &all);
     all.back().to_the_end = true;
   }
   return all;

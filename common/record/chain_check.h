@@ -1,16 +1,17 @@
 #pragma once
-/// Finds damage of a log by the chains in it (chain_t): ranges of ticks of which a checksum is
-/// wrong.
+/// Finds damage of a log by the checksums in it (seal_t, chain_t): ranges of ticks of which a
+/// checksum is wrong.
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "common/base/bytes.h"
-#include "common/codec/chain.h"
+#include "common/codec/codec.h"
 
 namespace seam {
 
@@ -19,7 +20,7 @@ struct LogEvent;
 /// Part of a log in which something is not as it was written.
 struct DamagedRange {
   std::int64_t first_tick = 0, last_tick = 0;
-  bool to_the_end = false;         ///< the log ends without the end of its last tick
+  bool to_the_end = false;         ///< nothing from first_tick on is certain
   std::set<std::string> channels;  ///< of the events in it; one or several of them are damaged
 };
 
@@ -33,7 +34,7 @@ std::int32_t ChainedCrc(std::int32_t crc, const std::string& channel, ByteView m
 /// checked where all of them are there.
 class ChainCheck {
  public:
-  /// `crc`: log_crc of the TickChain before the first event; 0: the log's begin.
+  /// `crc`: log_crc of the seal before the first event; 0: the log's begin.
   explicit ChainCheck(std::uint32_t crc = 0) : crc_(crc) {}
   /// Notes bytes that belong to no event.
   void NoteSkipped() { skipped_ = true; }
@@ -41,24 +42,27 @@ class ChainCheck {
   void Note(ByteView header, const LogEvent& event);
   /// Returns the damaged parts so far, in the order of the log. Call after the last event.
   std::vector<DamagedRange> Damage() const;
-  /// True if all bytes before the last TickChain of a log are as they were written.
+  /// True if all bytes before the last seal of a log are as they were written.
   bool intact() const { return bytes_damage_.empty() && !damaged_; }
 
  private:
-  /// The messages heard of a publisher since its last TickChain.
+  /// The messages heard of a publisher since its last seal.
   struct Heard {
     std::int64_t messages = 0, tick = -1;
     std::int32_t crc = 0;
     std::set<std::string> channels;
   };
+  /// The fields of a LogSeal, or of a TickChain of 0.25.
+  struct Seal;
+  static std::optional<Seal> SealOf(const AnyMessage& message);
   using Publisher = std::tuple<std::string, std::int64_t, int>;  // room, session, peer
-  void CheckMessages(const Publisher& publisher, const TickChain& chain);
-  void CheckBytes(ByteView header, const LogEvent& event, const TickChain& chain);
+  void CheckMessages(const Publisher& publisher, const Seal& seal);
+  void CheckBytes(ByteView header, const LogEvent& event, const Seal& seal);
 
   std::map<Publisher, Heard> heard_;
   std::vector<DamagedRange> messages_damage_;
 
-  // Since the last TickChain of a log.
+  // Since the last seal of a log.
   std::uint32_t crc_;          // continued from it
   std::uint32_t own_crc_ = 0;  // begun anew, as by a log that was appended to another
   std::int64_t events_ = 0;

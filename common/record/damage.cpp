@@ -17,7 +17,7 @@ bool g_damage_found = false;
 std::string PartText(const DamagedRange& part) {
   std::string text = "tick " + std::to_string(part.first_tick);
   if (part.to_the_end) {
-    text = "the log ends within a tick, from " + text + " on nothing is certain";
+    text = "from " + text + " to the log's end nothing is certain";
   } else if (part.last_tick > part.first_tick) {
     text = "ticks " + std::to_string(part.first_tick) + " to " + std::to_string(part.last_tick) +
            " are damaged";

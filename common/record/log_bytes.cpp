@@ -1,5 +1,7 @@
 #include "common/record/log_bytes.h"
 
+#include <algorithm>
+
 #include "common/record/log_file.h"
 
 namespace seam {
@@ -23,6 +25,13 @@ void AppendEvent(Bytes* log, std::int64_t number, std::int64_t utime, const std:
   PutBigEndian(log, static_cast<std::uint32_t>(message.size));
   log->insert(log->end(), channel.begin(), channel.end());
   log->insert(log->end(), message.begin(), message.end());
+}
+
+void SetEventNumber(Bytes* log, std::size_t at, std::int64_t number) {
+  constexpr std::size_t kEventNumberAt = 4;
+  Bytes bytes;
+  PutBigEndian(&bytes, static_cast<std::uint64_t>(number));
+  std::copy(bytes.begin(), bytes.end(), log->begin() + static_cast<std::ptrdiff_t>(at + kEventNumberAt));
 }
 
 bool FitsLog(const std::string& channel, ByteView message) {

@@ -11,6 +11,8 @@ namespace seam {
 /// Appends an event to `log`.
 void AppendEvent(Bytes* log, std::int64_t number, std::int64_t utime, const std::string& channel,
                  ByteView message);
+/// Sets the number of the event that begins at `at`.
+void SetEventNumber(Bytes* log, std::size_t at, std::int64_t number);
 /// Returns false if an event of this channel and size does not fit a log.
 bool FitsLog(const std::string& channel, ByteView message);
 

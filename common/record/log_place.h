@@ -5,11 +5,11 @@
 
 namespace seam {
 
-/// The end of a part of a log that ends with a TickChain.
+/// The end of a part of a log that ends with a LogSeal.
 struct LogPlace {
   std::int64_t bytes = 0;
   std::int64_t number = 0;  ///< of the next event
-  std::uint32_t crc = 0;    ///< log_crc of that TickChain; 0: the log's begin
+  std::uint32_t crc = 0;    ///< log_crc of that seal; 0: the log's begin
 };
 
 }  // namespace seam

@@ -8,8 +8,8 @@
 
 namespace seam {
 
-void Recorder::EndTick(const std::string& channel, const TickChain& chain) {
-  Publish(channel, chain.utime, Encode(chain));
+void Recorder::EndTick(const std::string& channel, const LogSeal& seal, bool kept) {
+  if (kept) Publish(channel, seal.utime, Encode(seal));
 }
 
 std::string ChannelName(const std::string& room, const std::string& kind, int peer) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/base/bytes.h"
-#include "common/codec/chain.h"
+#include "common/codec/log_seal.h"
 
 namespace seam {
 
@@ -18,9 +18,10 @@ class Recorder {
   virtual ~Recorder() = default;
   /// Publishes one encoded message. Never throws; failures are counted in failures().
   virtual void Publish(const std::string& channel, std::int64_t utime, ByteView message) = 0;
-  /// Publishes the end of a peer's tick: the chain over its messages. A log adds the checksum of
-  /// its bytes, and passes them all to the operating system.
-  virtual void EndTick(const std::string& channel, const TickChain& chain);
+  /// Ends a peer's tick. `seal` is of its messages since the last one that was `kept`; only those
+  /// are published. A log adds the checksum of its bytes, and passes them all to the operating
+  /// system, ending with the seal; a later one takes the place of a seal that is not kept.
+  virtual void EndTick(const std::string& channel, const LogSeal& seal, bool kept);
   virtual std::int64_t failures() const { return 0; }
   /// Returns false if published messages have no receiver and may be skipped.
   virtual bool listening() const { return true; }

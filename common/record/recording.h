@@ -114,6 +114,8 @@ class RecordingBuilder {
   bool Keep(Load& load);
   bool Keep(Event& event);
   bool Keep(TickChain&) { return true; }  // LogReader has checked it
+  bool Keep(LogSeal&) { return true; }
+  bool Keep(Accepted&) { return true; }  // for replays of the room
   bool Keep(Audit& audit);
   bool KeepWhole(View& view);
   void AddScene();

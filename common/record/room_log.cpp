@@ -20,8 +20,8 @@
 namespace seam {
 namespace {
 
-/// Bytes of TickChain::log_crc, the last ones of an encoded TickChain and so of its event.
-constexpr std::size_t kChainCrcBytes = 4;
+/// Bytes of LogSeal::log_crc, the last ones of an encoded LogSeal and so of its event.
+constexpr std::size_t kSealCrcBytes = 4;
 
 }  // namespace
 
@@ -29,8 +29,8 @@ RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk)
     : path_(path), disk_(disk), file_(std::make_shared<File>(LogWriter::Open(path, force))) {}
 
 RoomLog::RoomLog(const std::string& path, const LogPlace& place, DiskThread* disk)
-    : path_(path), disk_(disk), place_(place) {
-  std::FILE* const stream = OpenPlainFile(path, FileUse::kAppend);
+    : path_(path), disk_(disk), end_(place) {
+  std::FILE* const stream = OpenPlainFile(path, FileUse::kGoOn);
   if (stream == nullptr) {
     throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
   }
@@ -59,65 +59,107 @@ void RoomLog::Publish(const std::string& channel, std::int64_t utime, ByteView m
   if (room_.empty()) room_ = RoomOfChannel(channel);
   if (session_ == 0) session_ = SessionOf(message).value_or(0);
   last_utime_ = utime;
-  AppendEvent(&buffer_, place_.number + events_, utime, channel, message);
-  ++events_;
+  starts_.push_back(buffer_.size());
+  AppendEvent(&buffer_, 0, utime, channel, message);
 }
 
-void RoomLog::EndTick(const std::string& channel, const TickChain& chain) {
-  Seal(channel, chain);
-  Write();
+void RoomLog::EndTick(const std::string& channel, const LogSeal& seal, bool kept) {
+  if (kept) {
+    open_.erase(channel);
+  } else {
+    open_[channel] = seal;
+  }
+  Write(channel, seal, kept);
 }
 
 void RoomLog::Flush() {
-  if (events_ > 0 && !room_.empty() && trouble_.ok()) {
-    TickChain chain;
-    chain.utime = last_utime_;
-    chain.session = session_ == 0 ? 1 : session_;
-    chain.sequence = own_chains_++;
-    chain.tick = tick_;
-    chain.messages = -1;
-    Seal(ChannelName(room_, "chain"), chain);
+  Pin();
+  if (!starts_.empty() && !room_.empty()) {
+    LogSeal seal;
+    seal.utime = last_utime_;
+    seal.session = session_ == 0 ? 1 : session_;
+    seal.sequence = own_seals_++;
+    seal.tick = tick_;
+    seal.messages = -1;
+    Write(ChannelName(room_, MessageTraits<LogSeal>::kKind), seal, true);
   }
-  Write();
+  // The last of them stands there already.
+  for (auto it = open_.begin(); open_.size() > 1 && it != open_.end(); ++it) {
+    Write(it->first, it->second, true);
+  }
+  open_.clear();
 }
 
-void RoomLog::Seal(const std::string& channel, TickChain chain) {
-  tick_ = chain.tick;
-  chain.log_events = events_ + 1;
-  Publish(channel, chain.utime, Encode(chain));
-  if (!trouble_.ok()) return;
-  std::uint8_t* const at = buffer_.data() + buffer_.size() - kChainCrcBytes;
-  place_.crc = Crc32c({buffer_.data(), buffer_.size() - kChainCrcBytes}, place_.crc);
-  for (std::size_t i = 0; i < kChainCrcBytes; ++i) {
-    at[i] = static_cast<std::uint8_t>(place_.crc >> (8 * (kChainCrcBytes - 1 - i)));
-  }
+LogPlace RoomLog::Pin() {
+  if (seal_.empty()) return end_;
+  end_.bytes += static_cast<std::int64_t>(seal_.size());
+  end_.number += 1;
+  end_.crc = seal_crc_;
+  unsealed_ = 0;
+  seal_.clear();
+  return end_;
 }
 
-void RoomLog::Write() {
+/// Writes the events and the seal, in the place of the last seal unless that was kept.
+void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
   if (const int error = file_->sync_error.exchange(0)) Fail(error);
-  std::size_t written = 0;
-  while (trouble_.ok() && written < buffer_.size()) {
-    const ssize_t now =
-        write(fileno(file_->stream), buffer_.data() + written, buffer_.size() - written);
-    if (now > 0) written += static_cast<std::size_t>(now);
-    if (now < 0 && errno != EINTR) Fail(errno);
-    if (now == 0) Fail(ENOSPC);
+  if (!trouble_.ok()) {
+    ++failures_;
+    return;
   }
-  if (trouble_.ok()) {
-    place_.bytes += static_cast<std::int64_t>(buffer_.size());
-    place_.number += events_;
-    if (!buffer_.empty()) Sync();
+  tick_ = seal.tick;
+  const auto events = static_cast<std::int32_t>(starts_.size());
+  for (std::int32_t i = 0; i < events; ++i) {
+    SetEventNumber(&buffer_, starts_[static_cast<std::size_t>(i)], end_.number + i);
   }
+  const std::uint32_t crc = Crc32c(buffer_, end_.crc);
+  const std::size_t seal_at = buffer_.size();
+  seal.log_events = unsealed_ + events + 1;
+  AppendEvent(&buffer_, end_.number + events, seal.utime, channel, Encode(seal));
+  const std::size_t crc_at = buffer_.size() - kSealCrcBytes;
+  const std::uint32_t seal_crc = Crc32c({buffer_.data() + seal_at, crc_at - seal_at}, crc);
+  for (std::size_t i = 0; i < kSealCrcBytes; ++i) {
+    buffer_[crc_at + i] = static_cast<std::uint8_t>(seal_crc >> (8 * (kSealCrcBytes - 1 - i)));
+  }
+  int error = WriteAt(end_.bytes, buffer_);
+  if (error == 0 && seal_.size() > buffer_.size()) {  // the last one reached farther
+    error = CutOff(end_.bytes + static_cast<std::int64_t>(buffer_.size()));
+  }
+  if (error != 0) return Fail(error);
+  end_ = {end_.bytes + static_cast<std::int64_t>(seal_at), end_.number + events, crc};
+  unsealed_ += events;
+  seal_.assign(buffer_.begin() + static_cast<std::ptrdiff_t>(seal_at), buffer_.end());
+  seal_crc_ = seal_crc;
   buffer_.clear();
-  events_ = 0;
+  starts_.clear();
+  if (kept) Pin();
+  Sync();
+}
+
+/// Returns 0, or the error.
+int RoomLog::WriteAt(std::int64_t at, const Bytes& bytes) {
+  for (std::size_t written = 0; written < bytes.size();) {
+    const ssize_t now = pwrite(fileno(file_->stream), bytes.data() + written,
+                               bytes.size() - written, at + static_cast<std::int64_t>(written));
+    if (now == 0) return ENOSPC;
+    if (now > 0) written += static_cast<std::size_t>(now);
+    if (now < 0 && errno != EINTR) return errno;
+  }
+  return 0;
+}
+
+int RoomLog::CutOff(std::int64_t bytes) {
+  return ftruncate(fileno(file_->stream), static_cast<off_t>(bytes)) == 0 ? 0 : errno;
 }
 
 /// Takes back a tick of which only a part could be written.
 void RoomLog::Fail(int error) {
-  failures_ += std::max(1, events_);
+  failures_ += static_cast<std::int64_t>(starts_.size()) + 1;
+  buffer_.clear();
+  starts_.clear();
   if (!trouble_.ok()) return;
   trouble_ = Status::Error(path_ + ": cannot be written: " + std::strerror(error));
-  if (ftruncate(fileno(file_->stream), static_cast<off_t>(place_.bytes)) != 0) ++failures_;
+  if (CutOff(end_.bytes) != 0 || WriteAt(end_.bytes, seal_) != 0) ++failures_;
 }
 
 void RoomLog::Sync() {

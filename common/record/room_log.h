@@ -1,18 +1,22 @@
 #pragma once
-/// The log of a room that a program writes itself: a LogWriter's format, with the checksum of each
-/// tick's bytes in a TickChain, so that LogReader finds any damage.
+/// The log of a room that a program writes itself: a LogWriter's format, with a checksum of the
+/// bytes in each LogSeal, so that LogReader finds any damage.
 ///
-///   tick n:    events ... | TickChain      one write(2), before the tick's datagrams leave
+///   tick n:    events ... | LogSeal      one write(2), before the tick's datagrams leave
+///   tick n+1:    events ... | LogSeal    in the place of that seal, unless it was kept
 ///   each 50 ms:  fdatasync, in a DiskThread
 ///
-/// A process that is killed loses the tick that it has not written; a machine that loses power the
-/// last 50 ms and what the disk delays.
+/// So the log always ends with a seal, and holds few of them. A process that is killed loses the
+/// tick that it has not written; a machine that loses power the last 50 ms, more if the disk is
+/// slow.
 
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/base/bytes.h"
 #include "common/base/status.h"
@@ -38,17 +42,18 @@ class RoomLog : public Recorder {
 
   /// Adds an event with the timestamp `utime`; it is written with the end of the tick.
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
-  /// Writes all events since the last call, and `chain` with the checksum of their bytes. If they
+  /// Writes all events since the last call, and `seal` with the checksum of their bytes. If they
   /// cannot be written the file ends where it did before, and nothing is written any more.
-  void EndTick(const std::string& channel, const TickChain& chain) override;
-  /// Writes the events since the last tick, with a TickChain of its own.
+  void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override;
+  /// Writes the events since the last tick, with a LogSeal of its own; keeps the last seal of each
+  /// channel.
   void Flush();
   /// Number of events that were not written.
   std::int64_t failures() const override { return failures_; }
   /// Returns the first failure: "PATH: cannot be written: No space left on device".
   const Status& trouble() const { return trouble_; }
-  /// Returns the end of the written bytes.
-  const LogPlace& place() const { return place_; }
+  /// Returns the end of the written bytes, and keeps the seal there: a log may go on from it.
+  LogPlace Pin();
 
   /// Time between two syncs, us.
   static constexpr std::int64_t kSyncUs = 50000;
@@ -64,8 +69,9 @@ class RoomLog : public Recorder {
     std::atomic<bool> syncing{false};
     std::atomic<int> sync_error{0};
   };
-  void Seal(const std::string& channel, TickChain chain);
-  void Write();
+  void Write(const std::string& channel, LogSeal seal, bool kept);
+  int WriteAt(std::int64_t at, const Bytes& bytes);
+  int CutOff(std::int64_t bytes);
   void Sync();
   void Fail(int error);
 
@@ -73,13 +79,17 @@ class RoomLog : public Recorder {
   DiskThread* const disk_;
   std::shared_ptr<File> file_;
   Status trouble_;
-  LogPlace place_;
-  Bytes buffer_;             // events since place_
-  std::int32_t events_ = 0;  // in buffer_
-  std::string room_;         // of the channels; "": none so far
+  LogPlace end_;               // of the written events, without a seal that is not kept
+  std::int32_t unsealed_ = 0;  // events since the last kept seal; end_.crc includes them
+  Bytes seal_;                 // behind end_, not kept
+  std::uint32_t seal_crc_ = 0;
+  std::map<std::string, LogSeal> open_;  // the last seal of each channel that is not kept
+  Bytes buffer_;                         // events to be written at end_
+  std::vector<std::size_t> starts_;      // of each in buffer_
+  std::string room_;                     // of the channels; "": none so far
   std::int64_t session_ = 0;
-  std::int64_t tick_ = 0;  // of the last TickChain
-  std::int64_t own_chains_ = 0;
+  std::int64_t tick_ = 0;  // of the last seal
+  std::int32_t own_seals_ = 0;
   std::int64_t last_utime_ = 0;
   std::int64_t synced_us_ = 0;
   std::int64_t failures_ = 0;

@@ -63,12 +63,12 @@ void Sink::Publish(const std::string& channel, std::int64_t utime, ByteView mess
   if (bus_ != nullptr) bus_->Publish(channel, utime, message);
 }
 
-void Sink::EndTick(const std::string& channel, const TickChain& chain) {
+void Sink::EndTick(const std::string& channel, const LogSeal& seal, bool kept) {
   if (Ready()) {
     own_channels_[channel] = true;
-    log_->EndTick(channel, chain);
+    log_->EndTick(channel, seal, kept);
   }
-  if (bus_ != nullptr) bus_->EndTick(channel, chain);
+  if (bus_ != nullptr) bus_->EndTick(channel, seal, kept);
 }
 
 std::int64_t Sink::failures() const {

@@ -27,7 +27,7 @@ class Sink : public Recorder {
 
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
   /// Ends the tick on the bus and in the log, which is then with the operating system.
-  void EndTick(const std::string& channel, const TickChain& chain) override;
+  void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override;
   std::int64_t failures() const override;
   bool listening() const override { return bus_ != nullptr || !record_path_.empty(); }
   /// Returns the first failure to write the log; ok if there is none, or no log.
@@ -36,8 +36,8 @@ class Sink : public Recorder {
   void Poll();
   /// Passes the log to the operating system, so that failures() includes a full disk.
   void Flush();
-  /// Returns the end of what is in the log; its begin if there is none.
-  LogPlace place() const { return log_ != nullptr ? log_->place() : LogPlace(); }
+  /// Returns the end of what is in the log, see RoomLog::Pin; its begin if there is none.
+  LogPlace Pin() { return log_ != nullptr ? log_->Pin() : LogPlace(); }
   /// The thread for what waits for the disk.
   DiskThread& disk() { return disk_; }
 

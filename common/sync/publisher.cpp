@@ -4,9 +4,13 @@
 #include <utility>
 
 #include "common/record/chain_check.h"
+#include "common/record/log_file.h"
 
 namespace seam {
 namespace {
+
+/// Bytes of a seal in a log, without channel and ticks.
+constexpr std::size_t kSealBytes = kLogHeaderBytes + 58;
 
 template <typename T>
 std::vector<T> Slice(const std::vector<T>& v, std::size_t first, std::size_t last) {
@@ -26,22 +30,48 @@ void Publisher::Number(Message& message) {
   if constexpr (Traits::kTravels == Travels::kBusPlayer) whose = message.player;
   const std::string channel = ChannelName(room_, Traits::kKind, whose);
   message.session = session_;
-  message.sequence = sequence_[channel]++;
+  message.sequence = static_cast<decltype(message.sequence)>(sequence_[channel]++);
   const Bytes bytes = Encode(message);
-  ++chain_.messages;
-  chain_.messages_crc = ChainedCrc(chain_.messages_crc, channel, bytes);
+  ++seal_.messages;
+  seal_.messages_crc = ChainedCrc(seal_.messages_crc, channel, bytes);
+  bytes_ += kLogHeaderBytes + channel.size() + bytes.size();
+  pending_ = true;
   recorder_.Publish(channel, message.utime, bytes);
 }
 
-void Publisher::EndTick(std::int64_t utime, int peer, std::int64_t tick) {
+void Publisher::NoteTick(std::uint64_t hash) {
+  const std::int32_t before = std::exchange(before_step_, 0);
+  const std::int32_t after = NewMessages() - before;
+  ticks_.push_back({0, before, after, static_cast<std::uint16_t>(hash)});
+  sealed_ += before + after;
+}
+
+void Publisher::EndTick(std::int64_t utime, int peer, std::int64_t tick, bool keep) {
   if (!recorder_.listening()) return;
-  const std::string channel = ChannelName(room_, MessageTraits<TickChain>::kKind, peer);
-  chain_.utime = utime;
-  chain_.session = session_;
-  chain_.sequence = sequence_[channel]++;
-  chain_.peer = peer;
-  chain_.tick = tick;
-  recorder_.EndTick(channel, std::exchange(chain_, TickChain()));
+  pending_ = false;
+  if (!ticks_.empty()) {  // what came after the step is the last tick's
+    ticks_.back().after += NewMessages();
+    sealed_ += NewMessages();
+  }
+  const std::string channel = ChannelName(room_, MessageTraits<LogSeal>::kKind, peer);
+  seal_.utime = utime;
+  seal_.session = session_;
+  seal_.sequence = static_cast<std::int32_t>(sequence_[channel]);
+  seal_.peer = peer;
+  seal_.tick = tick;
+  seal_.ticks = PackTicks(ticks_);
+  const std::size_t size = kSealBytes + channel.size() + seal_.ticks.size();
+  const bool full = ++unkept_ == kSealTicksMax || bytes_ >= kSealShare * size;
+  // A call of the server may step twice, and all ticks must fit a seal.
+  const bool kept = keep || full || ticks_.size() + 2 > static_cast<std::size_t>(kSealTicksMax);
+  recorder_.EndTick(channel, seal_, kept);
+  if (!kept) return;
+  ++sequence_[channel];
+  seal_ = LogSeal();
+  ticks_.clear();
+  bytes_ = 0;
+  sealed_ = before_step_ = 0;
+  unkept_ = 0;
 }
 
 template <class Message>
@@ -54,6 +84,7 @@ template void Publisher::Publish(ScenePart);
 template void Publisher::Publish(Inputs);
 template void Publisher::Publish(States);
 template void Publisher::Publish(Grants);
+template void Publisher::Publish(Accepted);
 template void Publisher::Publish(Audit);
 template void Publisher::Publish(EditOrder);
 template void Publisher::Publish(Meta);

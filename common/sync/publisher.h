@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/codec/codec.h"
 #include "common/record/recorder.h"
@@ -24,10 +26,18 @@ class Publisher {
   void Publish(Message message);
   /// Splits views of more than kViewBodiesMax bodies.
   void Publish(const View& message);
-  /// Publishes a checksum of all that was published since the last call. `peer`: this one.
-  void EndTick(std::int64_t utime, int peer, std::int64_t tick);
-  /// True if something was published since then.
-  bool pending() const { return chain_.messages > 0; }
+  /// Notes that the next messages come after the beginning of a tick's step (server only).
+  void NoteStep() { before_step_ = NewMessages(); }
+  /// Notes the end of the tick that began with NoteStep. `hash`: of the world.
+  void NoteTick(std::uint64_t hash);
+  /// Seals all that was published. The seal is kept when it is little beside the messages (or
+  /// `keep`), and the next one is then of later messages only. `peer`: this one.
+  void EndTick(std::int64_t utime, int peer, std::int64_t tick, bool keep = false);
+  /// True if something was published since the last call of EndTick.
+  bool pending() const { return pending_; }
+
+  /// A seal has at most one byte in so many of the log.
+  static constexpr std::size_t kSealShare = 40;
 
  private:
   template <class Message>
@@ -37,7 +47,16 @@ class Publisher {
   std::string room_;
   std::int64_t session_;
   std::map<std::string, std::int64_t> sequence_;
-  TickChain chain_;  // of the messages since the last EndTick
+  /// Messages that belong to no tick yet.
+  std::int32_t NewMessages() const { return seal_.messages - sealed_; }
+
+  LogSeal seal_;                   // of the messages since the last one that was kept
+  std::size_t bytes_ = 0;          // of these in a log
+  std::vector<SealedTick> ticks_;  // since then
+  std::int32_t sealed_ = 0;        // messages of these
+  std::int32_t before_step_ = 0;
+  int unkept_ = 0;  // calls of EndTick since then
+  bool pending_ = false;
 };
 
 }  // namespace seam

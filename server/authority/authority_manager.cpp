@@ -150,7 +150,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   if (memory.hand_over == HandOver::kOvertaken) {
     memory.hand_over = HandOver::kNone;
     record.epoch += 2;  // later than any epoch sent so far
-    replica_.authority().Set(m, record);
+    SetRecord(m, record);
     changed_.push_back(m);
     return true;
   }
@@ -159,7 +159,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
     released = true;
     memory.hand_over = HandOver::kNone;
     record = WithoutHolder(record);
-    replica_.authority().Set(m, record);
+    SetRecord(m, record);
     taken_over_ = true;
   }
   if (record.authority == 0) ForgetQuestions(m);
@@ -194,7 +194,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   }
   record.authority = authority;
   record.secondaries = secondaries;
-  replica_.authority().Set(m, record);
+  SetRecord(m, record);
   changed_.push_back(m);
   return kept;
 }
@@ -212,7 +212,7 @@ void AuthorityManager::Withdraw(int m) {
   memory.hand_over = HandOver::kNone;
   memory.withdrawn = true;
   record.epoch += 2;  // the question used up one
-  replica_.authority().Set(m, record);
+  SetRecord(m, record);
   changed_.push_back(m);
 }
 

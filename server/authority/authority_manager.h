@@ -115,6 +115,10 @@ class AuthorityManager {
   /// within kConvergeS, s; longer delays hand-overs, by half a second at most.
   static constexpr float kJump = 0.05f, kJumpVelocity = 0.2f;
   static constexpr double kConvergeS = 0.25;
+  /// Sets records of the server's own table, as a log has them.
+  void Assume(const Grants& own);
+  /// Returns the mechanisms with another record in the server's own table since the last call.
+  std::vector<int> TakeSet() { return std::exchange(set_, {}); }
 
  private:
   /// Stage of a hand-over. The table names the old holder until the end.
@@ -190,7 +194,13 @@ class AuthorityManager {
 
   const Scene& scene_;
   const SyncConfig config_;
+  void SetRecord(int m, const AuthorityRecord& record) {
+    replica_.authority().Set(m, record);
+    set_.push_back(m);
+  }
+
   Replica& replica_;
+  std::vector<int> set_;
   const bool physics_edits_;
   const bool islands_;
   AuthorityPlan plan_;     // rebuilt by Plan and by PlanAfter, by mechanism

@@ -40,13 +40,26 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us,
     record.authority = 0;
     record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation used up one
     memory.hand_over = HandOver::kNone;
-    replica_.authority().Set(m, record);
+    SetRecord(m, record);
     sleeping_index_.Take(m);
     ForgetQuestions(m);
   }
   if (mechanisms.empty()) return {};
   replica_.RolesChanged();
   return table().Export(now_us, replica_.tick(), mechanisms);
+}
+
+void AuthorityManager::Assume(const Grants& own) {
+  std::size_t follower = 0;
+  for (std::size_t i = 0; i < own.mechanism.size(); ++i) {
+    AuthorityRecord record;
+    record.authority = own.authority[i];
+    record.epoch = own.epoch[i];
+    for (int n = 0; n < own.followers[i]; ++n) record.secondaries.Add(own.follower[follower++]);
+    const int m = table().IndexOf(own.mechanism[i]);
+    if (m >= 0 && record.epoch >= table().at(m).epoch) replica_.authority().Set(m, record);
+  }
+  replica_.RolesChanged();
 }
 
 void AuthorityManager::Persist(StateArchive& a) {

@@ -2,34 +2,58 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include "common/base/check.h"
 #include "common/codec/codec.h"
 #include "common/record/log_file.h"
+#include "common/record/tick_splitter.h"
 
 namespace seam {
 namespace {
 
-/// Adds what a tick's events say.
-void AddTick(std::int64_t tick, std::vector<AnyMessage>* messages, LogTail* tail) {
-  for (AnyMessage& any : *messages) {
-    if (auto* inputs = std::get_if<Inputs>(&any)) {
-      const std::int64_t acts = std::min(tick, inputs->first_tick);
-      tail->ticks[acts].inputs.push_back(std::move(*inputs));
-    } else if (auto* states = std::get_if<States>(&any)) {
-      if (states->peer != 0) tail->ticks[tick].states.push_back(std::move(*states));
-    } else if (auto* grants = std::get_if<Grants>(&any)) {
-      tail->ticks[tick].grants.push_back(std::move(*grants));
-    } else if (auto* edit = std::get_if<EditOrder>(&any)) {
-      tail->ticks[tick].edits.push_back(std::move(*edit));
-    } else if (auto* meta = std::get_if<Meta>(&any)) {
-      tail->ticks[tick].values.push_back(std::move(*meta));
+/// Adds what a tick's messages say.
+void AddTick(TickMessages* of, LogTail* tail) {
+  const std::int64_t tick = of->tick;
+  for (std::vector<AnyMessage>* messages : {&of->before, &of->after}) {
+    for (AnyMessage& any : *messages) {
+      if (auto* inputs = std::get_if<Inputs>(&any)) {
+        const std::int64_t acts = std::min(tick, inputs->first_tick);
+        tail->ticks[acts].inputs.push_back(std::move(*inputs));
+      } else if (auto* states = std::get_if<States>(&any)) {
+        if (states->peer != 0) tail->ticks[tick].states.push_back(std::move(*states));
+      } else if (auto* grants = std::get_if<Grants>(&any)) {
+        tail->ticks[tick].grants.push_back(std::move(*grants));
+      } else if (auto* edit = std::get_if<EditOrder>(&any)) {
+        tail->ticks[tick].edits.push_back(std::move(*edit));
+      } else if (auto* meta = std::get_if<Meta>(&any)) {
+        tail->ticks[tick].values.push_back(std::move(*meta));
+      }
     }
   }
-  messages->clear();
   tail->last_tick = std::max(tail->last_tick, tick);
+}
+
+/// A seal, as a log ends with one.
+struct LogEnd {
+  std::uint32_t crc = 0;
+  std::vector<TickMessages> ticks;
+};
+
+/// Returns the end that a message is, if it is one, with the server's ticks that it ends.
+std::optional<LogEnd> EndOf(const AnyMessage& any, TickSplitter* splitter) {
+  const auto read = [&](const auto* seal) {
+    LogEnd end{static_cast<std::uint32_t>(seal->log_crc), {}};
+    if (seal->peer == 0) end.ticks = splitter->End(*seal);
+    return end;
+  };
+  const auto* seal = std::get_if<LogSeal>(&any);
+  const auto* chain = std::get_if<TickChain>(&any);
+  if (seal != nullptr && seal->log_events > 0) return read(seal);
+  if (chain != nullptr && chain->log_events > 0) return read(chain);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -44,25 +68,24 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
   } catch (const OperatorError& error) {
     return Status::Error(error.what());
   }
-  std::vector<AnyMessage> messages;  // since the last tick's end
+  TickSplitter splitter;
   LogEvent event;
   while (log->Next(&event)) {
     const bool good = log->intact() && log->skipped_bytes() == 0;
     const bool ours = RoomOfChannel(event.channel) == room;
     AnyMessage any = ours ? Decode(event.data) : AnyMessage();
-    const auto* chain = std::get_if<TickChain>(&any);
-    const bool ends = chain != nullptr && chain->log_events > 0;
+    std::optional<LogEnd> end = EndOf(any, &splitter);
     if (!good) {
-      if (!ends) continue;
+      if (!end) continue;
       tail->damage = path + ": is damaged after tick " + std::to_string(tail->last_tick);
       return Status::Ok();
     }
-    if (!ends) {
-      messages.push_back(std::move(any));
-      continue;
+    if (end) {
+      for (TickMessages& tick : end->ticks) AddTick(&tick, tail);
+      tail->end = {log->place_bytes(), event.number + 1, end->crc};
+    } else if (ours && PublisherOfChannel(event.channel) == 0) {
+      splitter.Add(std::move(any));
     }
-    if (chain->peer == 0 && chain->messages >= 0) AddTick(chain->tick, &messages, tail);
-    tail->end = {log->place_bytes(), event.number + 1, static_cast<std::uint32_t>(chain->log_crc)};
   }
   return Status::Ok();
 }

@@ -32,7 +32,7 @@ class Killed {
     cluster_ = std::make_unique<Cluster>(config);
     cluster_->RunToTick(saved_tick);
     EXPECT_EQ(cluster_->server().tick(), saved_tick);
-    const LogPlace place = log.place();
+    const LogPlace place = log.Pin();
     const Bytes bytes = cluster_->server().Save(cluster_->now_us());
     cluster_->RunToTick(tick);
     Status status = ReadLogTail(file_.path(), "main", place, &tail);

@@ -45,11 +45,11 @@ void Cluster::Tap::Publish(const std::string& channel, std::int64_t, ByteView me
   }
 }
 
-void Cluster::Tap::EndTick(const std::string& channel, const TickChain& chain) {
-  TickChain now = chain;
+void Cluster::Tap::EndTick(const std::string& channel, const LogSeal& seal, bool kept) {
+  LogSeal now = seal;
   now.utime = cluster_.now_us_;
-  if (cluster_.config_.keep) memory.EndTick(channel, now);
-  if (cluster_.config_.recorder != nullptr) cluster_.config_.recorder->EndTick(channel, now);
+  if (cluster_.config_.keep) memory.EndTick(channel, now, kept);
+  if (cluster_.config_.recorder != nullptr) cluster_.config_.recorder->EndTick(channel, now, kept);
 }
 
 Cluster::Cluster(const ClusterConfig& config)

@@ -96,7 +96,7 @@ class Cluster {
    public:
     explicit Tap(const Cluster& cluster) : cluster_(cluster) {}
     void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
-    void EndTick(const std::string& channel, const TickChain& chain) override;
+    void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override;
     bool listening() const override {
       return cluster_.config_.keep || cluster_.config_.recorder != nullptr;
     }

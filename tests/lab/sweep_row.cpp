@@ -26,7 +26,7 @@ class Digest : public Recorder {
     value_ = Fnv1a(&utime, sizeof utime, value_);
     value_ = Fnv1a(message.data, message.size, value_);
   }
-  void EndTick(const std::string&, const TickChain&) override {}  // says no more than the rest
+  void EndTick(const std::string&, const LogSeal&, bool) override {}  // says no more than the rest
   std::uint64_t value() const { return value_; }
 
  private:

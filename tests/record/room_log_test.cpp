@@ -33,14 +33,14 @@ Bytes EventOf(int peer, std::int64_t sequence, const std::string& text) {
 
 /// Ends a tick as a Publisher does: with a checksum of what it published, if `messages` says so.
 void EndTick(RoomLog* log, std::int64_t tick, std::int32_t messages, std::int32_t crc) {
-  TickChain chain;
+  LogSeal chain;
   chain.utime = 1000000 + tick;
   chain.session = kSession;
-  chain.sequence = tick;
+  chain.sequence = static_cast<std::int32_t>(tick);
   chain.tick = tick;
   chain.messages = messages;
   chain.messages_crc = crc;
-  log->EndTick(ChannelName("r", "chain", 0), chain);
+  log->EndTick(ChannelName("r", "chain", 0), chain, true);
 }
 
 /// Ticks of two events of the server and one of a client.
@@ -79,8 +79,8 @@ TEST(RoomLog, EachTickEndsWithItsChecksum) {
     DiskThread disk;
     RoomLog log(file.path(), false, &disk);
     WriteTicks(&log, 0, 30);
-    EXPECT_EQ(log.place().number, 30 * 4);
-    EXPECT_EQ(static_cast<std::size_t>(log.place().bytes), file.Read().size()) << "written at once";
+    EXPECT_EQ(log.Pin().number, 30 * 4);
+    EXPECT_EQ(static_cast<std::size_t>(log.Pin().bytes), file.Read().size()) << "written at once";
     log.Publish(ChannelName("r", "event", 1), 5, EventOf(1, 30, "after the last tick"));
   }
   const Found found = ReadAll(file.path());
@@ -96,7 +96,7 @@ TEST(RoomLog, EveryFlippedBitIsReportedWithItsTick) {
     RoomLog log(file.path(), false, nullptr);
     for (std::int64_t tick = 0; tick < 40; ++tick) {
       WriteTicks(&log, tick, tick + 1);
-      ends.push_back(log.place().bytes);
+      ends.push_back(log.Pin().bytes);
     }
   }
   const Bytes good = file.Read();
@@ -157,7 +157,7 @@ TEST(RoomLog, GoesOnWhereATickWasCutOff) {
   {
     RoomLog log(file.path(), false, nullptr);
     WriteTicks(&log, 0, 10);
-    place = log.place();
+    place = log.Pin();
     WriteTicks(&log, 10, 11);
   }
   Bytes cut = file.Read();
@@ -180,7 +180,7 @@ TEST(RoomLog, AFullDiskLeavesWholeTicks) {
   TemporaryFile file;
   RoomLog log(file.path(), false, nullptr);
   WriteTicks(&log, 0, 5);
-  const LogPlace place = log.place();
+  const LogPlace place = log.Pin();
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);

@@ -202,6 +202,20 @@ class RandomMessages {
     m.tick = Tick(), Set(m.messages, -1, INT32_MAX), Set(m.log_events, 0, INT32_MAX);
     m.messages_crc = Int32(), m.log_crc = Int32();
   }
+  void Fill(LogSeal& m) {
+    Common(m), m.session = Integer(1, INT64_MAX - 1), Set(m.sequence, 0, INT32_MAX);
+    Set(m.peer, 0, 31), m.tick = Tick(), Set(m.messages, -1, INT32_MAX);
+    Set(m.log_events, 0, INT32_MAX), m.messages_crc = Int32(), m.log_crc = Int32();
+    std::vector<SealedTick> ticks(Count(0, kSealTicksMax));
+    for (SealedTick& tick : ticks) {
+      Set(tick.before, 0, INT32_MAX), Set(tick.after, 0, 300), Set(tick.hash, 0, UINT16_MAX);
+    }
+    m.ticks = PackTicks(ticks);
+  }
+  void Fill(Accepted& m) {
+    Common(m), m.session = Integer(1, INT64_MAX - 1), Set(m.sequence, 0, INT32_MAX);
+    Set(m.peer, 0, 31), Set(m.player, -1, 31), Vector(m.data, Count(0, 300), 0, 255);
+  }
   void Fill(Audit& m) {
     Common(m), Sequence(m), m.session = Integer(1, INT64_MAX - 1), m.tick = Tick();
     Set(m.peer, 0, 31), Set(m.player, -1, 31), Set(m.body, -1, kIdsMax - 1);

@@ -32,11 +32,11 @@ void KeepArena(const Workspace& folder, std::int64_t last_tick) {
   RoomLog log(StateLogOf(folder.path(), "main"), true, nullptr);
   for (std::int64_t tick = 60; tick <= last_tick; tick += 60) {
     room.StepTo(tick);
-    TickChain chain;
+    LogSeal chain;
     chain.session = 5;
     chain.tick = tick;
-    log.EndTick("SEAM.main.chain.0", chain);
-    ASSERT_TRUE(WriteSnapshot(folder.path(), "main", {tick, log.place(), room.Save()}).ok());
+    log.EndTick("SEAM.main.chain.0", chain, true);
+    ASSERT_TRUE(WriteSnapshot(folder.path(), "main", {tick, log.Pin(), room.Save()}).ok());
   }
 }
 
