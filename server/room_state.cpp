@@ -86,31 +86,37 @@ std::vector<Meta> RoomState::Metadata(std::int64_t now_us) const {
   return parts_.rules->metadata().Export(now_us, parts_.replica.tick());
 }
 
-Bytes RoomState::Save(std::int64_t now_us) {
-  StateArchive head;
-  head.Section("room");
+Bytes RoomState::Copy(std::int64_t now_us, std::size_t expected_bytes) {
+  StateArchive a;
+  a.Reserve(expected_bytes);
+  std::uint64_t header = 0;
+  for (std::size_t i = 0; i < sizeof(Header) / sizeof header; ++i) a.Word(&header);
+  a.Section("room");
   Room settings = parts_.room;
   settings.session = 0;  // the server that loads the room begins a session of its own
   Bytes room = Encode(settings);
-  PersistBytes(head, &room);
+  PersistBytes(a, &room);
   std::vector<Snapshot> edits = Edits(0);
-  head.List(&edits, StateArchive::kListMost, [&](Snapshot* part) {
+  a.List(&edits, StateArchive::kListMost, [&](Snapshot* part) {
     Bytes bytes = Encode(*part);
-    PersistBytes(head, &bytes);
+    PersistBytes(a, &bytes);
   });
-  StateArchive body;
   std::vector<int> present;
-  Persist(body, now_us, &present);
-  const Bytes parts = body.Take();
-  Bytes all(sizeof(Header));
-  const Bytes begin = head.Take();
-  all.insert(all.end(), begin.begin(), begin.end());
-  all.insert(all.end(), parts.begin(), parts.end());
+  Persist(a, now_us, &present);
+  return a.Take();
+}
+
+void RoomState::Finish(Bytes* copy) {
   Header header{};
   std::memcpy(header.magic, kRoomMagic, sizeof kRoomMagic);
   header.version = kRoomStateVersion;
-  header.hash = Fnv1a(all.data() + sizeof header, all.size() - sizeof header);
-  std::memcpy(all.data(), &header, sizeof header);
+  header.hash = Fnv1a(copy->data() + sizeof header, copy->size() - sizeof header);
+  std::memcpy(copy->data(), &header, sizeof header);
+}
+
+Bytes RoomState::Save(std::int64_t now_us) {
+  Bytes all = Copy(now_us, 0);
+  Finish(&all);
   return all;
 }
 

@@ -95,6 +95,10 @@ class RoomState {
   /// Call between two ticks. Makes this tick a barrier of the world (World::Barrier), which the
   /// room that loads it has as well: both then continue with the same bits.
   Bytes Save(std::int64_t now_us);
+  /// The same in two steps: a copy, which another thread finishes. `expected_bytes`: of the last
+  /// one, which saves moving the bytes as they grow.
+  Bytes Copy(std::int64_t now_us, std::size_t expected_bytes);
+  static void Finish(Bytes* copy);
   /// Loads the bytes of Save into new parts, with a world of the topology of `saved`. Returns one
   /// line if they are damaged; the parts must then not be used any more. `gone` gets the players
   /// that were in the room.

@@ -15,6 +15,10 @@ RoomState Server::State() {
 
 Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }
 
+Bytes Server::CopyState(std::int64_t now_us, std::size_t expected_bytes) {
+  return State().Copy(now_us, expected_bytes);
+}
+
 Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail) {
   std::vector<int> gone;
   Status status = State().Load(saved, now_us, &gone);

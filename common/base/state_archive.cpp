@@ -1,7 +1,5 @@
 #include "common/base/state_archive.h"
 
-#include <algorithm>
-
 namespace seam {
 
 Bytes StateArchive::Take() {
@@ -10,10 +8,8 @@ Bytes StateArchive::Take() {
   return std::exchange(to_, {});
 }
 
-void StateArchive::Put(const void* data, std::size_t size) {
-  if (to_.size() < used_ + size) to_.resize(std::max<std::size_t>(4096, 2 * (used_ + size)));
-  std::memcpy(to_.data() + used_, data, size);
-  used_ += size;
+void StateArchive::Grow(std::size_t size) {
+  to_.resize(std::max<std::size_t>(4096, 2 * (used_ + size)));
 }
 
 bool StateArchive::Get(void* data, std::size_t size) {

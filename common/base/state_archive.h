@@ -7,6 +7,7 @@
 /// error. After the first error every read returns zero or an empty list; the caller looks at
 /// status() when it is through, and throws the objects away if it is not ok.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +33,8 @@ class StateArchive {
   bool ok() const { return status_.ok(); }
   /// Returns the first error, one line.
   const Status& status() const { return status_; }
+  /// Expects so many bytes to be written.
+  void Reserve(std::size_t bytes) { to_.resize(std::max(to_.size(), bytes)); }
   /// Returns the bytes written so far and begins anew.
   Bytes Take();
   /// Returns how many bytes have not been read.
@@ -143,7 +146,12 @@ class StateArchive {
   static constexpr int kCountMost = 1 << 28;
 
  private:
-  void Put(const void* data, std::size_t size);
+  void Put(const void* data, std::size_t size) {
+    if (to_.size() - used_ < size) Grow(size);
+    std::memcpy(to_.data() + used_, data, size);
+    used_ += size;
+  }
+  void Grow(std::size_t size);
   /// Returns false, with an error, if there are too few bytes.
   bool Get(void* data, std::size_t size);
   template <class Number>

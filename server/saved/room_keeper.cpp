@@ -6,6 +6,7 @@
 
 #include "common/base/process.h"
 #include "common/sync/mode.h"
+#include "server/room_state.h"
 #include "server/saved/snapshot_file.h"
 #include "server/server.h"
 
@@ -24,12 +25,13 @@ void RoomKeeper::AfterTick(Server& server, std::int64_t now_us) {
 
 void RoomKeeper::Save(Server& server, std::int64_t now_us) {
   const std::int64_t begin_us = SteadyClockUs();
-  RoomSnapshot snapshot{server.tick(), sink_.place(), server.Save(now_us)};
+  RoomSnapshot snapshot{server.tick(), sink_.Pin(), server.CopyState(now_us, bytes_)};
   longest_us_ = std::max(longest_us_, SteadyClockUs() - begin_us);
   bytes_ = snapshot.room.size();
   shared_->writing = true;
   sink_.disk().Do(
-      [shared = shared_, folder = folder_, room = room_, snapshot = std::move(snapshot)] {
+      [shared = shared_, folder = folder_, room = room_, snapshot = std::move(snapshot)]() mutable {
+        RoomState::Finish(&snapshot.room);
         const Status status = WriteSnapshot(folder, room, snapshot);
         shared->writing = false;
         const std::lock_guard<std::mutex> lock(shared->mutex);
