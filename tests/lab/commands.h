@@ -47,6 +47,14 @@ struct DivergenceCommand {
 /// Prints the first difference of two recordings' views. 0: equal; 1: they differ.
 int FirstDivergence(const DivergenceCommand& command);
 
+struct ReplayCommand {
+  std::string log, session;
+};
+
+/// Does a room again from its log alone, and compares each tick with what was recorded. 0: equal;
+/// 1: prints the first tick that differs.
+int RunReplay(const ReplayCommand& command);
+
 struct SweepCommand {
   std::string file;  ///< sweep file: parameters to vary (docs/lab.md)
   TableFlags output;

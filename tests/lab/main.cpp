@@ -72,6 +72,14 @@ Command* DefineDivergence(Command& app, DivergenceCommand& c) {
   return divergence;
 }
 
+Command* DefineReplay(Command& app, ReplayCommand& c) {
+  Command* replay =
+      &app.Add("replay", "do a room again from its log, and compare each tick with the recorded");
+  replay->Option("LOG", c.log, "an LCM log of --record, --state or run").Required();
+  replay->Option("--session", c.session, "of a log with several sessions: number or id");
+  return replay;
+}
+
 Command* DefineSweep(Command& app, SweepCommand& c) {
   Command* sweep = &app.Add("sweep", "run and measure all combinations of settings");
   sweep->Option("FILE", c.file, "what to vary (TOML; docs/lab.md)").Required();
@@ -184,6 +192,7 @@ int main(int argc, char** argv) {
   RunCommand run;
   CheckCommand check;
   DivergenceCommand divergence;
+  ReplayCommand replay;
   SweepCommand sweep;
   MergeCommand merge;
   VerifyCommand verify;
@@ -202,6 +211,7 @@ int main(int argc, char** argv) {
     commands = {{DefineRun(app, run), [&] { return RunLog(run); }},
                 {DefineCheck(app, check), [&] { return RunCheck(check); }},
                 {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
+                {DefineReplay(app, replay), [&] { return RunReplay(replay); }},
                 {DefineSweep(app, sweep), [&] { return RunSweep(sweep); }},
                 {DefineMerge(app, merge), [&] { return RunMerge(merge); }},
                 {DefineVerify(app, verify), [&] { return RunVerify(verify); }},

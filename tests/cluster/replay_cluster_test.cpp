@@ -1,0 +1,116 @@
+/// Rooms that are done again from their logs alone.
+
+#include <gtest/gtest.h>
+
+#include "common/base/check.h"
+#include "common/record/log_file.h"
+#include "common/record/room_log.h"
+#include "tests/lab/cluster.h"
+#include "tests/lab/replay/replayed_room.h"
+#include "tests/support/arena.h"
+#include "tests/support/temporary_file.h"
+
+namespace seam {
+namespace replay_cluster_test {
+
+/// Records a session.
+void Play(ClusterConfig config, const std::string& path) {
+  RoomLog log(path, true, nullptr);
+  config.keep = false;
+  config.recorder = &log;
+  Cluster(config).Run();
+}
+
+/// Returns the first tick that differs; -1: none does.
+std::int64_t FirstOther(const std::string& path, std::size_t* ticks) {
+  const LoggedRoom logged = ReadLoggedRoom(path, "");
+  *ticks = logged.ticks.size();
+  ReplayedRoom room(logged);
+  while (!room.done()) {
+    if (room.Step() != ReplayedRoom::Tick::kSame) return room.server().tick();
+  }
+  return -1;
+}
+
+TEST(ReplayCluster, EachTickHasTheRecordedHash) {
+  for (const auto& [scene, mode] :
+       {std::pair("crossing", "buffer"), std::pair("rally", "buffer"),
+        std::pair("gluehouse", "buffer"), std::pair("seesaw", "central"),
+        std::pair("playground", "central")}) {
+    TemporaryFile file;
+    ClusterConfig config;
+    config.scene = scene;
+    config.mode = mode;
+    config.drive = Drive::kBot;
+    config.duration_s = 6;
+    Play(config, file.path());
+    std::size_t ticks = 0;
+    EXPECT_EQ(FirstOther(file.path(), &ticks), -1) << scene << " " << mode;
+    EXPECT_EQ(ticks, 360u);
+  }
+}
+
+TEST(ReplayCluster, RulesScriptsAndEditsAreDoneAgain) {
+  for (const char* mode : {"buffer", "central"}) {
+    TemporaryFile file;
+    ClusterConfig config;
+    config.scene_text = kArena;
+    config.mode = mode;
+    config.duration_s = 6;
+    Play(config, file.path());
+    std::size_t ticks = 0;
+    EXPECT_EQ(FirstOther(file.path(), &ticks), -1) << mode;
+  }
+}
+
+TEST(ReplayCluster, AnotherInputIsFoundInItsTick) {
+  TemporaryFile file;
+  ClusterConfig config;
+  config.mode = "central";  // the server drives the cars
+  config.drive = Drive::kBot;
+  config.duration_s = 4;
+  Play(config, file.path());
+  LoggedRoom logged = ReadLoggedRoom(file.path(), "");
+  std::int64_t changed = -1;
+  for (TickMessages& tick : logged.ticks) {
+    for (AnyMessage& message : tick.before) {
+      auto* inputs = std::get_if<Inputs>(&message);
+      if (inputs == nullptr || tick.tick < 100 || changed >= 0) continue;
+      inputs->drive.back() = static_cast<std::int8_t>(inputs->drive.back() > 0 ? -127 : 127);
+      changed = tick.tick;
+    }
+  }
+  ASSERT_GT(changed, 0);
+  ReplayedRoom room(logged);
+  std::int64_t first = -1;
+  while (!room.done() && first < 0) {
+    if (room.Step() != ReplayedRoom::Tick::kSame) first = room.server().tick();
+  }
+  EXPECT_GE(first, changed);
+  EXPECT_LE(first, changed + 15) << "inputs come some ticks early";
+}
+
+TEST(ReplayCluster, ALogWithoutItsBeginningIsRefused) {
+  TemporaryFile file, late;
+  ClusterConfig config;
+  config.duration_s = 2;
+  Play(config, file.path());
+  LogReader reader(file.path());
+  {
+    RoomLog log(late.path(), true, nullptr);
+    std::int64_t n = 0;
+    for (LogEvent event; reader.Next(&event); ++n) {
+      const AnyMessage any = Decode(event.data);
+      const auto* seal = std::get_if<LogSeal>(&any);
+      if (seal != nullptr && n > 300) {
+        log.EndTick(event.channel, *seal, true);
+      } else if (seal == nullptr && (n > 300 || std::holds_alternative<Room>(any))) {
+        log.Publish(event.channel, event.timestamp_us, event.data);
+      }
+    }
+  }
+  EXPECT_THROW(ReadLoggedRoom(late.path(), ""), OperatorError);
+}
+
+}  // namespace replay_cluster_test
+}  // namespace seam

@@ -1,0 +1,86 @@
+#include "tests/lab/replay/replayed_room.h"
+
+#include <utility>
+#include <variant>
+
+#include "common/base/check.h"
+#include "common/codec/codec.h"
+#include "common/record/log_file.h"
+#include "common/sync/method.h"
+
+namespace seam {
+namespace {
+
+ServerConfig ConfigOf(const Room& room) {
+  ServerConfig config;
+  config.sync = MakeSyncConfig(MethodNames{room.mode, room.reconcile, room.predict});
+  config.sync.tick_hz = room.tick_hz;
+  config.sync.send_hz = room.send_hz;
+  config.sync.input_delay_ticks = room.input_delay_ticks;
+  config.sync.seed = config.seed = room.seed;
+  config.room = room.room;
+  config.publish = Publish::kNone;
+  return config;
+}
+
+}  // namespace
+
+class ReplayedRoom::Silence : public Recorder {
+ public:
+  void Publish(const std::string&, std::int64_t, ByteView) override {}
+  bool listening() const override { return false; }
+};
+
+LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session) {
+  LoggedRoom logged;
+  logged.recording = ReadRecording(path, "", session);
+  const Room& room = logged.recording.room;
+  LogReader reader(path);
+  TickSplitter splitter;
+  for (LogEvent event; reader.Next(&event);) {
+    const bool ours = RoomOfChannel(event.channel) == room.room &&
+                      PublisherOfChannel(event.channel) == 0 &&
+                      SessionOf(event.data).value_or(0) == room.session;
+    if (!ours) continue;
+    AnyMessage any = Decode(event.data);
+    const auto* seal = std::get_if<LogSeal>(&any);
+    if (seal == nullptr) {
+      splitter.Add(std::move(any));
+      continue;
+    }
+    for (TickMessages& tick : splitter.End(*seal)) logged.ticks.push_back(std::move(tick));
+  }
+  const std::string why = logged.ticks.empty()
+                              ? "has no hashes of its ticks: record it with --record, --state or "
+                                "seam-lab run, of version 0.26 or later"
+                          : logged.ticks.front().tick != 1
+                              ? "begins with tick " + std::to_string(logged.ticks.front().tick) +
+                                    " of the room: a room is done again from its first tick on"
+                              : "";
+  if (!why.empty()) throw OperatorError(path + ": " + why);
+  for (std::size_t i = 1; i < logged.ticks.size(); ++i) {
+    if (logged.ticks[i].tick == logged.ticks[i - 1].tick + 1) continue;
+    throw OperatorError(path + ": tick " + std::to_string(logged.ticks[i - 1].tick + 1) +
+                        " is missing");
+  }
+  return logged;
+}
+
+ReplayedRoom::ReplayedRoom(const LoggedRoom& logged)
+    : logged_(logged), net_(network_.Attach({1, 7777})), silence_(std::make_unique<Silence>()) {
+  const Room& room = logged.recording.room;
+  server_ = std::make_unique<Server>(ParseScene(room.scene_text, room.scene_name), ConfigOf(room),
+                                     *net_, *silence_, entropy_);
+}
+
+ReplayedRoom::~ReplayedRoom() = default;
+
+ReplayedRoom::Tick ReplayedRoom::Step() {
+  const TickMessages& tick = logged_.ticks[next_++];
+  const bool same_values = server_->Replay(tick);
+  const auto hash = static_cast<std::uint16_t>(server_->replica().world().Hash());
+  if (tick.hash && hash != *tick.hash) return Tick::kOtherWorld;
+  return same_values ? Tick::kSame : Tick::kOtherValues;
+}
+
+}  // namespace seam
