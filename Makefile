@@ -1,7 +1,7 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds the mains of seam-measure, seam-export, seam-import and seam-view too, client/swarm/,
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure, seam-export, seam-import, seam-view and seam-log too, client/swarm/,
 # client/top/ and client/front/ those of seam-swarm, seam-top and seam); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
@@ -63,7 +63,7 @@ DEBS_lint := clang-tidy git
 
 # All .cpp below a folder.
 below = $(sort $(shell find $(1) -name '*.cpp'))
-MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp client/front/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp render/view_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp client/front/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp render/view_main.cpp render/log_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 
 # The objects of sources. Two thirds of a build is parsing headers, so the sources of a folder are compiled together
@@ -85,6 +85,7 @@ FRONT := $(call obj,$(filter-out $(MAINS),$(filter client/front/%,$(SOURCES))))
 CLIENT := $(filter-out $(WATCHERS) $(FRONT),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
 EXPORT := $(call obj,$(filter render/export/%,$(SOURCES))) $(call alone,render/canvas/shapes.cpp render/canvas/figure.cpp)
+LOG := $(call obj,$(filter render/log/%,$(SOURCES)))
 IMPORT := $(call obj,$(filter render/import/%,$(SOURCES))) $(EXPORT)
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 # What seam-lab has from the tests.
@@ -95,7 +96,7 @@ TESTS := $(call obj,$(TEST_SOURCES))
 OBJECTS_ALONE := $(call alone,$(SOURCES))
 OBJECTS := $(OBJECTS_ALONE) $(UNITS:%=$(OUT)/unity/%.o)
 CODEC := $(filter $(OUT)/common/codec/% $(OUT)/unity/common/codec%,$(OBJECTS))
-PROGRAMS := $(addprefix $(OUT)/,seam seam-server seam-token seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-view seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam seam-server seam-token seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-view seam-log seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
@@ -237,6 +238,8 @@ $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-log: $(OUT)/render/log_main.o $(LOG) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-import: $(OUT)/render/import_main.o $(IMPORT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -ltinyxml2 -o $@

@@ -79,6 +79,7 @@ TEST_F(DamagedLog, EveryReaderSaysSoAndEndsWithStatus1) {
       {"seam-export", "--csv", "-o", folder_ / "out.csv", "--force"},
       {"seam-render", "--sheet", "2", "--size", "320x240", "-o", folder_ / "out.png", "--force"},
       {"seam-render", "--page", "-o", folder_ / "out.html", "--force"},
+      {"seam-log", "stats"},
       {"seam-lab", "first-divergence", folder_ / "whole.lcm"}};
   Random random(5);
   for (const auto& reader : readers) {

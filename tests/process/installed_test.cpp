@@ -85,7 +85,7 @@ TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {
             std::string(kVersion) + "\n");
   for (const char* name :
        {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top", "seam-render",
-        "seam-measure", "seam-export", "seam-import", "seam-view", "seam", "seam-lab"}) {
+        "seam-measure", "seam-export", "seam-import", "seam-view", "seam-log", "seam", "seam-lab"}) {
     const auto program = Run({At(std::string("bin/") + name), "--version"}, folder);
     EXPECT_EQ(program->status(), 0) << program->Story();
     EXPECT_EQ(program->errors(), "");
@@ -96,7 +96,7 @@ TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {
 
 TEST_F(Installed, EveryProgramHasItsManPageAndItsCompletionInEachShell) {
   for (const std::string name : {"seam-server", "seam-client", "seam-render", "seam-measure",
-                                 "seam-export", "seam-import", "seam-view", "seam", "seam-lab"}) {
+                                 "seam-export", "seam-import", "seam-view", "seam-log", "seam", "seam-lab"}) {
     for (const std::string& file :
          {"share/man/man1/" + name + ".1", "share/bash-completion/completions/" + name,
           "share/zsh/site-functions/_" + name,

@@ -94,14 +94,15 @@ Names Below(const std::string& help, const std::string& title) {
 void AddPrograms(Interface* interface) {
   for (const char* program :
        {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top", "seam-render",
-        "seam-measure", "seam-export", "seam-import", "seam-view", "seam-lab"}) {
+        "seam-measure", "seam-export", "seam-import", "seam-view", "seam-log", "seam-lab"}) {
     const std::string help = Output({program, "--help"});
-    interface->Add(std::string(program) + " flag", Below(help, "options"));
-    if (std::string(program) != "seam-lab") continue;
+    const std::string name = program;
+    interface->Add(name + " flag", Below(help, "options"));
+    if (name != "seam-lab" && name != "seam-log") continue;
     const Names commands = Below(help, "subcommands");
-    interface->Add("seam-lab subcommand", commands);
+    interface->Add(name + " subcommand", commands);
     for (const std::string& command : commands) {
-      interface->Add("seam-lab " + command + " flag",
+      interface->Add(name + " " + command + " flag",
                      Below(Output({program, command, "--help"}), "options"));
     }
   }

@@ -18,7 +18,7 @@ using Words = std::vector<std::string>;
 
 constexpr const char* kPrograms[] = {"seam-server",  "seam-client", "seam-render",
                                      "seam-measure", "seam-export", "seam-import",
-                                     "seam-view",    "seam",        "seam-lab"};
+                                     "seam-view", "seam-log",    "seam",        "seam-lab"};
 
 std::string Generated(const std::string& program, const std::string& kind) {
   Program run({BuiltProgram(program), "--generate", kind});

@@ -195,6 +195,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"render/draw", "render/(canvas|playback)"},
       {"render/export", "render/canvas"},
       {"render/import", "none"},
+      {"render/log", "none"},
       {"render/page", "render/(canvas|draw|playback)"},
       {"render/view", "render/(canvas|page|playback)"},
       {"tests/support/allocations", "none"},
@@ -222,6 +223,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"tests/lab/report/joints", "tests/lab(/experiment|/report)?"},
       {"tests/lab/load", "tests/lab(/experiment)?"},
       {"tests/lab/relief", "tests/lab(/(handover|load|report|world))?"},
+      {"tests/lab/replay", "tests/lab"},
       {"tests/lab/titles", "tests/lab(/experiment|/report(/sessions)?)?"},
       {"tests/lab/validity", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};

@@ -1,0 +1,56 @@
+#include "render/log/log_check.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "common/codec/codec.h"
+#include "common/record/damage.h"
+#include "common/record/log_file.h"
+
+namespace seam {
+
+LogCheck CheckLog(const std::string& path) {
+  LogCheck check;
+  LogReader reader(path);
+  for (LogEvent event; reader.Next(&event);) {
+    const auto bytes =
+        static_cast<std::int64_t>(kLogHeaderBytes + event.channel.size() + event.data.size());
+    ++check.events;
+    check.bytes += bytes;
+    const std::string room = RoomOfChannel(event.channel);
+    if (room.empty()) {
+      ++check.foreign;
+      continue;
+    }
+    const AnyMessage message = Decode(event.data);
+    if (std::holds_alternative<std::monostate>(message)) {
+      ++check.undecodable;
+      continue;
+    }
+    const bool seal =
+        std::holds_alternative<LogSeal>(message) || std::holds_alternative<TickChain>(message);
+    check.seals += seal ? 1 : 0;
+    SessionSpan& span = check.rooms[room][SessionOf(event.data).value_or(0)];
+    if (span.events++ == 0) span.first_us = span.last_us = event.timestamp_us;
+    span.bytes += bytes;
+    span.first_us = std::min(span.first_us, event.timestamp_us);
+    span.last_us = std::max(span.last_us, event.timestamp_us);
+    if (const auto* view = std::get_if<View>(&message)) {
+      span.first_tick = span.last_tick < 0 ? view->tick : std::min(span.first_tick, view->tick);
+      span.last_tick = std::max(span.last_tick, view->tick);
+    }
+  }
+  check.skipped_bytes = reader.skipped_bytes();
+  check.damage = reader.damage();
+  return check;
+}
+
+std::vector<std::string> LinesOf(const LogCheck& check) {
+  Recording found;  // what all readers say about damage
+  found.skipped_bytes = check.skipped_bytes;
+  found.undecodable = check.undecodable;
+  found.damage = check.damage;
+  return DamageLines(found);
+}
+
+}  // namespace seam

@@ -1,0 +1,37 @@
+#pragma once
+/// Reads a whole log: its damage, and its sessions.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/record/chain_check.h"
+
+namespace seam {
+
+/// A session as far as a log has it.
+struct SessionSpan {
+  std::int64_t events = 0, bytes = 0;
+  std::int64_t first_us = 0, last_us = 0;       ///< timestamps
+  std::int64_t first_tick = 0, last_tick = -1;  ///< of the views
+};
+
+struct LogCheck {
+  std::int64_t events = 0, bytes = 0, seals = 0;
+  std::int64_t foreign = 0;      ///< events of other channels
+  std::int64_t undecodable = 0;  ///< of ours
+  std::int64_t skipped_bytes = 0;
+  std::vector<DamagedRange> damage;
+  std::map<std::string, std::map<std::int64_t, SessionSpan>> rooms;  ///< by name and session
+
+  bool damaged() const { return skipped_bytes > 0 || undecodable > 0 || !damage.empty(); }
+};
+
+/// Throws OperatorError if there is no such log.
+LogCheck CheckLog(const std::string& path);
+/// Returns a line for each damaged part of a log.
+std::vector<std::string> LinesOf(const LogCheck& check);
+
+}  // namespace seam
