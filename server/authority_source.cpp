@@ -100,12 +100,21 @@ void AuthoritySource::NoteReport(int peer, const TouchReport& report) {
   for (std::size_t i = 0; i < report.a.size(); ++i) {
     if (!MayReport(peer, report, i)) {
       ++stats_.dropped_right;
-    } else if (!MayTouch(replica_.world(), trail_, {report.a[i], report.b[i]}, report.tick)) {
+    } else if (DoubtedPart(report.a[i]) || DoubtedPart(report.b[i]) ||
+               !MayTouch(replica_.world(), trail_, {report.a[i], report.b[i]}, report.tick)) {
       ++stats_.dropped_implausible;
     } else {
       NoteTouch(peer, {{report.a[i], report.b[i]}, report.tick});
     }
   }
+}
+
+bool AuthoritySource::DoubtedPart(PartId part) const {
+  const World& world = replica_.world();
+  const int assembly = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
+  if (assembly < 0) return false;
+  const Assembly& its = world.composition().assemblies[static_cast<std::size_t>(assembly)];
+  return !its.anchored && Doubted(world.BodyOfId(its.id));
 }
 
 bool AuthoritySource::MayReport(int peer, const TouchReport& report, std::size_t i) const {

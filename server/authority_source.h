@@ -81,6 +81,7 @@ class AuthoritySource : public RuleSource {
     int peer = 0;
   };
   bool MayReport(int peer, const TouchReport& report, std::size_t i) const;
+  bool DoubtedPart(PartId part) const;
   bool MayTell(int peer, int body, std::int32_t epoch) const;
   void NoteTouch(int peer, const NewTouch& touch);
   bool MayReport(int peer, const Reported& reported, std::int32_t epoch);

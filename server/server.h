@@ -51,7 +51,7 @@ struct ServerConfig {
   /// Limit for UDP payload to each client; 0: none.
   double client_bytes_per_s = kClientBytesPerS;
   Publish publish = Publish::kAll;
-  TrustMode trust = TrustMode::kOff;  ///< doubts about clients (docs/trust.md)
+  TrustMode trust = TrustMode::kAct;  ///< doubts about clients (docs/trust.md)
   /// The server's lasting keys, the same in all its rooms; nullptr: drawn from its entropy.
   std::shared_ptr<const KeyPair> identity;
   /// Key of the operator whose connect tokens are demanded; nullptr: anybody may join. With it the
@@ -191,7 +191,9 @@ class Server {
   void TakeWaitingStates(std::int64_t now_us);
   /// Takes the proposals of breaks of which the server has felt the load; drops those that it has
   /// not felt in time.
+  bool BoreLoad(const EditOrder& proposal);
   void TakeWaitingBreaks();
+  bool Doubted(int player) const;
   /// True if a proposal is a break of loaded glue in a room of which the server steps all.
   bool NeedsLoad(const EditOrder& proposal) const;
   void Propose(Session& session, const EditOrder& proposal);

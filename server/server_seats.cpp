@@ -48,6 +48,7 @@ void Server::RunSeats(std::int64_t now_us) {
   std::set<int> taken;  // the first in the order of players gets it
   for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
     const int pressed = replica_.TakePressed(p);
+    if (pressed != 0 && Doubted(p)) continue;  // what is on probation enters nothing
     const std::vector<Edit> edits = SeatEdits(world, p, pressed, &taken);
     for (const Edit& edit : edits) edits_->Add(edit);
     if (pressed != 0 && edits.empty()) RefuseSeat(now_us, p, pressed, taken);

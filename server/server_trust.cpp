@@ -55,19 +55,40 @@ bool Server::NeedsLoad(const EditOrder& proposal) const {
   return joint.kind == JointKind::kGlue && joint.strength > 0 && !joint.grouped && !IsGrip(joint);
 }
 
+/// Where copies agree, the server's own world feels the load that the holder's did.
+bool Server::BoreLoad(const EditOrder& proposal) {
+  const Edit edit = ToEdit(proposal);
+  const std::int32_t joint = edit.As<BreakEdit>()->joint;
+  const Topology& topology = replica_.world().topology();
+  if (!topology.HasJoint(joint)) return true;  // a stale proposal
+  if (config_.sync.policy->GoesBack(0)) return replica_.FeltBreak(joint, proposal.tick);
+  return filter_.MayBreak(topology.scene().joints[static_cast<std::size_t>(joint)]);
+}
+
+bool Server::Doubted(int player) const {
+  if (config_.trust != TrustMode::kAct) return false;
+  const std::vector<int>& own = replica_.drivers().MechanismsOf(player);
+  for (int body = 0; body < replica_.world().body_count(); ++body) {
+    if (!filter_.plausible().OnProbation(body)) continue;
+    const int m = replica_.world().mechanism(body);
+    if (std::find(own.begin(), own.end(), m) != own.end()) return true;
+  }
+  return false;
+}
+
 void Server::TakeWaitingBreaks() {
   const auto most = static_cast<std::int64_t>(kLoadWaitS * scene_.solver.tick_hz);
   for (WaitingBreak& waiting : std::exchange(waiting_breaks_, {})) {
     Session* const session = sessions_.Find(waiting.peer);
     if (session == nullptr || session->stage != SessionStage::kReady) continue;
     const DropCount before = DropsOf(stats_.counters);
-    const Edit edit = ToEdit(waiting.proposal);
-    if (replica_.FeltBreak(edit.As<BreakEdit>()->joint, waiting.proposal.tick)) {
+    if (BoreLoad(waiting.proposal)) {
       Propose(*session, waiting.proposal);
     } else if (replica_.tick() - waiting.since < most) {
       waiting_breaks_.push_back(std::move(waiting));
     } else {
       ++stats_.counters.dropped_implausible;
+      ++stats_.connections.loadless;
       if (session->player >= 0) ladder_.Note(session->player, kLoadlessWeight);
     }
     AddDrops(stats_.counters, before, &session->account->dropped);

@@ -82,8 +82,8 @@ bool StateFilter::Believed(int body, const Claim& claim) {
   const BodyState& state = claim.state;
   if (OutsideBounds(scene_, state.position)) return false;
   if (state.velocity.norm() > scene_.speed_limit || std::fabs(state.spin) > kSpinMax) return false;
-  const bool plausible =
-      trust_ == TrustMode::kOff || plausible_.Judge(body, claim.tick, state, !claim.rests);
+  const bool plausible = trust_ == TrustMode::kOff ||
+                         plausible_.Judge(body, claim.tick, claim.revision, state, !claim.rests);
   if (trust_ == TrustMode::kAct) return plausible;
   return plausible_.Reachable(body, claim.tick, state.position, 1);
 }

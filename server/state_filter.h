@@ -41,6 +41,8 @@ class StateFilter {
   }
   /// Returns the doubts about accepted and refused states since the last call.
   std::vector<Doubt> TakeDoubts() { return plausible_.TakeDoubts(); }
+  /// See Plausible::MayBreak.
+  bool MayBreak(const Joint& joint) { return plausible_.MayBreak(joint); }
   /// See Plausible.
   const Plausible& plausible() const { return plausible_; }
 

@@ -20,6 +20,7 @@ struct Connections {
   std::int64_t rests = 0;         ///< clients without some bodies at rest: sent again
   std::int64_t least_line = 0;    ///< least budget of a client now, bytes/s
   std::int64_t thin_lines = 0;    ///< clients whose path was full once, and is the limit now
+  std::int64_t loadless = 0;      ///< proposed breaks of glue that bore no load
   std::int64_t doubts = 0;        ///< messages with states that differ from what is expected
   std::int64_t distrusted = 0;    ///< players whose bodies the server holds now for their doubts
 };

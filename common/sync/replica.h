@@ -113,6 +113,10 @@ class Replica {
   /// Returns this peer's copy of a body at a tick if it simulated it, and all inputs that can have
   /// moved it are known and acted on; else nullptr. Valid until the next call that changes this.
   const BodyState* SettledPast(int body, std::int64_t tick) const;
+  /// Like above, of a peer's state after `revision` edits; nullptr also if that peer lacked an edit
+  /// of that time, or if this copy rests on a guess: on dead reckoning, or on a world that a late
+  /// input could no longer change. The next state heard of the body ends that.
+  const BodyState* ComparablePast(int body, std::int64_t tick, int revision) const;
   /// True if this peer's own world broke the joint within a quarter of a second of the tick.
   bool FeltBreak(int joint, std::int64_t tick) const;
   /// Server only; see Roles::SetSilentHolders.

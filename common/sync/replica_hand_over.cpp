@@ -83,6 +83,13 @@ const BodyState* Replica::SettledPast(int body, std::int64_t tick) const {
   return memory_.ComparablePast(body, tick);
 }
 
+const BodyState* Replica::ComparablePast(int body, std::int64_t tick, int revision) const {
+  const BodyTrack& track = memory_.track(body);
+  const std::int64_t sure = std::max(track.dynamic_since, replay_.missed());
+  if (track.heard_tick <= sure || replay_.LacksEdit(revision, tick)) return nullptr;
+  return SettledPast(body, tick);
+}
+
 void Replica::Persist(StateArchive& a) {
   WorldSnapshot now;
   if (!a.reading()) {

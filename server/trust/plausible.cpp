@@ -20,14 +20,14 @@ constexpr float kWeighedS = 0.25f;
 /// Distance of a place from the way that the told velocities explain, m. Bots in collisions over
 /// every network: at most .48 m in a gap of .27 s.
 constexpr float kWaySlack = 0.6f;
-/// After a longer silence the server's own copy is the reference, s. A copy that the server does
-/// not simulate knows nothing of what the body met: it is the reference only beyond a holder's
-/// lease.
+/// After a longer silence the server's own copy is the reference, s. A copy that does not come to
+/// the holder's state by itself knows nothing of what the body met: it is the reference only beyond
+/// a holder's lease.
 constexpr float kWayMaxS = 0.5f, kUnseenWayMaxS = 2;
 /// Time after an edit in which differences that are not gross say nothing, s: as long as every send
 /// has the states of what an edit has changed.
 constexpr float kSettlesS = 1;
-/// Velocity that a collision may add without having been told, m/s.
+/// Velocity that a collision may add though no body near was told to be as fast, m/s.
 constexpr float kCollisionVelocity = 5;
 
 /// Distance of a point from the segment between two others.
@@ -47,7 +47,34 @@ Plausible::Plausible(const Scene& scene, const Replica& replica)
     : scene_(scene),
       replica_(replica),
       accepted_(replica.table(), BodyRule::kSame),
-      memory_(replica.table(), BodyRule::kOrigin) {}
+      memory_(replica.table(), BodyRule::kOrigin),
+      strikers_(replica.world(), [this](int body) { return SpeedOfLate(body); }),
+      note_begun_(replica.table(), [this](const BodyRemap& change) { NoteBegun(change); }) {
+  for (int body = 0; body < memory_.size(); ++body) NoteBegun(body);
+}
+
+void Plausible::NoteBegun(int body) {
+  memory_[body].began = replica_.world().tick();
+  memory_[body].first = replica_.world().Read(body);
+}
+
+/// A body that an edit has made begins where it is in the server's world.
+void Plausible::NoteBegun(const BodyRemap& change) {
+  for (int body = 0; body < memory_.size(); ++body) {
+    if (!change.bodies[static_cast<std::size_t>(body)].same) NoteBegun(body);
+  }
+}
+
+void Plausible::NoteSpeed(int body, std::int64_t tick, float speed) {
+  Memory& memory = memory_[body];
+  if (speed < memory.fast && Seconds(tick - memory.fast_tick) < Strikers::kSeconds) return;
+  memory.fast = speed;
+  memory.fast_tick = tick;
+}
+
+float Plausible::SpeedOfLate(int body) const {
+  return std::max(memory_[body].fast, replica_.world().Read(body).velocity.norm());
+}
 
 float Plausible::Seconds(std::int64_t ticks) const {
   return static_cast<float>(ticks) * replica_.world().dt();
@@ -78,15 +105,20 @@ void Plausible::NoteDoubt(int body, std::int64_t tick, const BodyState& told,
   const float silence = memory.judged < 0 ? kWeighedS : Seconds(tick - memory.judged);
   const bool gross = Way(off) > kGross || Kick(off) > kGrossVelocity;
   const float weight = std::clamp(silence / kWeighedS, 0.0f, 1.0f) * (gross ? kGrossWeight : 1);
+  ++counts_.doubted;
+  counts_.refused += refused ? 1 : 0;
   doubts_.push_back({body, tick, told, expected, weight, refused});
 }
 
-bool Plausible::Judge(int body, std::int64_t tick, const BodyState& state, bool whole) {
+bool Plausible::Judge(int body, std::int64_t tick, int revision, const BodyState& state,
+                      bool whole) {
   if (std::exchange(revision_, replica_.revision()) != replica_.revision()) {
     edited_ = replica_.tick();
   }
-  const BodyState* const copy = replica_.SettledPast(body, tick);
+  const BodyState* const copy = replica_.ComparablePast(body, tick, revision);
   bool believed = false;
+  ++counts_.judged;
+  counts_.by_copy += copy != nullptr ? 1 : 0;
   if (copy != nullptr) {
     BodyState off = Minus(state, *copy);
     off.angle = WrapAngle(off.angle);
@@ -98,6 +130,7 @@ bool Plausible::Judge(int body, std::int64_t tick, const BodyState& state, bool 
   Memory& memory = memory_[body];
   memory.judged = std::max(memory.judged, tick);
   memory.probation = believed ? 0 : 1;
+  if (believed && whole) NoteSpeed(body, tick, state.velocity.norm());
   return believed;
 }
 
@@ -121,27 +154,33 @@ bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state,
 
 /// The way since the last accepted state is explained by a change of velocity at one moment
 /// between: it ends on the segment between the two velocities times the time. The told velocity
-/// counts as far as drives and a collision explain it. A place that the server's own copy is near
-/// needs no explanation.
+/// counts as far as drives and collisions explain it. A body that was silent for long is where the
+/// server last had it, or has moved on from there as far as lost messages explain.
 bool Plausible::JudgeByWay(int body, std::int64_t tick, const BodyState& state, bool whole) {
   const World& world = replica_.world();
-  const BodyState copy = world.Read(body);
-  const Accepted& last = accepted_[body];
-  const bool simulated = world.activity(body) == Activity::kSimulated;
-  const float longest = simulated ? kWayMaxS : kUnseenWayMaxS;
+  const Memory& memory = memory_[body];
+  Accepted last = accepted_[body];
+  if (last.tick < memory.began) last.tick = memory.began, last.state = memory.first;
+  const bool copied =
+      world.activity(body) == Activity::kSimulated && replica_.CopiesAgree(world.mechanism(body));
+  const float longest = copied ? kWayMaxS : kUnseenWayMaxS;
   const bool known = last.tick >= 0 && Seconds(tick - last.tick) <= longest && tick >= last.tick;
-  const BodyState from = known ? last.state : copy;
-  const float seconds = std::fabs(Seconds(tick - (known ? last.tick : world.tick())));
+  const BodyState from = known ? last.state : world.Read(body);
+  float seconds = std::fabs(Seconds(tick - (known ? last.tick : world.tick())));
+  if (!known && !copied) seconds = std::max(seconds, kWayMaxS);
   const float driven = kDrivenAcceleration + scene_.gravity.norm();
   Vec2 told = whole ? state.velocity : from.velocity;
-  const float most = from.velocity.norm() + driven * seconds + kCollisionVelocity;
+  float most = from.velocity.norm() + kCollisionVelocity;
+  if (told.norm() > most) most = std::max(most, strikers_.SpeedOf(body));
+  most += driven * seconds;
   if (told.norm() > most) told *= most / told.norm();
   float slack = kWaySlack + driven * seconds * seconds / 2;
-  if (!simulated) slack += kCollisionVelocity * seconds;  // it may have met anything
-  const float sign = known || tick >= world.tick() ? 1.0f : -1.0f;
+  // It may have met anything, and been thrown to and fro.
+  if (!copied) slack += std::max(kCollisionVelocity, from.velocity.norm()) * seconds;
   const Vec2 way = state.position - from.position;
-  const float off = DistanceFrom(way, sign * seconds * from.velocity, sign * seconds * told);
-  if (off <= slack) return true;
+  const auto off = [&](float s) { return DistanceFrom(way, s * from.velocity, s * told); };
+  // A copy of now may be ahead of the told tick or behind it.
+  if (off(seconds) <= slack || (!known && off(-seconds) <= slack)) return true;
   NoteDoubt(body, tick, state, from, true);
   return false;
 }

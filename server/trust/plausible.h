@@ -14,6 +14,7 @@
 #include "common/codec/messages.h"
 #include "common/sync/replica.h"
 #include "common/sync/table/body_column.h"
+#include "server/trust/strikers.h"
 
 namespace seam {
 
@@ -45,11 +46,19 @@ class Plausible {
   bool Waits(const States& states) const;
   /// True if the state of a body is believed. Notes a doubt if it differs. `whole`: velocity and
   /// spin were told too.
-  bool Judge(int body, std::int64_t tick, const BodyState& state, bool whole = true);
+  bool Judge(int body, std::int64_t tick, int revision, const BodyState& state, bool whole = true);
   /// True if the place is within reach of the last accepted one at `times` the speed limit.
   bool Reachable(int body, std::int64_t tick, const Vec2& position, float times) const;
+  /// True if the told speeds of the bodies about a glued joint explain that it broke: for joints
+  /// of which the server's own world feels no load.
+  bool MayBreak(const Joint& joint) { return strikers_.LoadOf(joint) >= joint.strength / 2; }
   /// True from a refused state of a body until its next accepted one.
   bool OnProbation(int body) const { return memory_[body].probation != 0; }
+  /// Numbers of states since the start.
+  struct Counts {
+    std::int64_t judged = 0, by_copy = 0, doubted = 0, refused = 0;
+  };
+  const Counts& counts() const { return counts_; }
   /// Returns the doubts since the last call.
   std::vector<Doubt> TakeDoubts() { return std::exchange(doubts_, {}); }
 
@@ -68,6 +77,10 @@ class Plausible {
     float moved = 0, kicked = 0;  // believed against the copy, m and m/s
     std::int64_t forgotten = 0;   // tick up to which they have fallen
     char probation = 0;
+    std::int64_t began = 0;  // tick at which the body began: of the edit that made it
+    BodyState first;         // its state then
+    float fast = 0;          // greatest accepted speed of late, m/s
+    std::int64_t fast_tick = 0;
   };
 
   bool JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off);
@@ -75,14 +88,21 @@ class Plausible {
   void NoteDoubt(int body, std::int64_t tick, const BodyState& told, const BodyState& expected,
                  bool refused);
   float Seconds(std::int64_t ticks) const;
+  void NoteBegun(int body);
+  void NoteBegun(const BodyRemap& change);
+  void NoteSpeed(int body, std::int64_t tick, float speed);
+  float SpeedOfLate(int body) const;
 
   const Scene& scene_;
   const Replica& replica_;
   BodyColumn<Accepted> accepted_;
   BodyColumn<Memory> memory_;
   std::vector<Doubt> doubts_;
+  Counts counts_;
   int revision_ = 0;             // edits as of the last judgement
   std::int64_t edited_ = -1000;  // tick at which it was first seen
+  Strikers strikers_;
+  EditHook note_begun_;
 };
 
 }  // namespace seam

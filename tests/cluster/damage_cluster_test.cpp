@@ -89,38 +89,56 @@ damage = {above = 0.5, factor = 1}
 repeat = {count = [2, 1], step = [0.81, 0]}
 )";
 
-/// ann tells that all she has moves at 110 m/s, wherever it is, and makes each of her impacts one
-/// of 150 m/s.
+/// ann makes each of her impacts one of 150 m/s; with `velocities` she also tells that all she has
+/// moves at 110 m/s, wherever it is. Returns what the server counted.
+AuthoritySource::ReportCounts LieAboutImpacts(const char* impair, TrustMode trust,
+                                              bool velocities) {
+  ClusterConfig config;
+  config.scene = "own";
+  config.scene_text = kOwn;
+  config.impair = impair;
+  config.trust = trust;
+  std::int64_t told = 0;  // lies, of states and of impacts
+  RewrittenStates rewritten(ParseScene(kOwn, "own.toml"));
+  config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
+    if (client != 0) return net;
+    return std::unique_ptr<Net>(
+        std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
+          rewritten.Rewrite(message, [&told, velocities](States* states) {
+            if (!velocities) return;
+            told += static_cast<std::int64_t>(states->vx.size());
+            for (auto& vx : states->vx) vx = static_cast<std::int16_t>(110 * kQuantaPerSpeed);
+          });
+          AnyMessage any = Decode(*message);
+          if (auto* report = std::get_if<ImpactReport>(&any)) {
+            for (float& dv : report->dv) dv = 150;
+            told += static_cast<std::int64_t>(report->dv.size());
+            *message = Encode(*report);
+          }
+          return true;
+        }));
+  };
+  Cluster cluster(config);
+  cluster.Run();
+  EXPECT_GT(told, 1) << impair;
+  return ServerTestAccess::RuleSourceOf(cluster.server())->counts();
+}
+
+/// Without doubts about states: the impact's own check has to find the lie.
 TEST(Damage, AnImpactOfAToldVelocityIsRefused) {
   for (const char* impair : {"perfect", "4g"}) {
-    ClusterConfig config;
-    config.scene = "own";
-    config.scene_text = kOwn;
-    config.impair = impair;
-    std::int64_t told = 0;  // lies, of states and of impacts
-    RewrittenStates rewritten(ParseScene(kOwn, "own.toml"));
-    config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
-      if (client != 0) return net;
-      return std::unique_ptr<Net>(
-          std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
-            rewritten.Rewrite(message, [&told](States* states) {
-              told += static_cast<std::int64_t>(states->vx.size());
-              for (auto& vx : states->vx) vx = static_cast<std::int16_t>(110 * kQuantaPerSpeed);
-            });
-            AnyMessage any = Decode(*message);
-            if (auto* report = std::get_if<ImpactReport>(&any)) {
-              for (float& dv : report->dv) dv = 150;
-              told += static_cast<std::int64_t>(report->dv.size());
-              *message = Encode(*report);
-            }
-            return true;
-          }));
-    };
-    Cluster cluster(config);
-    cluster.Run();
-    EXPECT_GT(told, 1) << impair;
-    const auto& counts = ServerTestAccess::RuleSourceOf(cluster.server())->counts();
-    EXPECT_EQ(counts.accepted, 0) << impair << " of " << told;
+    const auto counts = LieAboutImpacts(impair, TrustMode::kOff, true);
+    EXPECT_EQ(counts.accepted, 0) << impair;
+    EXPECT_GT(counts.implausible, 0) << impair;
+  }
+}
+
+/// All states are true and believed.
+TEST(Damage, AnImpactThatTrueStatesDoNotExplainIsRefused) {
+  for (const char* impair : {"perfect", "4g"}) {
+    const auto counts = LieAboutImpacts(impair, TrustMode::kAct, false);
+    EXPECT_EQ(counts.accepted, 0) << impair;
+    EXPECT_GT(counts.implausible, 0) << impair;
   }
 }
 

@@ -183,7 +183,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"server/script", "none"},
       {"server/token", "none"},
       {"server/rules", "server/script"},
-      {"server/trust", "none"},
+      {"server/trust", "server/rules"},
       {"common/scene/joints", "common/scene(/toml)?"},
       {"common/scene/motion", "common/scene(/toml)?"},
       {"common/scene/charges", "common/scene(/toml)?"},

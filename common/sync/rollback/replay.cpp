@@ -88,7 +88,8 @@ bool Replay::SimulateFrom(int body, std::int64_t tick) {
 
 void Replay::AskFrom(std::int64_t tick) {
   if (barriers_.empty()) return;
-  tick = std::max(tick, barriers_.front().world.tick);
+  if (tick < oldest()) missed_ = std::max(missed_, oldest());
+  tick = std::max(tick, oldest());
   if (tick >= world_.tick()) return;
   if (from_ < 0 || tick < from_) from_ = tick;
 }

@@ -49,6 +49,9 @@ class Replay {
   std::int64_t oldest() const {
     return barriers_.empty() ? world_.tick() : barriers_.front().world.tick;
   }
+  /// The newest tick that could be reached when a change of an earlier one was asked for: what
+  /// follows lacks that change. -1: never.
+  std::int64_t missed() const { return missed_; }
   /// All ticks before this one are final as far as is known: a pending replay begins here. The
   /// world's tick if none is pending.
   std::int64_t settled() const { return from_ < 0 ? world_.tick() : from_; }
@@ -158,6 +161,7 @@ class Replay {
   std::deque<std::pair<int, std::int64_t>> applied_;  // revisions and ticks; both ascend
   std::vector<int> sitters_;                          // by seat, as of the last edit
   std::int64_t from_ = -1;                            // oldest requested tick; -1: none
+  std::int64_t missed_ = -1;                          // see missed()
   bool was_alone_ = false;                            // at the previous send tick
   double credit_ = 0;                                 // ticks that may still be stepped again
   std::function<void()> on_stepped_again_ = [] {};

@@ -9,6 +9,7 @@
 #include "server/trust/trust_ladder.h"
 #include "tests/lab/attack/attack.h"
 #include "tests/lab/attack/cheat.h"
+#include "tests/lab/attack/honest.h"
 #include "tests/support/soak.h"
 
 namespace seam {
@@ -82,6 +83,72 @@ TEST(Attack, ALieAboutImpactsHurtsNobody) {
   EXPECT_EQ(outcome.hurt, 0);
 }
 
+/// The room with three balls that roll from ann's region into bob's, one a second.
+ClusterConfig RoomOfBalls(const std::string& impair, std::int64_t seed) {
+  ClusterConfig config = Room(impair, seed);
+  config.scene_text += R"(
+[[part]]
+name = "ball"
+circle = 0.5
+position = [-7, 0.5]
+velocity = [1.2, 0]
+repeat = {count = 3, step = [1.5, 0]}
+)";
+  return config;
+}
+
+TEST(Attack, AFalseStateAtAHandOverIsRefused) {
+  for (const char* impair : {"perfect", "demo", "4g", "terrible"}) {
+    for (int seed = 1; seed <= Soak(1); ++seed) {
+      SCOPED_TRACE(impair);
+      const AttackOutcome honest = RunAttack(RoomOfBalls(impair, seed), "none");
+      EXPECT_EQ(honest.refused, 0);
+      const AttackOutcome outcome = RunAttack(RoomOfBalls(impair, seed), "exact");
+      EXPECT_GT(outcome.lies, 0);
+      EXPECT_GT(outcome.refused, 0);
+      EXPECT_EQ(outcome.others_step, 0) << "bob takes the server's states over, not the lie";
+    }
+  }
+}
+
+TEST(Attack, AHolderThatDoesNotLetGoHoldsNothing) {
+  for (const char* impair : {"perfect", "demo", "4g", "terrible"}) {
+    for (int seed = 1; seed <= Soak(1); ++seed) {
+      SCOPED_TRACE(impair);
+      const AttackOutcome outcome = RunAttack(RoomOfBalls(impair, seed), "withhold");
+      EXPECT_GT(outcome.lies, 0);
+      EXPECT_LT(ActedAfterS(outcome), 10);
+      EXPECT_EQ(outcome.others_step, 0);
+    }
+  }
+}
+
+int BrokenIn(ClusterConfig config) {
+  config.keep = false;
+  Cluster cluster(config);
+  cluster.Run();
+  int broken = 0;
+  for (const Joint& joint : cluster.server().replica().world().scene().joints) {
+    broken += joint.gone;
+  }
+  return broken;
+}
+
+/// Mode strict: the server simulates no copy, and the told momentum explains a break, or does not.
+TEST(Attack, GlueBreaksInModeStrictByALoadAlone) {
+  ClusterConfig config = Room("demo", 1);
+  config.mode = "strict";
+  EXPECT_EQ(RunAttack(config, "break").broken, 0);
+  ClusterConfig house;
+  house.scene = "gluehouse";
+  house.mode = "strict";
+  house.trust = TrustMode::kOff;
+  const int broken = BrokenIn(house);
+  EXPECT_GT(broken, 3);
+  house.trust = TrustMode::kAct;
+  EXPECT_EQ(BrokenIn(house), broken) << "trust refuses no honest break";
+}
+
 TEST(Attack, AnHonestClientIsNotDoubted) {
   for (const char* impair : {"perfect", "demo", "4g", "3g", "terrible"}) {
     for (const Drive drive : {Drive::kScript, Drive::kBot}) {
@@ -92,6 +159,41 @@ TEST(Attack, AnHonestClientIsNotDoubted) {
       EXPECT_LE(outcome.step, static_cast<int>(TrustStep::kWatched));
       EXPECT_LE(outcome.others_step, static_cast<int>(TrustStep::kWatched));
     }
+  }
+}
+
+/// A sample of seam-lab trust: scenes in which glue breaks, bodies are inserted and collide.
+TEST(Attack, NoHonestStateIsRefused) {
+  struct Case {
+    const char *scene, *impair, *method;
+    Drive drive;
+    bool shown;
+  };
+  const Case cases[] = {
+      {"playground", "terrible", "buffer", Drive::kScript, true},
+      {"freight", "4g", "buffer", Drive::kScript, true},
+      {"gluehouse", "demo", "buffer", Drive::kScript, true},
+      {"gluehouse", "demo", "strict", Drive::kScript, true},
+      {"derby", "3g", "buffer", Drive::kBot, true},
+      {"derby", "terrible", "buffer", Drive::kScript, false},
+      {"seesaw", "3g", "buffer", Drive::kScript, false},
+      {"crossing", "perfect", "buffer", Drive::kScript, false},
+      {"battlefield", "3g", "buffer", Drive::kBot, false},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(std::string(c.scene) + " " + c.impair + " " + c.method);
+    ClusterConfig config;
+    config.scene = c.scene;
+    config.impair = c.impair;
+    config.mode = c.method;
+    config.drive = c.drive;
+    config.duration_s = 10;
+    const HonestOutcome outcome = RunHonest(config, c.shown);
+    EXPECT_GT(outcome.judged, 100);
+    EXPECT_EQ(outcome.refused, 0);
+    EXPECT_EQ(outcome.breaks_refused, 0);
+    EXPECT_LE(outcome.step, static_cast<int>(TrustStep::kWatched));
+    EXPECT_LE(outcome.impacts_refused * 100, outcome.impacts_accepted);
   }
 }
 

@@ -24,6 +24,7 @@ struct ProbeOptions {
   std::vector<std::string> networks;  ///< of a probe whose --impair is repeatable
   std::string near_path, far_path;    ///< networks of a near and of a far player
   std::string drive = "script";       ///< script | bot
+  std::string views = "shown";        ///< shown | hidden: the server's
   int players = 0;                    ///< the first so many of a scene's join; 0: all
   double seconds = 0;                 ///< after tick 0; 0: the scene's own
   int seeds = 1;                      ///< from 1

@@ -18,5 +18,6 @@ Probe HandOverProbe();
 Probe DamageProbe();
 Probe AgreementProbe();
 Probe AttackProbe();
+Probe HonestProbe();
 
 }  // namespace seam

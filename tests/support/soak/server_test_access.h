@@ -27,6 +27,7 @@ struct ServerTestAccess {
   static const AuthoritySource* RuleSourceOf(const Server& server) {
     return server.rule_source_.get();
   }
+  static const Plausible& PlausibleOf(const Server& server) { return server.filter_.plausible(); }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_->waiting(); }
 };
 

@@ -1,0 +1,76 @@
+#include "server/trust/strikers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/physics/part_places.h"
+#include "common/sync/reach/zones.h"
+#include "server/rules/impact_check.h"
+
+namespace seam {
+namespace {
+
+/// Most that a collision gives, in speeds of the striker: a heavy elastic one.
+constexpr float kThrown = 2;
+
+}  // namespace
+
+Strikers::Strikers(const World& world, std::function<float(int)> speed_of)
+    : world_(world), speed_of_(std::move(speed_of)) {}
+
+void Strikers::Look() {
+  const int revision = world_.topology().revision();
+  if (looked_ == world_.tick() && revision_ == revision) return;
+  looked_ = world_.tick();
+  revision_ = revision;
+  const Composition& c = world_.composition();
+  std::vector<MovingBox> boxes;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const int assembly = c.assembly_of_part[static_cast<std::size_t>(world_.id(body))];
+    const Vec2 reach =
+        Vec2::Constant(ExtentOf(world_, c.assemblies[static_cast<std::size_t>(assembly)]) +
+                       speed_of_(body) * kSeconds);
+    const Vec2 at = world_.Read(body).position;
+    MovingBox box;
+    box.min = at - reach, box.max = at + reach;
+    box.group = world_.mechanism(body);
+    boxes.push_back(box);
+  }
+  island_ = Components(static_cast<int>(c.mechanisms.size()), MeetingGroups(boxes, 0));
+  fastest_.assign(c.mechanisms.size(), 0);
+  momentum_ = mass_ = fastest_;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const auto own =
+        static_cast<std::size_t>(island_[static_cast<std::size_t>(world_.mechanism(body))]);
+    const float speed = speed_of_(body);
+    fastest_[own] = std::max(fastest_[own], speed);
+    momentum_[own] += world_.mass(body) * speed;
+    mass_[own] += world_.mass(body);
+  }
+}
+
+float Strikers::SpeedOf(int body) {
+  Look();
+  const int island = island_[static_cast<std::size_t>(world_.mechanism(body))];
+  return kThrown * fastest_[static_cast<std::size_t>(island)];
+}
+
+/// All that moves may load a joint of anchored parts.
+float Strikers::LoadOf(const Joint& joint) {
+  Look();
+  float momentum = 0, mass = 0;
+  const int a = seam::MechanismOf(world_, joint.a), b = seam::MechanismOf(world_, joint.b);
+  const bool anchored = a < 0 && b < 0;
+  for (std::size_t m = 0; m < island_.size(); ++m) {
+    const auto is = [&](int own) {
+      return own >= 0 && island_[static_cast<std::size_t>(own)] == static_cast<int>(m);
+    };
+    if (!anchored && !is(a) && !is(b)) continue;
+    momentum += momentum_[m];
+    mass += mass_[m];
+  }
+  const float substep = world_.dt() / static_cast<float>(world_.scene().solver.substeps);
+  return kThrown * (momentum / substep + mass * world_.scene().gravity.norm());
+}
+
+}  // namespace seam

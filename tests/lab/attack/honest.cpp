@@ -1,0 +1,50 @@
+#include "tests/lab/attack/honest.h"
+
+#include <algorithm>
+
+#include "tests/support/soak/server_test_access.h"
+
+namespace seam {
+
+namespace {
+
+/// Listens and keeps nothing.
+class NoRecorder : public Recorder {
+ public:
+  void Publish(const std::string&, std::int64_t, ByteView) override {}
+};
+
+}  // namespace
+
+HonestOutcome RunHonest(ClusterConfig config, bool shown) {
+  NoRecorder recorder;
+  config.keep = false;
+  config.recorder = shown ? &recorder : nullptr;
+  config.trust = TrustMode::kAct;
+  Cluster cluster(config);
+  HonestOutcome outcome;
+  std::int64_t looked = -1;
+  cluster.each_instant = [&] {
+    const Server& server = cluster.server();
+    if (!server.started() || server.tick() == looked) return;
+    looked = server.tick();
+    for (int p = 0; p < static_cast<int>(cluster.scene().players.size()); ++p) {
+      outcome.step = std::max(outcome.step, static_cast<int>(server.ladder().step(p)));
+      outcome.score = std::max(outcome.score, server.ladder().score(p));
+    }
+  };
+  cluster.Run();
+  const Plausible::Counts& counts = ServerTestAccess::PlausibleOf(cluster.server()).counts();
+  outcome.judged = counts.judged;
+  outcome.by_copy = counts.by_copy;
+  outcome.doubted = counts.doubted;
+  outcome.refused = counts.refused;
+  outcome.breaks_refused = cluster.server().connections().loadless;
+  const AuthoritySource* const source = ServerTestAccess::RuleSourceOf(cluster.server());
+  if (source == nullptr) return outcome;
+  outcome.impacts_accepted = source->counts().accepted;
+  outcome.impacts_refused = source->counts().implausible;
+  return outcome;
+}
+
+}  // namespace seam

@@ -1,0 +1,26 @@
+#pragma once
+/// One session in which all clients are honest, and what the server doubts of it.
+
+#include <cstdint>
+
+#include "tests/lab/cluster.h"
+
+namespace seam {
+
+struct HonestOutcome {
+  std::int64_t judged = 0;   ///< states of clients
+  std::int64_t by_copy = 0;  ///< of them, those compared with the server's copy of the same tick
+  std::int64_t doubted = 0;  ///< of them, believed or not
+  std::int64_t refused = 0;  ///< of them
+  float score = 0;           ///< highest of any client's ladder
+  int step = 0;              ///< highest TrustStep of any client
+  std::int64_t breaks_refused = 0;    ///< proposed breaks without a load
+  std::int64_t impacts_accepted = 0;  ///< reported and counted
+  std::int64_t impacts_refused = 0;   ///< reported, and not explained
+};
+
+/// Runs the session with consequences of doubts (TrustMode::kAct). `shown`: the server publishes
+/// its views, and so simulates all bodies of a small room; else only those that players share.
+HonestOutcome RunHonest(ClusterConfig config, bool shown);
+
+}  // namespace seam
