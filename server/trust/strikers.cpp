@@ -11,7 +11,7 @@ namespace seam {
 namespace {
 
 /// Most that a collision gives, in speeds of the striker: a heavy elastic one.
-constexpr float kThrown = 2;
+constexpr float kMostThrown = 2;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void Strikers::Look() {
 float Strikers::SpeedOf(int body) {
   Look();
   const int island = island_[static_cast<std::size_t>(world_.mechanism(body))];
-  return kThrown * fastest_[static_cast<std::size_t>(island)];
+  return kMostThrown * fastest_[static_cast<std::size_t>(island)];
 }
 
 /// All that moves may load a joint of anchored parts.
@@ -70,7 +70,7 @@ float Strikers::LoadOf(const Joint& joint) {
     mass += mass_[m];
   }
   const float substep = world_.dt() / static_cast<float>(world_.scene().solver.substeps);
-  return kThrown * (momentum / substep + mass * world_.scene().gravity.norm());
+  return kMostThrown * (momentum / substep + mass * world_.scene().gravity.norm());
 }
 
 }  // namespace seam
