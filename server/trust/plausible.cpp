@@ -85,6 +85,7 @@ bool Plausible::Waits(const States& states) const {
   return std::any_of(states.id.begin(), states.id.end(), [&](std::int32_t id) {
     const int body = world.BodyOfId(id);
     const bool copied = body >= 0 && world.activity(body) == Activity::kSimulated &&
+                        replica_.CopiesAgree(world.mechanism(body)) &&
                         replica_.SameBody(body, states.revision);
     return copied && replica_.SettledPast(body, states.tick) == nullptr;
   });
