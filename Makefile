@@ -420,7 +420,7 @@ install-built:                       ## the same, of what is built: builds nothi
 	install -m 644 scenes/hard/*.toml '$(DEST)/share/seam2d/scenes/hard'
 	install -m 644 scenes/exact/*.toml '$(DEST)/share/seam2d/scenes/exact'
 	install -d '$(DEST)/share/seam2d/cluster'
-	install -m 755 tests/lab/cluster/seam-sweep-parallel tests/lab/cluster/seam-sweep.sbatch '$(DEST)/share/seam2d/cluster'
+	install -m 755 tests/lab/shards/seam-sweep-parallel tests/lab/shards/seam-sweep.sbatch '$(DEST)/share/seam2d/cluster'
 	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
 	strip --strip-debug '$(DEST)/lib/libseam.a'
 	install -d '$(DEST)/share/man/man1' '$(DEST)/share/bash-completion/completions'

@@ -36,7 +36,7 @@ struct ServerFlags {
   int workers = 0;
   std::string bus_rooms = "first";
   int metrics_port = 0;
-  std::string trust = "act";
+  std::string trust = "off";
   std::string identity, token_key;
 };
 

@@ -31,7 +31,8 @@ void SetEventNumber(Bytes* log, std::size_t at, std::int64_t number) {
   constexpr std::size_t kEventNumberAt = 4;
   Bytes bytes;
   PutBigEndian(&bytes, static_cast<std::uint64_t>(number));
-  std::copy(bytes.begin(), bytes.end(), log->begin() + static_cast<std::ptrdiff_t>(at + kEventNumberAt));
+  std::copy(bytes.begin(), bytes.end(),
+            log->begin() + static_cast<std::ptrdiff_t>(at + kEventNumberAt));
 }
 
 bool FitsLog(const std::string& channel, ByteView message) {

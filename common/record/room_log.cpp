@@ -85,6 +85,7 @@ void RoomLog::Flush() {
   }
   // The last of them stands there already.
   for (auto it = open_.begin(); open_.size() > 1 && it != open_.end(); ++it) {
+    it->second.utime = last_utime_;  // a log's times do not run backwards
     Write(it->first, it->second, true);
   }
   open_.clear();

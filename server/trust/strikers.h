@@ -33,7 +33,7 @@ class Strikers {
   const std::function<float(int)> speed_of_;
   std::int64_t looked_ = -1;  // tick and edits of the islands
   int revision_ = -1;
-  std::vector<int> island_;     // by mechanism
+  std::vector<int> island_;     // rebuilt by Look, by mechanism
   std::vector<float> fastest_;  // by island, m/s
   std::vector<float> momentum_, mass_;
 };

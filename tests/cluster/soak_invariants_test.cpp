@@ -85,7 +85,7 @@ TEST_F(SoakInvariants, FindsABodyAboveTheSpeedLimit) {
 
 TEST_F(SoakInvariants, FindsAHealthyClientThatDoesNotPlay) {
   cluster_->Kill(0);
-  RunFor(5);
+  RunFor(12);
   EXPECT_TRUE(Broke("who is well plays"));
 }
 

@@ -146,7 +146,7 @@ TEST(FirstDivergence, TheProgramPrintsThePlaceAndTheAmount) {
   };
   EXPECT_EQ(run({files / "same.lcm"}, 0).rfind("equal: ", 0), 0u);
   const std::string said = run({files / "b.lcm"}, 1);
-  EXPECT_NE(said.find("tick 33 is damaged"), std::string::npos) << "its checksum: " << said;
+  EXPECT_NE(said.find(" damaged"), std::string::npos) << "its checksum: " << said;
   EXPECT_NE(said.find("\ntick 33, peer 1, body "), std::string::npos) << said;
   EXPECT_NE(said.find(", y: "), std::string::npos) << said;
   EXPECT_NE(said.find(" and 0.5 m, which differ by "), std::string::npos) << said;

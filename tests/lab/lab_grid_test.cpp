@@ -5,6 +5,7 @@
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
+#include "tests/lab/experiment/build_id.h"
 #include "tests/lab/grid.h"
 #include "tests/support/lab_workspace.h"
 
@@ -47,7 +48,7 @@ floor = false
   const std::string hash = fmt::format(
       "{:016x}", Fnv1a(grid.points[48].scene->text.data(), grid.points[48].scene->text.size()));
   EXPECT_EQ(grid.points[48].key,
-            std::string(kLabVersion) + ",scenes/crossing.toml," + hash +
+            kLabVersion + "," + BuiltCommit() + "," + Numerics() + ",scenes/crossing.toml," + hash +
                 ",,strict,,\"delay=50ms,loss=1%,jitter=5ms\",20,script,on,2.5,7");
 }
 

@@ -2,10 +2,10 @@
 #include <set>
 #include <string>
 
-#include "tests/lab/cluster/merge.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/experiment/shard.h"
 #include "tests/lab/grid.h"
+#include "tests/lab/shards/merge.h"
 #include "tests/lab/sweep_row.h"
 
 namespace seam {

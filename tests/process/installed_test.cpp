@@ -83,9 +83,9 @@ TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {
   const Workspace folder;
   EXPECT_EQ(Run({"pkg-config", "--modversion", "seam2d"}, folder)->output(),
             std::string(kVersion) + "\n");
-  for (const char* name :
-       {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top", "seam-render",
-        "seam-measure", "seam-export", "seam-import", "seam-view", "seam-log", "seam", "seam-lab"}) {
+  for (const char* name : {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top",
+                           "seam-render", "seam-measure", "seam-export", "seam-import", "seam-view",
+                           "seam-log", "seam", "seam-lab"}) {
     const auto program = Run({At(std::string("bin/") + name), "--version"}, folder);
     EXPECT_EQ(program->status(), 0) << program->Story();
     EXPECT_EQ(program->errors(), "");
@@ -95,8 +95,9 @@ TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {
 }
 
 TEST_F(Installed, EveryProgramHasItsManPageAndItsCompletionInEachShell) {
-  for (const std::string name : {"seam-server", "seam-client", "seam-render", "seam-measure",
-                                 "seam-export", "seam-import", "seam-view", "seam-log", "seam", "seam-lab"}) {
+  for (const std::string name :
+       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-export", "seam-import",
+        "seam-view", "seam-log", "seam", "seam-lab"}) {
     for (const std::string& file :
          {"share/man/man1/" + name + ".1", "share/bash-completion/completions/" + name,
           "share/zsh/site-functions/_" + name,
@@ -122,7 +123,7 @@ TEST_F(Installed, ScenesAreFoundByNameFromAnyFolder) {
   EXPECT_EQ(lab->status(), 0) << lab->Story();
   const auto none = Run({At("bin/seam-server")}, folder);
   EXPECT_EQ(none->status(), 2);
-  EXPECT_NE(none->errors().find("by name: battlefield, conveyor, "), std::string::npos)
+  EXPECT_NE(none->errors().find("by name: arena, battlefield, "), std::string::npos)
       << none->Story();
 }
 

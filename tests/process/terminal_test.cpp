@@ -143,7 +143,8 @@ TEST_F(Terminals, KeysPressedWhileOthersAreMissingCountWhenTheRoomStarts) {
   server_->Signal(SIGINT);
   ASSERT_TRUE(server_->Wait(kPatience));
   int driven = 0;
-  for (const auto& [tick, inputs] : ReadRecording(folder / "session.lcm").inputs[0]) {
+  const Recording recording = ReadRecording(folder / "session.lcm");
+  for (const auto& [tick, inputs] : recording.inputs.at(0)) {
     driven += static_cast<int>(std::count(inputs.drive.begin(), inputs.drive.end(), 127));
   }
   EXPECT_GT(driven, 4) << "a tenth of a second";

@@ -209,6 +209,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/check", "tests/lab"},
       {"tests/lab/damage", "tests/lab(/experiment)?"},
+      {"tests/lab/shards", "tests/lab(/experiment)?"},
       {"tests/lab/exact", "tests/lab(/experiment|/hard|/report)?"},
       {"tests/lab/gait", "tests/lab(/experiment)?"},
       {"tests/lab/agreement", "tests/lab(/experiment)?"},

@@ -29,6 +29,10 @@ struct Job {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive the sweep
   signal(SIGINT, SIG_IGN);           // Ctrl-C reaches all: the sweep decides
   signal(SIGTERM, SIG_DFL);
+  // What is open belongs to the sweep: the lock of its table ends with it, not with its jobs.
+  const auto own = static_cast<unsigned>(fd);
+  if (own > STDERR_FILENO + 1) (void)close_range(STDERR_FILENO + 1, own - 1, 0);
+  (void)close_range(own + 1, ~0U, 0);
   std::string said;
   try {
     said = "R" + work(index);

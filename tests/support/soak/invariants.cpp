@@ -29,6 +29,7 @@ constexpr std::int64_t kSeldomTicks = 15;
 Invariants::Invariants(Cluster& cluster, const FaultRunner& faults, bool strict)
     : cluster_(cluster), faults_(faults), strict_(strict) {
   peers_.resize(static_cast<std::size_t>(cluster.client_count()) + 1);
+  played_us_.resize(static_cast<std::size_t>(cluster.client_count()));
   for (const Part& part : cluster.scene().parts) top_ = std::max(top_, part.position.y());
 }
 
@@ -69,9 +70,12 @@ void Invariants::LookAtClients() {
     const Client* client = cluster_.client(c);
     if (client == nullptr && faults_.Stopped(c)) continue;
     const auto who = [&] { return "client " + std::to_string(c); };
-    const bool due = Well(static_cast<std::size_t>(c) + 1, kBackUs) && cluster_.server().started();
     const bool in = client != nullptr && client->peer() >= 0;
     const bool plays = in && client->running();
+    std::int64_t& played_us = played_us_[static_cast<std::size_t>(c)];
+    if (plays) played_us = cluster_.now_us();
+    const bool due = Well(static_cast<std::size_t>(c) + 1, kBackUs) &&
+                     cluster_.server().started() && cluster_.now_us() - played_us >= kBackUs;
     if (due && !plays) Say("who is well plays", who() + (in ? " does not start" : " is not in"));
     if (client == nullptr) continue;
     if (!client->fatal().empty()) Say("nobody is turned away", who() + ": " + client->fatal());

@@ -38,7 +38,8 @@ class Invariants {
 
  private:
   /// A client without a fault plays within this time, us: it may have to notice that it was dropped
-  /// (Client::kLostUs) and to join again, with three of ten datagrams lost.
+  /// (Client::kLostUs) and to join again, with three of ten datagrams lost. The same holds for one
+  /// that the server has dropped without a fault.
   static constexpr std::int64_t kBackUs = 10000000;
   /// Reliable messages have taken effect within this time, us.
   static constexpr std::int64_t kToldUs = 4000000;
@@ -91,6 +92,7 @@ class Invariants {
   const bool strict_;
   float top_ = 0;  // m, of the scene as it was
   std::vector<Peer> peers_;
+  std::vector<std::int64_t> played_us_;  // by client: when it last played
   Holders named_, believed_;
   std::set<int> named_revisions_;  // those at which the server was looked at
   std::map<PartId, Still> still_;  // bodies at their holders

@@ -6,10 +6,10 @@
 #include <map>
 
 #include "common/base/check.h"
-#include "tests/lab/cluster/merge.h"
 #include "tests/lab/experiment/build_id.h"
 #include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/experiment/shard.h"
+#include "tests/lab/shards/merge.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {

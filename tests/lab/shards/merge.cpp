@@ -1,4 +1,4 @@
-#include "tests/lab/cluster/merge.h"
+#include "tests/lab/shards/merge.h"
 
 #include <fmt/format.h>
 
