@@ -314,8 +314,10 @@ TEST(LabPhysics, AKilledRunResumesToTheSameTableExceptForCpu) {
   EXPECT_LE(std::count(part.begin(), part.end(), '\n'), static_cast<long>(rows));
   RunLab(words("t.csv"), 0);
   EXPECT_EQ(RowsWithoutCpu(files.Read("t.csv")), whole);
-  const std::size_t kept = part.rfind('\n') + 1;
-  EXPECT_EQ(files.Read("t.csv").substr(0, kept), part.substr(0, kept)) << "not run again";
+  const std::string resumed = files.Read("t.csv");
+  for (std::size_t at = 0, end; (end = part.find('\n', at)) != std::string::npos; at = end + 1) {
+    EXPECT_NE(resumed.find(part.substr(at, end + 1 - at)), std::string::npos) << "not run again";
+  }
 }
 
 TEST(LabPhysics, MistakesAreReportedAndNothingIsWritten) {
