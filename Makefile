@@ -1,9 +1,10 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds the mains of seam-measure, seam-export, seam-import, seam-view and seam-log too, client/swarm/,
-# client/top/ and client/front/ those of seam-swarm, seam-top and seam); tests/ is one
-# GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure, seam-export,
+# seam-import, seam-view and seam-log too, client/swarm/, client/top/ and client/front/ those of
+# seam-swarm, seam-top and seam); tests/ is one GoogleTest program, tests/lab/ is seam-lab, which
+# alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
 

@@ -4,32 +4,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "common/base/check.h"
+#include "common/sync/inputs/input_line.h"
 
 namespace seam {
-namespace {
-
-constexpr std::size_t kInputLineBytesMax = 40;
-
-}  // namespace
-
-bool ParseInputLine(const std::string& line, Input* input) {
-  int drive = 0, lift = 0, buttons = 0;
-  char rest = 0;
-  if (line.size() > kInputLineBytesMax) return false;
-  if (std::sscanf(line.c_str(), "%4d %4d %4d %c", &drive, &lift, &buttons, &rest) != 3)
-    return false;
-  if (drive < -127 || drive > 127 || lift < -127 || lift > 127) return false;
-  if (buttons < 0 || buttons > 1023) return false;
-  input->drive = static_cast<std::int8_t>(drive);
-  input->lift = static_cast<std::int8_t>(lift);
-  input->buttons = static_cast<std::int16_t>(buttons);
-  return true;
-}
-
 InputLines::InputLines(const std::string& path) : path_(path) {
   fd_ = path == "-" ? fcntl(0, F_DUPFD_CLOEXEC, 3)
                     : open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);

@@ -8,9 +8,6 @@
 
 namespace seam {
 
-/// Parses a line: drive and lift -127..127, buttons as bits 0..1023.
-bool ParseInputLine(const std::string& line, Input* input);
-
 /// Reads lines from a file or pipe without waiting.
 class InputLines {
  public:

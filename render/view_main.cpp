@@ -16,6 +16,7 @@
 #include "common/codec/version_line.h"
 #include "common/net/http_server.h"
 #include "common/record/bus.h"
+#include "common/sync/inputs/input_line.h"
 #include "render/view/live_feed.h"
 #include "render/view/log_tails.h"
 #include "render/view/view_page.h"
@@ -53,10 +54,8 @@ void Define(Command& app, Flags& f) {
 
 /// Writes inputs for a client; without a reader there is nothing to do but go on showing.
 void PrintInput(const Input& input) {
-  char line[48];
-  const int length =
-      std::snprintf(line, sizeof line, "%d %d %d\n", input.drive, input.lift, input.buttons);
-  (void)!write(1, line, static_cast<std::size_t>(length));
+  const std::string line = InputLine(input) + '\n';
+  (void)!write(1, line.data(), line.size());
 }
 
 /// Returns 32 hexadecimal digits that nobody can guess.

@@ -189,10 +189,12 @@ class Server {
   // server_trust.cpp
   /// Takes the states that waited for the server's copies of their tick.
   void TakeWaitingStates(std::int64_t now_us);
+  /// True if the joint of a proposed break bore a load that breaks it, or stands no longer.
+  bool BoreLoad(const EditOrder& proposal);
   /// Takes the proposals of breaks of which the server has felt the load; drops those that it has
   /// not felt in time.
-  bool BoreLoad(const EditOrder& proposal);
   void TakeWaitingBreaks();
+  /// True if the player's vehicle is on probation.
   bool Doubted(int player) const;
   /// True if a proposal is a break of loaded glue in a room of which the server steps all.
   bool NeedsLoad(const EditOrder& proposal) const;

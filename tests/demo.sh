@@ -176,7 +176,7 @@ for scene in $worlds; do
   fi
   awk -v OFS="  " -v scene="$scene" '
     NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
-    NR == 2 { error = $column["path_error_rms_m"]; stutter = $column["stutter_mps2"] }
+    NR == 2 { error = $column["path_error_rms_m"]; stutter = $column["stutter_shown_mps2"] }
     /^  seam / { seam = $2 }
     /bodies lost/ { lost = $(NF - 5) }
     END { printf "  %-11s error of others %9s m, stutter %8s m/s2, seam %9s m RMS", scene, error,

@@ -42,14 +42,13 @@ class Publisher {
  private:
   template <class Message>
   void Number(Message& message);
+  /// Messages that belong to no tick yet.
+  std::int32_t NewMessages() const { return seal_.messages - sealed_; }
 
   Recorder& recorder_;
   std::string room_;
   std::int64_t session_;
   std::map<std::string, std::int64_t> sequence_;
-  /// Messages that belong to no tick yet.
-  std::int32_t NewMessages() const { return seal_.messages - sealed_; }
-
   LogSeal seal_;                   // of the messages since the last one that was kept
   std::size_t bytes_ = 0;          // of these in a log
   std::vector<SealedTick> ticks_;  // since then

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/sync/inputs/input_line.h"
 #include "render/page/document.h"
 
 namespace seam {
@@ -24,19 +25,10 @@ bool IsOwnOrigin(const HttpRequest& request) {
 
 bool ParseDrive(const std::string& text, std::int64_t* number, Input* input) {
   long long n = 0;
-  int drive = 0, lift = 0, buttons = 0;
-  char rest = 0;
-  if (text.size() > 64) return false;
-  if (std::sscanf(text.c_str(), "%18lld %4d %4d %4d %c", &n, &drive, &lift, &buttons, &rest) != 4)
-    return false;
-  const bool good = n >= 0 && drive >= -127 && drive <= 127 && lift >= -127 && lift <= 127 &&
-                    buttons >= 0 && buttons <= 1023;
-  if (!good) return false;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%18lld %n", &n, &end) != 1 || n < 0 || end == 0) return false;
   *number = n;
-  input->drive = static_cast<std::int8_t>(drive);
-  input->lift = static_cast<std::int8_t>(lift);
-  input->buttons = static_cast<std::int16_t>(buttons);
-  return true;
+  return ParseInputLine(text.substr(static_cast<std::size_t>(end)), input);
 }
 
 ViewPage::ViewPage(std::string token, std::function<void(const Input&)> drive)

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "common/base/check.h"
+#include "common/sync/inputs/input_line.h"
 
 namespace seam {
 namespace input_lines_test {
