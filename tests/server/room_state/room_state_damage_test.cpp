@@ -96,23 +96,29 @@ TEST(RoomStateDamage, SignedDamageOfBondsSeatsAndWaterNeverCrashes) {
   }
 }
 
-TEST(RoomStateDamage, SavingIsQuick) {
+template <typename F>
+double Milliseconds(F work) {
+  const auto begin = Clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+TEST(RoomStateDamage, SavingCostsNoMoreThanAFewTicks) {
   LoneRoom room(LoadScene("scenes/swarm.toml"));
   room.StepTo(30);
   const int bodies = room.server->replica().world().body_count();
   ASSERT_GE(bodies, 1000);
   double best_ms = 1e9;
+  double tick_ms = 1e9;
   std::size_t bytes = 0;
   for (int i = 0; i < 5; ++i) {
-    room.Step();
+    tick_ms = std::min(tick_ms, Milliseconds([&] { room.Step(); }));
     while (room.server->tick() % BarrierEvery(60) != 0) room.Step();  // as RoomKeeper does
-    const auto begin = Clock::now();
-    bytes = room.server->CopyState(room.now_us, bytes).size();
-    const std::chrono::duration<double, std::milli> took = Clock::now() - begin;
-    best_ms = std::min(best_ms, took.count());
+    best_ms = std::min(
+        best_ms, Milliseconds([&] { bytes = room.server->CopyState(room.now_us, bytes).size(); }));
   }
-  std::printf("%d bodies: %.2f ms, %zu bytes\n", bodies, best_ms, bytes);
-  EXPECT_LT(best_ms, 10) << "2 ms on a quiet machine";
+  std::printf("%d bodies: %.2f ms, a tick %.2f ms, %zu bytes\n", bodies, best_ms, tick_ms, bytes);
+  EXPECT_LT(best_ms, 10 * tick_ms);
   EXPECT_LT(bytes, static_cast<std::size_t>(bodies) * 1000);
 }
 
