@@ -8,7 +8,8 @@
 
 int main(int argc, char** argv) {
   using namespace seam;
-  LogsCommand list, verify;
+  LogsCommand list;
+  LogVerifyCommand verify;
   LogStatsCommand stats;
   LogCutCommand cut;
   LogMergeCommand merge;
@@ -24,6 +25,8 @@ int main(int argc, char** argv) {
     Command& verifies =
         *(commands[0] = &app.Add("verify", "say that logs are whole, or where not"));
     verifies.Option("LOGS", verify.logs, "LCM logs").Required();
+    verifies.Option("--log-key", verify.log_key,
+                    "the key file of seam-server --log-key: find what anybody else has changed");
     Command& lists = *(commands[1] = &app.Add("list", "the sessions of logs"));
     lists.Option("LOGS", list.logs, "LCM logs").Required();
     Command& sums = *(

@@ -27,6 +27,11 @@
 
 namespace {
 
+std::shared_ptr<const Secret> KeyOfLogs(const Flags& f) {
+  if (f.log_key.empty()) return nullptr;
+  return std::make_shared<const Secret>(ReadSecretFile("--log-key", f.log_key));
+}
+
 using namespace seam;
 using Flags = ServerFlags;
 
@@ -117,7 +122,7 @@ void CheckResume(const Flags& f) {
 }
 
 RoomPlan PlanOfResumed(const Flags& f, const std::string& name, int index, int rooms) {
-  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name));
+  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, KeyOfLogs(f).get()));
   const Room& room = resumed->saved->room();
   RoomPlan plan;
   plan.scene = resumed->saved->scene();
@@ -198,7 +203,9 @@ void SetKeys(const Flags& f, std::vector<RoomPlan>* plans) {
   if (!f.token_key.empty()) {
     token_key = std::make_shared<const Secret>(ReadSecretFile("--token-key", f.token_key));
   }
+  const auto log_key = KeyOfLogs(f);
   for (RoomPlan& plan : *plans) {
+    plan.log_key = log_key;
     plan.config.identity = identity;
     plan.config.token_key = token_key;
   }

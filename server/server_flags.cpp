@@ -78,6 +78,9 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
       .Range(0.0, 1e6);
   app.Option("--record", f.record,
              "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
+  app.Option("--log-key", f.log_key,
+             "key file (64 hex digits, mode 0600) with which logs are sealed: seam-log verify "
+             "--log-key then finds what anybody else has changed");
   app.Option("--state", f.state,
              "keep the rooms in this folder: the log of each, and a snapshot each 5 s");
   app.Option("--resume", f.resume,

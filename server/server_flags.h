@@ -37,7 +37,7 @@ struct ServerFlags {
   std::string bus_rooms = "first";
   int metrics_port = 0;
   std::string trust = "off";
-  std::string identity, token_key;
+  std::string identity, token_key, log_key;
 };
 
 /// Defines the flags, which set `flags`.

@@ -10,6 +10,9 @@ namespace seam {
 /// Most ticks in a seal, normal 15: more would name damage by longer ranges.
 constexpr int kSealTicksMax = 60;
 
+/// Bytes of LogSeal::log_keyed, if there are any.
+constexpr std::size_t kLogKeyedBytes = 32;
+
 /// Bus only: CRC-32C of the messages that a peer has published since its last LogSeal, and of the
 /// bytes of the log since the last LogSeal that a log wrote (docs/recordings.md, "Damage").
 /// Recordings of 0.25 have a TickChain for each tick instead.
@@ -23,6 +26,7 @@ struct LogSeal {
   std::int32_t messages_crc = 0;
   std::vector<std::uint8_t> ticks;  ///< of the server; PackTicks
   std::int32_t log_events = 0;      ///< this one included; 0: not written by a log
+  std::vector<std::uint8_t> log_keyed;  ///< of KeyedChain, behind all but log_crc; {}: no key
   std::int32_t log_crc = 0;  ///< the last bytes of an encoded LogSeal: up to these, see RoomLog
 };
 

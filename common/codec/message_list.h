@@ -75,7 +75,7 @@
   X(TickChain, chain_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,         \
     m.messages, m.messages_crc, m.log_events, m.log_crc)                                           \
   X(LogSeal, seal_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,            \
-    m.messages, m.messages_crc, m.ticks, m.log_events, m.log_crc)                                  \
+    m.messages, m.messages_crc, m.ticks, m.log_events, m.log_keyed, m.log_crc)                     \
   X(Accepted, accepted_t, kBusPeer, "accepted", m.utime, m.session, m.sequence, m.peer, m.player,  \
     m.data)                                                                                        \
   X(Audit, audit_t, kBusRoom, "audit", m.utime, m.session, m.sequence, m.tick, m.peer, m.player,   \

@@ -300,7 +300,8 @@ bool Valid(const TickChain& m) {
 
 bool Valid(const LogSeal& m) {
   return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Peer(m.peer) &&
-         TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0 && TicksOf(m);
+         TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0 &&
+         (m.log_keyed.empty() || m.log_keyed.size() == kLogKeyedBytes) && TicksOf(m);
 }
 
 bool Valid(const Accepted& m) {

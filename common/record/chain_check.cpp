@@ -1,6 +1,7 @@
 #include "common/record/chain_check.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 #include <variant>
 
@@ -10,17 +11,21 @@
 namespace seam {
 namespace {
 
+/// Bytes of log_crc, the last of a seal, and of these with log_keyed before them.
+constexpr std::size_t kCrcBytes = 4, kKeyedBytes = kCrcBytes + kLogKeyedBytes;
+
 /// Adds a range; one that goes on where the last one ends becomes part of it.
-void AddRange(std::int64_t after_tick, std::int64_t tick, const std::set<std::string>& channels,
-              std::vector<DamagedRange>* all) {
+void AddRange(std::int64_t after_tick, std::int64_t tick, bool forged,
+              const std::set<std::string>& channels, std::vector<DamagedRange>* all) {
   const std::int64_t first = std::max<std::int64_t>(0, std::min(after_tick + 1, tick));
   if (!all->empty() && first >= all->back().first_tick && first <= all->back().last_tick + 1) {
     DamagedRange& last = all->back();
     last.last_tick = std::max(last.last_tick, tick);
+    last.forged = last.forged && forged;
     last.channels.insert(channels.begin(), channels.end());
     return;
   }
-  all->push_back({first, std::max(first, tick), false, channels});
+  all->push_back({first, std::max(first, tick), false, forged, channels});
 }
 
 }  // namespace
@@ -35,16 +40,23 @@ struct ChainCheck::Seal {
   int peer;
   std::int64_t tick, first_tick;
   std::int32_t messages, messages_crc, log_events, log_crc;
+  Bytes keyed;
 };
 
+ChainCheck::ChainCheck(const LogPlace& from, const Secret* key) : crc_(from.crc) {
+  if (key != nullptr) key_ = *key, keyed_.emplace(*key, from.keyed);
+}
+
 std::optional<ChainCheck::Seal> ChainCheck::SealOf(const AnyMessage& message) {
-  const auto read = [](const auto& m, std::size_t ticks) {
+  const auto read = [](const auto& m, std::size_t ticks, const Bytes& keyed) {
     const std::int64_t before = ticks > 0 ? static_cast<std::int64_t>(ticks) - 1 : 0;
-    return Seal{m.session,  m.peer,         m.tick,       m.tick - before,
-                m.messages, m.messages_crc, m.log_events, m.log_crc};
+    return Seal{m.session,    m.peer,    m.tick, m.tick - before, m.messages, m.messages_crc,
+                m.log_events, m.log_crc, keyed};
   };
-  if (const auto* seal = std::get_if<LogSeal>(&message)) return read(*seal, TicksOf(*seal)->size());
-  if (const auto* chain = std::get_if<TickChain>(&message)) return read(*chain, 1);
+  if (const auto* seal = std::get_if<LogSeal>(&message)) {
+    return read(*seal, TicksOf(*seal)->size(), seal->log_keyed);
+  }
+  if (const auto* chain = std::get_if<TickChain>(&message)) return read(*chain, 1, {});
   return std::nullopt;
 }
 
@@ -57,6 +69,7 @@ void ChainCheck::Note(ByteView header, const LogEvent& event) {
   for (std::uint32_t* crc : {&crc_, &own_crc_}) {
     *crc = Crc32c(event.data, Crc32c(TextBytes(event.channel), Crc32c(header, *crc)));
   }
+  if (keyed_) AddEvent(header, event, 0, &*keyed_);
   ++events_;
   channels_.insert(event.channel);
   if (seal || room.empty()) return;
@@ -72,14 +85,33 @@ void ChainCheck::Note(ByteView header, const LogEvent& event) {
 void ChainCheck::CheckMessages(const Publisher& publisher, const Seal& seal) {
   Heard& heard = heard_[publisher];
   if (heard.messages == seal.messages && heard.crc != seal.messages_crc) {
-    AddRange(heard.tick, seal.tick, heard.channels, &messages_damage_);
+    AddRange(heard.tick, seal.tick, false, heard.channels, &messages_damage_);
   }
   heard = Heard();
   heard.tick = seal.tick;
 }
 
+void ChainCheck::AddEvent(ByteView header, const LogEvent& event, std::size_t without,
+                          KeyedChain* chain) {
+  chain->Add(header);
+  chain->Add(TextBytes(event.channel));
+  chain->Add({event.data.data(), event.data.size() - without});
+}
+
+bool ChainCheck::KeyedAsWritten(ByteView header, const LogEvent& event, const Seal& seal) {
+  if (!keyed_) return true;
+  KeyedChain::Hash told{};
+  const bool there = seal.keyed.size() == told.size();
+  if (there) {
+    std::memcpy(told.data(), seal.keyed.data(), told.size());
+    AddEvent(header, event, kKeyedBytes, &*keyed_);
+  }
+  const bool same = there && keyed_->Is(told);
+  keyed_.emplace(*key_, told);
+  return same;
+}
+
 void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& seal) {
-  constexpr std::size_t kCrcBytes = sizeof seal.log_crc;
   const ByteView data(event.data.data(), event.data.size() - kCrcBytes);
   const auto with = [&](std::uint32_t crc) {
     return Crc32c(data, Crc32c(TextBytes(event.channel), Crc32c(header, crc)));
@@ -87,12 +119,14 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
   const auto written = static_cast<std::uint32_t>(seal.log_crc);
   const bool same = with(crc_) == written || with(own_crc_) == written;
   const bool good = same && !skipped_ && events_ + 1 == seal.log_events;
+  const bool keyed = KeyedAsWritten(header, event, seal);
   sealed_ = sealed_ || good;  // in a log of another logger none is: it has numbers of its own
   channels_.insert(event.channel);
-  if (good) {
+  if (good && keyed) {
     CloseDamage(seal.first_tick - 1);
     tick_ = seal.tick;
   } else {  // its tick may be what is damaged: the next good one says where the damage ended
+    forged_ = forged_ && good;
     damaged_ = true;
     damaged_channels_.insert(channels_.begin(), channels_.end());
   }
@@ -105,18 +139,19 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
 
 void ChainCheck::CloseDamage(std::int64_t last_tick) {
   if (!damaged_) return;
+  AddRange(tick_, std::max(tick_ + 1, last_tick), forged_, damaged_channels_, &bytes_damage_);
   damaged_ = false;
-  AddRange(tick_, std::max(tick_ + 1, last_tick), damaged_channels_, &bytes_damage_);
+  forged_ = true;
   damaged_channels_.clear();
 }
 
 std::vector<DamagedRange> ChainCheck::Damage() const {
-  if (!sealed_) return messages_damage_;
+  if (!sealed_ && !keyed_) return messages_damage_;
   std::vector<DamagedRange> all = bytes_damage_;
   if (damaged_ || events_ > 0 || skipped_) {
     std::set<std::string> channels = damaged_channels_;
     channels.insert(channels_.begin(), channels_.end());
-    AddRange(tick_, tick_ + 1, channels, &all);
+    AddRange(tick_, tick_ + 1, damaged_ && forged_, channels, &all);
     all.back().to_the_end = true;
   }
   return all;

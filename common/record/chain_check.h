@@ -12,6 +12,8 @@
 
 #include "common/base/bytes.h"
 #include "common/codec/codec.h"
+#include "common/net/keyed_chain.h"
+#include "common/record/log_place.h"
 
 namespace seam {
 
@@ -21,6 +23,8 @@ struct LogEvent;
 struct DamagedRange {
   std::int64_t first_tick = 0, last_tick = 0;
   bool to_the_end = false;         ///< nothing from first_tick on is certain
+  /// All of it has its checksums, but not those of the key: somebody else wrote it.
+  bool forged = false;
   std::set<std::string> channels;  ///< of the events in it; one or several of them are damaged
 };
 
@@ -34,8 +38,9 @@ std::int32_t ChainedCrc(std::int32_t crc, const std::string& channel, ByteView m
 /// checked where all of them are there.
 class ChainCheck {
  public:
-  /// `crc`: log_crc of the seal before the first event; 0: the log's begin.
-  explicit ChainCheck(std::uint32_t crc = 0) : crc_(crc) {}
+  /// `from`: the place of the first event. With `key` the log must be one that was written with it,
+  /// from there on and without anything before.
+  explicit ChainCheck(const LogPlace& from = LogPlace(), const Secret* key = nullptr);
   /// Notes bytes that belong to no event.
   void NoteSkipped() { skipped_ = true; }
   /// Notes an event, with the bytes of its header.
@@ -54,6 +59,11 @@ class ChainCheck {
   };
   /// The fields of a LogSeal, or of a TickChain of 0.25.
   struct Seal;
+  /// Adds an event's bytes, without the last ones, to the keyed hash.
+  static void AddEvent(ByteView header, const LogEvent& event, std::size_t without,
+                       KeyedChain* chain);
+  /// True if the bytes up to this seal are as the holder of the key wrote them, or there is no key.
+  bool KeyedAsWritten(ByteView header, const LogEvent& event, const Seal& seal);
   static std::optional<Seal> SealOf(const AnyMessage& message);
   using Publisher = std::tuple<std::string, std::int64_t, int>;  // room, session, peer
   void CheckMessages(const Publisher& publisher, const Seal& seal);
@@ -73,7 +83,11 @@ class ChainCheck {
   /// Ends the damaged part that began after tick_, if there is one.
   void CloseDamage(std::int64_t last_tick);
 
+  std::optional<Secret> key_;
+  std::optional<KeyedChain> keyed_;  // since the last seal of a log
+
   bool damaged_ = false;  // something since tick_
+  bool forged_ = true;    // no checksum since is wrong, but for those of the key
   std::set<std::string> damaged_channels_;
   bool sealed_ = false;  // a RoomLog wrote this
   std::vector<DamagedRange> bytes_damage_;

@@ -16,14 +16,15 @@ bool g_damage_found = false;
 
 std::string PartText(const DamagedRange& part) {
   std::string text = "tick " + std::to_string(part.first_tick);
+  const std::string last = std::to_string(part.last_tick);
   if (part.to_the_end) {
     text = "from " + text + " to the log's end nothing is certain";
   } else if (part.last_tick > part.first_tick) {
-    text = "ticks " + std::to_string(part.first_tick) + " to " + std::to_string(part.last_tick) +
-           " are damaged";
+    text = "ticks " + std::to_string(part.first_tick) + " to " + last + " are damaged";
   } else {
     text += " is damaged";
   }
+  if (part.forged) text += ": changed, or not written with this key";
   std::size_t named = 0;
   for (const std::string& channel : part.channels) {
     if (named == kChannelsNamed) break;

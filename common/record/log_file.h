@@ -77,9 +77,10 @@ class LogReader {
  public:
   /// Throws OperatorError when the file cannot be opened, is no regular file, or has no event at
   /// all ("not an LCM log"). Reads the present contents only, not bytes appended later.
-  explicit LogReader(const std::string& path);
+  /// With `key`, damage() also has the parts that nobody with the key wrote.
+  explicit LogReader(const std::string& path, const Secret* key = nullptr);
   /// Reads from a place on that RoomLog gave. Throws also when the log is shorter than that.
-  LogReader(const std::string& path, const LogPlace& from);
+  LogReader(const std::string& path, const LogPlace& from, const Secret* key = nullptr);
   ~LogReader();
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;

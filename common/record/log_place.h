@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "common/net/keyed_chain.h"
+
 namespace seam {
 
 /// The end of a part of a log that ends with a LogSeal.
@@ -10,6 +12,7 @@ struct LogPlace {
   std::int64_t bytes = 0;
   std::int64_t number = 0;  ///< of the next event
   std::uint32_t crc = 0;    ///< log_crc of that seal; 0: the log's begin
+  KeyedChain::Hash keyed{};  ///< log_keyed of that seal; zeros: it has none
 };
 
 }  // namespace seam

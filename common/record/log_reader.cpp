@@ -37,7 +37,7 @@ void LogReader::Open(const std::string& path) {
   if (fstat(fileno(file_), &status) == 0) size_bytes_ = static_cast<std::int64_t>(status.st_size);
 }
 
-LogReader::LogReader(const std::string& path) {
+LogReader::LogReader(const std::string& path, const Secret* key) : check_(LogPlace(), key) {
   Open(path);
   if (FindHeader(0, size_bytes_) == size_bytes_) {
     std::fclose(file_);
@@ -45,8 +45,8 @@ LogReader::LogReader(const std::string& path) {
   }
 }
 
-LogReader::LogReader(const std::string& path, const LogPlace& from)
-    : at_(from.bytes), check_(from.crc) {
+LogReader::LogReader(const std::string& path, const LogPlace& from, const Secret* key)
+    : at_(from.bytes), check_(from, key) {
   Open(path);
   if (from.bytes <= size_bytes_) return;
   std::fclose(file_);

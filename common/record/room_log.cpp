@@ -22,14 +22,20 @@ namespace {
 
 /// Bytes of LogSeal::log_crc, the last ones of an encoded LogSeal and so of its event.
 constexpr std::size_t kSealCrcBytes = 4;
+constexpr std::size_t kSealKeyedAt = kLogKeyedBytes + kSealCrcBytes;  // from its end
+static_assert(kLogKeyedBytes == std::tuple_size<KeyedChain::Hash>::value);
 
 }  // namespace
 
-RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk)
-    : path_(path), disk_(disk), file_(std::make_shared<File>(LogWriter::Open(path, force))) {}
+RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key)
+    : path_(path), disk_(disk), file_(std::make_shared<File>(LogWriter::Open(path, force))) {
+  if (key != nullptr) key_ = *key, keyed_.emplace(*key);
+}
 
-RoomLog::RoomLog(const std::string& path, const LogPlace& place, DiskThread* disk)
+RoomLog::RoomLog(const std::string& path, const LogPlace& place, DiskThread* disk,
+                 const Secret* key)
     : path_(path), disk_(disk), end_(place) {
+  if (key != nullptr) key_ = *key, keyed_.emplace(*key, place.keyed);
   std::FILE* const stream = OpenPlainFile(path, FileUse::kGoOn);
   if (stream == nullptr) {
     throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
@@ -96,6 +102,8 @@ LogPlace RoomLog::Pin() {
   end_.bytes += static_cast<std::int64_t>(seal_.size());
   end_.number += 1;
   end_.crc = seal_crc_;
+  end_.keyed = seal_keyed_;
+  if (keyed_) keyed_.emplace(*key_, seal_keyed_);
   unsealed_ = 0;
   seal_.clear();
   return end_;
@@ -116,7 +124,9 @@ void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
   const std::uint32_t crc = Crc32c(buffer_, end_.crc);
   const std::size_t seal_at = buffer_.size();
   seal.log_events = unsealed_ + events + 1;
+  if (keyed_) seal.log_keyed.resize(kLogKeyedBytes);
   AppendEvent(&buffer_, end_.number + events, seal.utime, channel, Encode(seal));
+  if (keyed_) AddKeyed(seal_at);
   const std::size_t crc_at = buffer_.size() - kSealCrcBytes;
   const std::uint32_t seal_crc = Crc32c({buffer_.data() + seal_at, crc_at - seal_at}, crc);
   for (std::size_t i = 0; i < kSealCrcBytes; ++i) {
@@ -127,7 +137,9 @@ void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
     error = CutOff(end_.bytes + static_cast<std::int64_t>(buffer_.size()));
   }
   if (error != 0) return Fail(error);
-  end_ = {end_.bytes + static_cast<std::int64_t>(seal_at), end_.number + events, crc};
+  end_.bytes += static_cast<std::int64_t>(seal_at);
+  end_.number += events;
+  end_.crc = crc;
   unsealed_ += events;
   seal_.assign(buffer_.begin() + static_cast<std::ptrdiff_t>(seal_at), buffer_.end());
   seal_crc_ = seal_crc;
@@ -135,6 +147,17 @@ void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
   starts_.clear();
   if (kept) Pin();
   Sync();
+}
+
+/// Fills in the keyed hash of the events and the seal in buffer_.
+void RoomLog::AddKeyed(std::size_t seal_at) {
+  const std::size_t keyed_at = buffer_.size() - kSealKeyedAt;
+  keyed_->Add({buffer_.data(), seal_at});
+  KeyedChain with_seal = *keyed_;
+  with_seal.Add({buffer_.data() + seal_at, keyed_at - seal_at});
+  seal_keyed_ = with_seal.Now();
+  std::copy(seal_keyed_.begin(), seal_keyed_.end(),
+            buffer_.begin() + static_cast<std::ptrdiff_t>(keyed_at));
 }
 
 /// Returns 0, or the error.

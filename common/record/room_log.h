@@ -8,18 +8,20 @@
 ///
 /// So the log always ends with a seal, and holds few of them. A process that is killed loses the
 /// tick that it has not written; a machine that loses power the last 50 ms, more if the disk is
-/// slow.
+/// slow. With a key each seal also has a keyed hash, so that nobody else can change the log.
 
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/bytes.h"
 #include "common/base/status.h"
+#include "common/net/keyed_chain.h"
 #include "common/record/log_place.h"
 #include "common/record/recorder.h"
 
@@ -29,12 +31,13 @@ class DiskThread;
 
 class RoomLog : public Recorder {
  public:
-  /// Begins a log. `disk` syncs it, and must outlive this; nullptr: nothing does. Throws
-  /// OperatorError as LogWriter does.
-  RoomLog(const std::string& path, bool force, DiskThread* disk);
+  /// Begins a log. `disk` syncs it, and must outlive this; nullptr: nothing does. `key`:
+  /// nullptr: none. Throws OperatorError as LogWriter does.
+  RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key = nullptr);
   /// Goes on with a log at `place`; cuts off the bytes behind it. Throws OperatorError if it cannot
   /// be written, or another program has it open by this constructor.
-  RoomLog(const std::string& path, const LogPlace& place, DiskThread* disk);
+  RoomLog(const std::string& path, const LogPlace& place, DiskThread* disk,
+          const Secret* key = nullptr);
   /// Flushes.
   ~RoomLog() override;
   RoomLog(const RoomLog&) = delete;
@@ -70,6 +73,7 @@ class RoomLog : public Recorder {
     std::atomic<int> sync_error{0};
   };
   void Write(const std::string& channel, LogSeal seal, bool kept);
+  void AddKeyed(std::size_t seal_at);
   int WriteAt(std::int64_t at, const Bytes& bytes);
   int CutOff(std::int64_t bytes);
   void Sync();
@@ -81,6 +85,9 @@ class RoomLog : public Recorder {
   Status trouble_;
   LogPlace end_;               // of the written events, without a seal that is not kept
   std::int32_t unsealed_ = 0;  // events since the last kept seal; end_.crc includes them
+  std::optional<Secret> key_;
+  std::optional<KeyedChain> keyed_;  // of the log up to end_
+  KeyedChain::Hash seal_keyed_{};    // of seal_
   Bytes seal_;                 // behind end_, not kept
   std::uint32_t seal_crc_ = 0;
   std::map<std::string, LogSeal> open_;  // the last seal of each channel that is not kept

@@ -1,5 +1,7 @@
 #include "common/record/sink.h"
 
+#include <utility>
+
 #include "common/base/check.h"
 #include "common/record/log_file.h"
 
@@ -12,17 +14,18 @@ constexpr int kPollsMax = 64;
 }  // namespace
 
 Sink::Sink(const std::string& lcm_url, const std::string& record_path, bool force,
-           const std::string& room)
-    : record_path_(record_path), force_(force) {
+           const std::string& room, std::shared_ptr<const Secret> log_key)
+    : record_path_(record_path), force_(force), log_key_(std::move(log_key)) {
   if (!record_path.empty()) LogWriter::Check(record_path, force);
   Listen(lcm_url, room);
 }
 
 Sink::Sink(const std::string& lcm_url, const std::string& record_path, const LogPlace& place,
-           const std::string& room)
+           const std::string& room, std::shared_ptr<const Secret> log_key)
     : record_path_(record_path),
       force_(false),
-      log_(std::make_unique<RoomLog>(record_path, place, &disk_)) {
+      log_key_(std::move(log_key)),
+      log_(std::make_unique<RoomLog>(record_path, place, &disk_, log_key_.get())) {
   Listen(lcm_url, room);
 }
 
@@ -39,7 +42,7 @@ void Sink::Listen(const std::string& lcm_url, const std::string& room) {
 
 void Sink::OpenLog() {
   try {
-    log_ = std::make_unique<RoomLog>(record_path_, force_, &disk_);
+    log_ = std::make_unique<RoomLog>(record_path_, force_, &disk_, log_key_.get());
   } catch (const OperatorError& error) {
     // Possible despite the check at the start: the file or folder may have changed since.
     not_opened_ = Status::Error(error.what());

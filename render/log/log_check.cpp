@@ -9,9 +9,9 @@
 
 namespace seam {
 
-LogCheck CheckLog(const std::string& path) {
+LogCheck CheckLog(const std::string& path, const Secret* key) {
   LogCheck check;
-  LogReader reader(path);
+  LogReader reader(path, key);
   for (LogEvent event; reader.Next(&event);) {
     const auto bytes =
         static_cast<std::int64_t>(kLogHeaderBytes + event.channel.size() + event.data.size());
@@ -27,9 +27,9 @@ LogCheck CheckLog(const std::string& path) {
       ++check.undecodable;
       continue;
     }
-    const bool seal =
-        std::holds_alternative<LogSeal>(message) || std::holds_alternative<TickChain>(message);
-    check.seals += seal ? 1 : 0;
+    const auto* seal = std::get_if<LogSeal>(&message);
+    check.seals += seal != nullptr || std::holds_alternative<TickChain>(message) ? 1 : 0;
+    check.keyed += seal != nullptr && !seal->log_keyed.empty() ? 1 : 0;
     SessionSpan& span = check.rooms[room][SessionOf(event.data).value_or(0)];
     if (span.events++ == 0) span.first_us = span.last_us = event.timestamp_us;
     span.bytes += bytes;

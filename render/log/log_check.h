@@ -20,6 +20,7 @@ struct SessionSpan {
 
 struct LogCheck {
   std::int64_t events = 0, bytes = 0, seals = 0;
+  std::int64_t keyed = 0;        ///< seals with a keyed hash
   std::int64_t foreign = 0;      ///< events of other channels
   std::int64_t undecodable = 0;  ///< of ours
   std::int64_t skipped_bytes = 0;
@@ -29,8 +30,8 @@ struct LogCheck {
   bool damaged() const { return skipped_bytes > 0 || undecodable > 0 || !damage.empty(); }
 };
 
-/// Throws OperatorError if there is no such log.
-LogCheck CheckLog(const std::string& path);
+/// `key`: see LogReader. Throws OperatorError if there is no such log.
+LogCheck CheckLog(const std::string& path, const Secret* key = nullptr);
 /// Returns a line for each damaged part of a log.
 std::vector<std::string> LinesOf(const LogCheck& check);
 

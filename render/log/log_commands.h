@@ -15,10 +15,16 @@ struct LogsCommand {
   std::vector<std::string> logs;
 };
 
+struct LogVerifyCommand {
+  std::vector<std::string> logs;
+  std::string log_key;  ///< a key file; "": none
+};
+
 /// Prints the sessions of logs: room, scene, method, ticks, duration, events and bytes.
 int RunLogList(const LogsCommand& command);
-/// Prints for each log that it is whole, or its damage, a line for each part.
-int RunLogVerify(const LogsCommand& command);
+/// Prints for each log that it is whole, or its damage, a line for each part. With a key, also
+/// which parts were not written with it.
+int RunLogVerify(const LogVerifyCommand& command);
 
 struct LogStatsCommand {
   std::string log, room, session;

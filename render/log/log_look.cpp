@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "common/base/check.h"
+#include "common/net/secret_file.h"
 #include "common/record/damage.h"
 #include "common/record/log_file.h"
 #include "common/record/loss_timeline.h"
@@ -55,10 +57,13 @@ int RunLogList(const LogsCommand& command) {
   return status;
 }
 
-int RunLogVerify(const LogsCommand& command) {
+int RunLogVerify(const LogVerifyCommand& command) {
   int status = 0;
+  std::optional<Secret> key;
+  if (!command.log_key.empty()) key = ReadSecretFile("--log-key", command.log_key);
+
   for (const std::string& path : command.logs) {
-    const LogCheck check = CheckLog(path);
+    const LogCheck check = CheckLog(path, key ? &*key : nullptr);
     if (check.damaged()) {
       status = 1;
       for (const std::string& line : LinesOf(check)) {
@@ -68,8 +73,11 @@ int RunLogVerify(const LogsCommand& command) {
       std::printf("%s: all %lld events decode; it has no checksums\n", path.c_str(),
                   static_cast<long long>(check.events));
     } else {
-      std::printf("%s: whole: %lld events, %lld checksums\n", path.c_str(),
-                  static_cast<long long>(check.events), static_cast<long long>(check.seals));
+      std::printf("%s: whole: %lld events, %lld checksums%s\n", path.c_str(),
+                  static_cast<long long>(check.events), static_cast<long long>(check.seals),
+                  key               ? ", all written with this key"
+                  : check.keyed > 0 ? "; say --log-key to check that it is its writer's"
+                                    : "");
     }
   }
   return status;

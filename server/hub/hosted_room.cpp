@@ -21,8 +21,10 @@ Net& Through(const ImpairProfile& profile, Net& direct, Net& impaired) {
 
 Sink MakeSink(const RoomPlan& plan) {
   const bool goes_on = plan.resumed != nullptr && !plan.resumed->new_log;
-  if (!goes_on) return Sink(plan.lcm_url, plan.record, plan.force, plan.config.room);
-  return Sink(plan.lcm_url, plan.record, plan.resumed->tail.end, plan.config.room);
+  if (!goes_on) {
+    return Sink(plan.lcm_url, plan.record, plan.force, plan.config.room, plan.log_key);
+  }
+  return Sink(plan.lcm_url, plan.record, plan.resumed->tail.end, plan.config.room, plan.log_key);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct RoomPlan {
   std::int64_t last_tick = 0;  ///< the room ends after this tick; 0: never
   std::string lcm_url = "none";
   std::string record;  ///< path of its log; "": none
+  std::shared_ptr<const Secret> log_key;  ///< of the log; null: none
   bool force = false;
   std::string state;  ///< folder in which the room is kept, with its log; "": none
   std::shared_ptr<const ResumedRoom> resumed;  ///< the room to go on with; null: it begins

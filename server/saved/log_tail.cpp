@@ -39,32 +39,33 @@ void AddTick(TickMessages* of, LogTail* tail) {
 /// A seal, as a log ends with one.
 struct LogEnd {
   std::uint32_t crc = 0;
+  Bytes keyed;
   std::vector<TickMessages> ticks;
 };
 
 /// Returns the end that a message is, if it is one, with the server's ticks that it ends.
 std::optional<LogEnd> EndOf(const AnyMessage& any, TickSplitter* splitter) {
-  const auto read = [&](const auto* seal) {
-    LogEnd end{static_cast<std::uint32_t>(seal->log_crc), {}};
+  const auto read = [&](const auto* seal, Bytes keyed) {
+    LogEnd end{static_cast<std::uint32_t>(seal->log_crc), std::move(keyed), {}};
     if (seal->peer == 0) end.ticks = splitter->End(*seal);
     return end;
   };
   const auto* seal = std::get_if<LogSeal>(&any);
   const auto* chain = std::get_if<TickChain>(&any);
-  if (seal != nullptr && seal->log_events > 0) return read(seal);
-  if (chain != nullptr && chain->log_events > 0) return read(chain);
+  if (seal != nullptr && seal->log_events > 0) return read(seal, seal->log_keyed);
+  if (chain != nullptr && chain->log_events > 0) return read(chain, {});
   return std::nullopt;
 }
 
 }  // namespace
 
 Status ReadLogTail(const std::string& path, const std::string& room, const LogPlace& from,
-                   LogTail* tail) {
+                   const Secret* key, LogTail* tail) {
   *tail = LogTail();
   tail->end = from;
   std::unique_ptr<LogReader> log;
   try {
-    log = std::make_unique<LogReader>(path, from);
+    log = std::make_unique<LogReader>(path, from, key);
   } catch (const OperatorError& error) {
     return Status::Error(error.what());
   }
@@ -82,7 +83,8 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
     }
     if (end) {
       for (TickMessages& tick : end->ticks) AddTick(&tick, tail);
-      tail->end = {log->place_bytes(), event.number + 1, end->crc};
+      tail->end = {log->place_bytes(), event.number + 1, end->crc, {}};
+      std::copy(end->keyed.begin(), end->keyed.end(), tail->end.keyed.begin());
     } else if (ours && PublisherOfChannel(event.channel) == 0) {
       splitter.Add(std::move(any));
     }

@@ -30,9 +30,9 @@ struct LogTail {
 };
 
 /// Reads the log from `from` on, up to the first thing that is not as it was written. A late input
-/// is in the tick in which it acts, so that no tick has to be stepped again. Returns one line if
-/// there is no such place in the log.
+/// is in the tick in which it acts, so that no tick has to be stepped again. `key`: written with
+/// it, nullptr: with any or none. Returns one line if there is no such place in the log.
 Status ReadLogTail(const std::string& path, const std::string& room, const LogPlace& from,
-                   LogTail* tail);
+                   const Secret* key, LogTail* tail);
 
 }  // namespace seam

@@ -47,7 +47,8 @@ std::vector<std::string> RoomsIn(const std::string& folder) {
   return {names.begin(), names.end()};
 }
 
-ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room) {
+ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
+                            const Secret* log_key) {
   ResumedRoom resumed;
   resumed.log = StateLogOf(folder, room);
   LogPlace from;
@@ -70,7 +71,7 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room) 
     for (const std::string& note : resumed.notes) why += "; " + note.substr(0, note.find("; the"));
     throw OperatorError(why);
   }
-  const Status read = ReadLogTail(resumed.log, room, from, &resumed.tail);
+  const Status read = ReadLogTail(resumed.log, room, from, log_key, &resumed.tail);
   const std::string damage = read.ok() ? resumed.tail.damage : read.why();
   if (damage.empty()) return resumed;
   const bool there = fs::exists(resumed.log);

@@ -24,8 +24,10 @@ std::string StateLogOf(const std::string& folder, const std::string& room);
 /// Returns the names of the rooms in it. Throws OperatorError if there are none.
 std::vector<std::string> RoomsIn(const std::string& folder);
 /// Reads a room: of its snapshots the newest that is whole and of this version, and its log from
-/// there on. Throws OperatorError if there is none. Renames a log that is damaged behind that.
-ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room);
+/// there on. Throws OperatorError if there is none. Renames a log that is damaged behind that, or
+/// was not written with `log_key` (nullptr: need not be).
+ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
+                            const Secret* log_key = nullptr);
 /// Makes the folder if there is none. Throws OperatorError if that cannot be, or if it holds this
 /// room and `force` is not given; with `force` removes the room.
 void PrepareStateFolder(const std::string& folder, const std::string& room, bool force);

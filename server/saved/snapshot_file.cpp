@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -32,6 +33,7 @@ struct FileHeader {
   std::int64_t log_bytes, log_number;
   std::uint32_t log_crc;
   std::uint32_t unused;
+  KeyedChain::Hash log_keyed;  // not in version 1
 };
 /// The checksum is of all bytes behind itself.
 constexpr std::size_t kCheckedFrom = 16;
@@ -105,6 +107,7 @@ Status WriteSnapshot(const std::string& folder, const std::string& room,
   header.log_bytes = snapshot.log.bytes;
   header.log_number = snapshot.log.number;
   header.log_crc = snapshot.log.crc;
+  header.log_keyed = snapshot.log.keyed;
   const ByteView head(reinterpret_cast<const std::uint8_t*>(&header), sizeof header);
   header.crc = ChecksumOf(head, snapshot.room);
   const std::string path = SnapshotPath(folder, room, snapshot.tick);
@@ -132,20 +135,24 @@ Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot) {
   }
   const auto refuse = [&](const std::string& why) { return Status::Error(path + ": " + why); };
   FileHeader header{};
-  if (bytes.size() < sizeof header) return refuse("is damaged: it is too short");
-  std::memcpy(&header, bytes.data(), sizeof header);
+  std::size_t head = offsetof(FileHeader, log_keyed);
+  if (bytes.size() < head) return refuse("is damaged: it is too short");
+  std::memcpy(&header, bytes.data(), head);
   if (std::memcmp(header.magic, kSnapshotMagic, sizeof kSnapshotMagic) != 0) {
     return refuse("is damaged, or no snapshot");
   }
-  if (header.version != kSnapshotVersion) {
+  if (header.version != 1 && header.version != kSnapshotVersion) {
     return refuse("is of version " + std::to_string(header.version) + ", this server reads " +
                   std::to_string(kSnapshotVersion));
   }
+  if (header.version > 1) head = sizeof header;
+  if (bytes.size() < head) return refuse("is damaged: it is too short");
+  std::memcpy(&header, bytes.data(), head);
   const ByteView all = TextBytes(bytes);
-  const ByteView room(all.data + sizeof header, all.size - sizeof header);
-  if (header.crc != ChecksumOf({all.data, sizeof header}, room)) return refuse("is damaged");
+  const ByteView room(all.data + head, all.size - head);
+  if (header.crc != ChecksumOf({all.data, head}, room)) return refuse("is damaged");
   snapshot->tick = header.tick;
-  snapshot->log = {header.log_bytes, header.log_number, header.log_crc};
+  snapshot->log = {header.log_bytes, header.log_number, header.log_crc, header.log_keyed};
   snapshot->room.assign(room.begin(), room.end());
   return Status::Ok();
 }

@@ -2,8 +2,8 @@
 /// A saved room in a file, with the place in the room's log up to which it goes.
 ///
 ///   magic 8 bytes | version u32 | CRC-32C u32 of all that follows | tick i64
-///   | log: bytes i64, number i64, crc u32 | unused u32 | bytes of RoomState::Save   (this
-///   machine's byte order)
+///   | log: bytes i64, number i64, crc u32 | unused u32 | keyed 32 bytes (not in version 1)
+///   | bytes of RoomState::Save   (this machine's byte order)
 
 #include <cstdint>
 #include <string>
@@ -16,7 +16,7 @@
 namespace seam {
 
 /// Version of the file around the room; RoomState has its own.
-constexpr std::uint32_t kSnapshotVersion = 1;
+constexpr std::uint32_t kSnapshotVersion = 2;
 /// Snapshots of a room that are kept: the newest, and the one before in case that one is damaged.
 constexpr int kSnapshotsKept = 2;
 

@@ -35,7 +35,7 @@ class Killed {
     const LogPlace place = log.Pin();
     const Bytes bytes = cluster_->server().Save(cluster_->now_us());
     cluster_->RunToTick(tick);
-    Status status = ReadLogTail(file_.path(), "main", place, &tail);
+    Status status = ReadLogTail(file_.path(), "main", place, nullptr, &tail);
     EXPECT_TRUE(status.ok()) << status.why();
     EXPECT_EQ(tail.damage, "");
     EXPECT_EQ(tail.last_tick, tick) << "the tick is in the log before its datagrams leave";

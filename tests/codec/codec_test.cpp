@@ -317,7 +317,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"welcome_t", 0x01d175a91807bb13u},       {"packed_states_t", 0x9e508524d7c14130u},
       {"packed_inputs_t", 0x7e50cd24d7c14120u}, {"reset_t", 0x136941e6878393ddu},
       {"differing_t", 0xfa7867b773f44db4u},     {"chain_t", 0x1bb504fc8ab818e3u},
-      {"seal_t", 0x3f0439efc3d1929au},          {"accepted_t", 0x292fdd050bf2273bu},
+      {"seal_t", 0x80b0f748ba568db6u},          {"accepted_t", 0x292fdd050bf2273bu},
   };
   std::map<std::string, std::uint64_t> hashes;
   std::set<std::uint64_t> different;

@@ -295,7 +295,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
   ExpectOnlyIn("common/base/command/(command_line|command_table|mistake)\\.cpp", kCode, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
-  ExpectOnlyIn("common/net/(keyed_hash|seal|key_exchange|connect_token)\\.cpp", kCode,
+  ExpectOnlyIn("common/net/(keyed_hash|keyed_chain|seal|key_exchange|connect_token)\\.cpp", kCode,
                "sodium\\.h|sodium/.*");
   ExpectOnlyIn("render/import/rube\\.cpp", kCode, "nlohmann/.*");
   ExpectOnlyIn("render/import/tiled\\.cpp", kCode, "tinyxml2\\.h");

@@ -206,6 +206,8 @@ class RandomMessages {
     Common(m), m.session = Integer(1, INT64_MAX - 1), Set(m.sequence, 0, INT32_MAX);
     Set(m.peer, 0, 31), m.tick = Tick(), Set(m.messages, -1, INT32_MAX);
     Set(m.log_events, 0, INT32_MAX), m.messages_crc = Int32(), m.log_crc = Int32();
+    m.log_keyed.resize(Count(0, 1) * kLogKeyedBytes);
+    for (std::uint8_t& byte : m.log_keyed) byte = static_cast<std::uint8_t>(Int32());
     std::vector<SealedTick> ticks(Count(0, kSealTicksMax));
     for (SealedTick& tick : ticks) {
       Set(tick.before, 0, INT32_MAX), Set(tick.after, 0, 300), Set(tick.hash, 0, UINT16_MAX);
