@@ -71,8 +71,9 @@ struct World::Impl {
   /// Prepares the meter and the exact solver for new bodies and joints.
   void Built() {
     meter.Set(scene.solver.substeps, lightest);
-    if (scene.solver.joints == JointSolving::kIterative) return;
-    if (memory.joints.empty() && !has_elastic) return exact.reset();
+    const bool soft = scene.solver.contacts == ContactSolving::kSoft;
+    if (scene.solver.joints == JointSolving::kIterative && !soft) return;
+    if (memory.joints.empty() && !has_elastic && !soft) return exact.reset();
     exact.emplace(scene, &*world, built, memory, has_elastic);
     if (!exact->needed()) exact.reset();
   }

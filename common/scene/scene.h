@@ -177,6 +177,12 @@ enum class JointSolving {
   kIterative,  ///< the engine, joint by joint
 };
 
+/// Solver of islands without joints.
+enum class ContactSolving {
+  kEngine,  ///< the engine's own
+  kSoft,    ///< soft contacts in substeps (docs/solver.md)
+};
+
 struct Solver {
   int tick_hz = 60;             ///< 10..960
   int substeps = 1;             ///< 1..32 Box2D steps per tick, at least SubstepsMin(tick_hz)
@@ -188,8 +194,11 @@ struct Solver {
   /// m; contact skin: rounded rim at which shapes collide before they touch. 0: the engine's own (1
   /// cm for polygons and chains, none for circles, so that boxes rest 1.5 cm apart). Else moving
   /// shapes have this rim; anchored and bullet ones keep 1 cm and are moved in by the difference.
-  /// Bodies then rest 2 skin - 5 mm apart: none at 2.5 mm, the least allowed.
+  /// Bodies then rest 2 skin - 5 mm apart: none at 2.5 mm, the least allowed. A scene with soft
+  /// contacts that does not set it has 2.5 mm.
   float skin = 0;
+  ContactSolving contacts = ContactSolving::kEngine;
+  int contact_substeps = 4;  ///< 1..16 for each engine step, where contacts are soft
   JointSolving joints = JointSolving::kAuto;
   int joint_substeps = 2;    ///< 1..16 for each engine step, where joints are exact
   bool weld_joints = false;  ///< welds are the engine's joints; parts stay separate bodies

@@ -29,7 +29,8 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   const SceneReader r(
       *table, file, "solver",
       {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep", "continuous",
-       "warm_starting", "skin", "welds", "faces", "joints", "joint_substeps"});
+       "warm_starting", "skin", "welds", "faces", "joints", "joint_substeps", "contacts",
+       "contact_substeps"});
   solver->tick_hz = r.Integer("tick_hz", kTickHz, solver->tick_hz);
   solver->substeps =
       std::max(SubstepsMin(solver->tick_hz), r.Integer("substeps", {1, 32}, solver->substeps));
@@ -40,6 +41,15 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   solver->sleep = r.Flag("sleep", solver->sleep);
   solver->continuous = r.Flag("continuous", solver->continuous);
   solver->warm_starting = r.Flag("warm_starting", solver->warm_starting);
+  const std::string contacts = r.Text("contacts", "engine");
+  if (contacts != "engine" && contacts != "soft") {
+    r.FailAt("contacts", "contacts must be 'engine' or 'soft'");
+  }
+  if (contacts == "soft") {
+    solver->contacts = ContactSolving::kSoft;
+    solver->skin = static_cast<float>(kSkinRange.min);
+  }
+  solver->contact_substeps = r.Integer("contact_substeps", {1, 16}, solver->contact_substeps);
   if (r.Has("skin")) solver->skin = r.Number("skin", kSkinRange, 0.0f);
   const std::string joints = r.Text("joints", "auto");
   if (joints != "auto" && joints != "exact" && joints != "iterative") {

@@ -88,7 +88,7 @@ void ExactStep::LeaveLarge() {
 }
 
 bool ExactStep::needed() const {
-  return blows_ || std::any_of(mechanisms_.begin(), mechanisms_.end(),
+  return soft_ || blows_ || std::any_of(mechanisms_.begin(), mechanisms_.end(),
                                [](const Mechanism& m) { return m.exact; });
 }
 

@@ -55,6 +55,9 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
     paths_ = paths_ || body->GetType() == b2_kinematicBody;
   }
   FindMechanisms();
+  if (solver_.contacts == ContactSolving::kSoft) {
+    soft_ = std::make_unique<SoftStep>(solver_.contact_substeps, world_, built, memory.made);
+  }
   if (has_elastic) {
     std::vector<char> jointed(built.moving.size(), 0);
     for (Slot& slot : slots_) {
@@ -291,7 +294,8 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   const Pace pace{static_cast<double>(h) / solver_.joint_substeps, solver_.joint_substeps};
   std::size_t moving = 0;
   solved_.clear();
-  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
+  const bool iterative = solver_.joints == JointSolving::kIterative;
+  for (std::size_t m = 0; m < mechanisms_.size() && !iterative; ++m) {
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
     Found& found = found_[m];
     bool ours = Gather(static_cast<int>(m), &found);
@@ -319,11 +323,13 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     solved_.push_back(static_cast<int>(m));
   }
   if (blows_) blows_->Act(world_, h);
-  if (moving < slots_.size() || paths_) {
+  const bool left = soft_ ? soft_->Solve(h) : moving < slots_.size();
+  if (left || paths_) {
     (world_->*Member(EngineSolve()))(step);
   } else {
     contacts.FindNewContacts();
   }
+  if (soft_) soft_->Show();
   for (const int m : solved_) Show(found_[static_cast<std::size_t>(m)]);
   if (world_->GetContinuousPhysics()) Continuous(step, pace);
   if (blows_) blows_->Done();

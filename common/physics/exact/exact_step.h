@@ -1,11 +1,13 @@
 #pragma once
 /// One of the engine's steps, in which islands that contain a joint are solved as one system
-/// (ExactIsland). All other islands are solved by the engine, bit for bit as without this class.
+/// (ExactIsland), and others by soft contacts where the scene says so (SoftStep). All other islands
+/// are solved by the engine, bit for bit as without this class.
 /// The engine finds contacts, keeps the tree of boxes and does continuous collision for all.
 
 #include <memory>
 #include <vector>
 
+#include "common/physics/contacts/soft_step.h"
 #include "common/physics/exact/elastic_impacts.h"
 #include "common/physics/exact/island.h"
 #include "common/physics/world.h"
@@ -22,8 +24,8 @@ class ExactStep {
             bool has_elastic);
   ~ExactStep();
 
-  /// True if there is a joint to solve or an elastic contact (restitution 1); else the engine's own
-  /// Step does.
+  /// True if contacts are soft, or there is a joint to solve or an elastic contact (restitution 1);
+  /// else the engine's own Step does.
   bool needed() const;
 
   /// Returns the islands that are left to the engine, or relaxed, because they were too expensive:
@@ -112,6 +114,7 @@ class ExactStep {
   std::vector<const void*> sign_;
   std::vector<int> solved_;
   std::unique_ptr<ElasticImpacts> blows_;  // nullptr: nothing is elastic
+  std::unique_ptr<SoftStep> soft_;         // nullptr: contacts are the engine's
   // Scratch space of Order: by index in a list of bodies, its neighbours, and if it was visited.
   std::vector<std::vector<int>> near_;
   std::vector<char> seen_;

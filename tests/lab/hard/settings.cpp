@@ -89,6 +89,7 @@ bool SameSolver(const Solver& a, const Solver& b) { return SolverLines(a) == Sol
 std::string SolverWords(const Solver& s) {
   std::string words = fmt::format("{} Hz x{} {}/{}", s.tick_hz, s.substeps, s.velocity_iterations,
                                   s.position_iterations);
+  if (s.contacts == ContactSolving::kSoft) words += fmt::format(" soft x{}", s.contact_substeps);
   if (s.skin > 0) words += fmt::format(" skin {:.3g} mm", static_cast<double>(s.skin) * 1e3);
   if (!s.warm_starting) words += " cold";
   if (!s.continuous) words += " not continuous";
@@ -116,6 +117,8 @@ std::string SolverLines(const Solver& s) {
   flag("continuous", s.continuous, none.continuous);
   flag("warm_starting", s.warm_starting, none.warm_starting);
   if (s.skin > 0) lines += fmt::format("skin = {}\n", s.skin);
+  if (s.contacts == ContactSolving::kSoft) lines += "contacts = \"soft\"\n";
+  number("contact_substeps", s.contact_substeps, none.contact_substeps);
   if (s.joints != none.joints) lines += fmt::format("joints = \"{}\"\n", JointsWord(s.joints));
   number("joint_substeps", s.joint_substeps, none.joint_substeps);
   if (s.weld_joints) lines += "welds = \"joint\"\n";

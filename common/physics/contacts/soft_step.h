@@ -1,0 +1,62 @@
+#pragma once
+/// Solves islands without joints by soft contacts in substeps (docs/solver.md, Soft contacts).
+/// Contacts are found once, by the engine; poses, velocities and impulses are the engine's own
+/// between steps, so snapshots carry them.
+
+#include <cstddef>
+#include <vector>
+
+#include "common/physics/contacts/soft_contact.h"
+#include "common/physics/world_build.h"
+
+namespace seam {
+
+class SoftStep {
+ public:
+  /// `made`: the moving bodies that are in the world, by index in `built`. Both must outlive this.
+  SoftStep(int substeps, b2World* world, const BuiltScene& built, const std::vector<int>& made);
+
+  /// Advances each awake island without joints by h s, between the engine's narrow phase and its
+  /// continuous collision. Reports the impulses (PostSolve). Ignores disabled bodies and contacts.
+  /// Returns true if an awake island is left to the engine. The others are hidden from it until
+  /// Show.
+  bool Solve(float h);
+  void Show();
+
+ private:
+  struct Island {  // at the index of its root in `islands_`
+    bool awake = false, jointed = false, driven = false;
+    float quiet = 0;  // s for which all its bodies have been slow
+  };
+  struct Pair {  // a contact that pushes; indices into bodies_, -1: does not move
+    b2Contact* made = nullptr;
+    int a = -1, b = -1;
+  };
+
+  int Root(int body);
+  void Join(int a, int b);
+  int PlaceOf(b2Body* body) const;
+  void FindIslands();
+  bool FindOurs();
+  void Load();
+  int Fixed(b2Body* body);
+  void LoadContacts();
+  void Save(float h);
+  void Report();
+
+  const int substeps_;
+  b2World* world_;
+  std::vector<int> place_;     // by moving body: index into all_; -1: aside
+  std::vector<b2Body*> all_;   // the moving bodies in the world
+  std::vector<int> joints_;    // pairs of indices into all_ that a joint connects
+  std::vector<char> jointed_;  // by index into all_
+  std::vector<int> root_;      // likewise: towards the root of its island
+  std::vector<Island> islands_;
+  std::vector<Pair> pairs_;
+  std::vector<int> ours_;      // indices into all_, in the order of soft_.bodies
+  std::vector<int> index_;     // by index into all_: in soft_.bodies, -1: not ours
+  std::vector<b2Body*> fixed_;  // kinematic bodies of contacts
+  SoftContacts soft_;
+};
+
+}  // namespace seam
