@@ -10,7 +10,7 @@ namespace {
 
 /// Hz and 1: stiffness and damping ratio of a contact. A contact with something fixed is twice as
 /// stiff (Catto, "Solver2D", 2024).
-constexpr float kContactHz = 30, kContactDamping = 10, kFixedStiffer = 2;
+constexpr float kContactHz = 60, kContactDamping = 10, kFixedStiffer = 2;
 /// Share of a substep's rate that the stiffness may have at most.
 constexpr float kRateShare = 0.25f;
 /// m/s: at most so fast is an overlap undone.
@@ -39,7 +39,7 @@ float MassAlong(const SoftBody& a, const SoftBody& b, const SoftContact::Point& 
   return k > 0 ? 1 / k : 0;
 }
 
-void Apply(const SoftContact::Point& p, float x, float y, SoftBody* a, SoftBody* b) {
+[[gnu::always_inline]] inline void Apply(const SoftContact::Point& p, float x, float y, SoftBody* a, SoftBody* b) {
   a->vx -= a->im * x;
   a->vy -= a->im * y;
   a->w -= a->ii * (p.ax * y - p.ay * x);
@@ -48,7 +48,7 @@ void Apply(const SoftContact::Point& p, float x, float y, SoftBody* a, SoftBody*
   b->w += b->ii * (p.bx * y - p.by * x);
 }
 
-float SpeedAlong(const SoftBody& a, const SoftBody& b, const SoftContact::Point& p, float x,
+[[gnu::always_inline]] inline float SpeedAlong(const SoftBody& a, const SoftBody& b, const SoftContact::Point& p, float x,
                  float y) {
   const float vx = b.vx - b.w * p.by - a.vx + a.w * p.ay;
   const float vy = b.vy + b.w * p.bx - a.vy - a.w * p.ax;
@@ -56,7 +56,7 @@ float SpeedAlong(const SoftBody& a, const SoftBody& b, const SoftContact::Point&
 }
 
 /// Returns the distance of the surfaces now, m.
-float ApartNow(const SoftBody& a, const SoftBody& b, const SoftContact& contact,
+[[gnu::always_inline]] inline float ApartNow(const SoftBody& a, const SoftBody& b, const SoftContact& contact,
                const SoftContact::Point& p) {
   const float x = b.dx - a.dx + (b.c * p.turn_bx - b.s * p.turn_by) -
                   (a.c * p.turn_ax - a.s * p.turn_ay);
@@ -147,12 +147,33 @@ void SoftContacts::Watch() {
   }
 }
 
+/// Solves each contact once. With bias from the last to the first, so that both ends of a pile are
+/// heard in a substep.
 void SoftContacts::Push(float h, bool biased) {
   const float rate = 1 / h;
-  for (SoftContact& contact : contacts) {
+  for (std::size_t at = 0; at < contacts.size(); ++at) {
+    SoftContact& contact = contacts[biased ? contacts.size() - 1 - at : at];
     SoftBody& a = bodies[static_cast<std::size_t>(contact.a)];
     SoftBody& b = bodies[static_cast<std::size_t>(contact.b)];
     const Softness& soft = contact.fixed ? stiff_ : soft_;
+    for (int i = 0; i < contact.count; ++i) {
+      SoftContact::Point& p = contact.point[i];
+      const float apart = ApartNow(a, b, contact, p);
+      float bias = 0, mass_scale = 1, impulse_scale = 0;
+      if (apart > 0) {
+        bias = apart * rate;
+      } else if (biased) {
+        bias = std::max(soft.bias_rate * apart, -kPushOutMost);
+        mass_scale = soft.mass_scale;
+        impulse_scale = soft.impulse_scale;
+      }
+      const float speed = SpeedAlong(a, b, p, contact.nx, contact.ny);
+      const float to = std::max(0.0f, p.pushed - p.mass_n * mass_scale * (speed + bias) -
+                                          impulse_scale * p.pushed);
+      const float more = to - p.pushed;
+      p.pushed = to;
+      Apply(p, more * contact.nx, more * contact.ny, &a, &b);
+    }
     for (int i = 0; i < contact.count; ++i) {
       SoftContact::Point& p = contact.point[i];
       const float apart = ApartNow(a, b, contact, p);
@@ -216,7 +237,7 @@ void SoftContacts::Restore() {
   }
 }
 
-void SoftContacts::Step(float h, int substeps, bool warm) {
+void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
   const float hz = std::min(kContactHz, kRateShare / h);
   soft_ = SoftnessOf(hz, h);
   stiff_ = SoftnessOf(kFixedStiffer * hz, h);
@@ -235,7 +256,7 @@ void SoftContacts::Step(float h, int substeps, bool warm) {
     Kick(i == 0 ? h / 2 : h);
     Watch();
     WarmStart(i > 1 ? 1 : i == 1 ? 2 : warm ? 1 / halves : 0);
-    Push(h, true);
+    for (int sweep = 0; sweep < sweeps; ++sweep) Push(h, true);
     Drift(h);
     Push(h, false);
     sum();

@@ -50,9 +50,10 @@ class SoftContacts {
   std::size_t moving = 0;        ///< number of moving bodies
   std::vector<SoftContact> contacts;
 
-  /// Advances the bodies by `substeps` substeps of h s. The contacts' impulses are those of a whole
+  /// Advances the bodies by `substeps` substeps of h s, each with `sweeps` rounds over the contacts
+  /// and one without bias. `warm`: begin with the contacts' impulses. These are those of a whole
   /// step, before and after.
-  void Step(float h, int substeps, bool warm);
+  void Step(float h, int substeps, int sweeps, bool warm);
 
  private:
   void Kick(float h);

@@ -6,9 +6,11 @@
 
 namespace seam {
 
-SoftStep::SoftStep(int substeps, b2World* world, const BuiltScene& built,
+SoftStep::SoftStep(const Solver& solver, b2World* world, const BuiltScene& built,
                    const std::vector<int>& made)
-    : substeps_(substeps), world_(world), place_(built.moving.size(), -1) {
+    : substeps_(solver.contact_substeps),
+      sweeps_(1 + solver.velocity_iterations / solver.contact_substeps),
+      world_(world), place_(built.moving.size(), -1) {
   for (const int body : made) {
     place_[static_cast<std::size_t>(body)] = static_cast<int>(all_.size());
     all_.push_back(built.moving[static_cast<std::size_t>(body)].body);
@@ -187,28 +189,38 @@ void SoftStep::Save(float h) {
 }
 
 void SoftStep::Report() {
+  touched_.assign(soft_.bodies.size(), 0);
+  untaken_.assign(soft_.bodies.size(), 0);
   b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
   for (const SoftContact& contact : soft_.contacts) {
     b2Manifold& manifold = *contact.made->GetManifold();
     b2ContactImpulse impulse;
     impulse.count = contact.count;
+    float sum = 0;
     for (int i = 0; i < contact.count; ++i) {
       const SoftContact::Point& p = contact.point[i];
       manifold.points[i].normalImpulse = p.pushed;
       manifold.points[i].tangentImpulse = p.rubbed;
       impulse.normalImpulses[i] = p.sum_n;
       impulse.tangentImpulses[i] = p.sum_t;
+      sum += p.sum_n;
+    }
+    if (sum > 0) {
+      touched_[static_cast<std::size_t>(contact.a)] = 1;
+      touched_[static_cast<std::size_t>(contact.b)] = 1;
     }
     if (listener != nullptr) listener->PostSolve(contact.made, &impulse);
   }
 }
 
 bool SoftStep::Solve(float h) {
+  step_s_ = h;
   FindIslands();
   const bool left = FindOurs();
   Load();
   LoadContacts();
-  soft_.Step(h / static_cast<float>(substeps_), substeps_, world_->GetWarmStarting());
+  soft_.Step(h / static_cast<float>(substeps_), substeps_, sweeps_,
+             world_->GetWarmStarting());
   Save(h);
   Report();
   for (const int i : ours_) {
@@ -218,6 +230,26 @@ bool SoftStep::Solve(float h) {
     contact.made->*Member(ContactFlags()) &= ~kContactEnabled;
   }
   return left;
+}
+
+void SoftStep::AtImpact(b2Body* body) {
+  const int ours = Moves(body) ? index_[static_cast<std::size_t>(PlaceOf(body))] : -1;
+  if (ours < 0 || touched_[static_cast<std::size_t>(ours)]) return;
+  const SoftBody& q = soft_.bodies[static_cast<std::size_t>(ours)];
+  float& untaken = untaken_[static_cast<std::size_t>(ours)];
+  const float rest = (1 - (body->*Member(BodySweep())).alpha0) * step_s_;
+  body->*Member(BodyVelocity()) -= (rest - untaken) * b2Vec2(q.ax, q.ay);
+  untaken = rest;
+}
+
+void SoftStep::Fall() {
+  for (std::size_t k = 0; k < ours_.size(); ++k) {
+    if (untaken_[k] <= 0) continue;
+    b2Body* const body = all_[static_cast<std::size_t>(ours_[k])];
+    const SoftBody& q = soft_.bodies[k];
+    body->*Member(BodyVelocity()) += untaken_[k] * b2Vec2(q.ax, q.ay);
+    untaken_[k] = 0;
+  }
 }
 
 void SoftStep::Show() {

@@ -14,7 +14,7 @@ namespace seam {
 class SoftStep {
  public:
   /// `made`: the moving bodies that are in the world, by index in `built`. Both must outlive this.
-  SoftStep(int substeps, b2World* world, const BuiltScene& built, const std::vector<int>& made);
+  SoftStep(const Solver& solver, b2World* world, const BuiltScene& built, const std::vector<int>& made);
 
   /// Advances each awake island without joints by h s, between the engine's narrow phase and its
   /// continuous collision. Reports the impulses (PostSolve). Ignores disabled bodies and contacts.
@@ -22,6 +22,12 @@ class SoftStep {
   /// Show.
   bool Solve(float h);
   void Show();
+
+  /// Called before continuous collision solves an impact of the body: takes back the fall of the
+  /// rest of the step, so that a body in flight strikes as fast as it is there.
+  void AtImpact(b2Body* body);
+  /// Called after continuous collision: gives back the fall that AtImpact has taken.
+  void Fall();
 
  private:
   struct Island {  // at the index of its root in `islands_`
@@ -44,7 +50,7 @@ class SoftStep {
   void Save(float h);
   void Report();
 
-  const int substeps_;
+  const int substeps_, sweeps_;
   b2World* world_;
   std::vector<int> place_;     // by moving body: index into all_; -1: aside
   std::vector<b2Body*> all_;   // the moving bodies in the world
@@ -57,6 +63,9 @@ class SoftStep {
   std::vector<int> index_;     // by index into all_: in soft_.bodies, -1: not ours
   std::vector<b2Body*> fixed_;  // kinematic bodies of contacts
   SoftContacts soft_;
+  float step_s_ = 0;           // of the last Solve
+  std::vector<char> touched_;  // by index in soft_.bodies: pushed by a contact
+  std::vector<float> untaken_;  // likewise: s of fall that AtImpact has taken back
 };
 
 }  // namespace seam

@@ -29,6 +29,10 @@ class ExactStep::Quiet : public b2ContactListener {
   /// fall is kept.
   void PreSolve(b2Contact* contact, const b2Manifold* old) override {
     listener_->PreSolve(contact, old);
+    if (step_.soft_) {
+      step_.soft_->AtImpact(contact->GetFixtureA()->GetBody());
+      step_.soft_->AtImpact(contact->GetFixtureB()->GetBody());
+    }
     const float gives_back = contact->GetRestitution();
     if (gives_back == 0 || Counts(*contact)) return;
     gave_back_.emplace_back(contact, gives_back);
@@ -77,6 +81,7 @@ void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   (world_->*Member(EngineSolveToi()))(step);
   world_->SetContactListener(listener);
   quiet.End();
+  if (soft_) soft_->Fall();
   RejoinMoved(step.dt, pace);
 }
 

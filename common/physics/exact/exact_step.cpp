@@ -56,7 +56,7 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
   }
   FindMechanisms();
   if (solver_.contacts == ContactSolving::kSoft) {
-    soft_ = std::make_unique<SoftStep>(solver_.contact_substeps, world_, built, memory.made);
+    soft_ = std::make_unique<SoftStep>(solver_, world_, built, memory.made);
   }
   if (has_elastic) {
     std::vector<char> jointed(built.moving.size(), 0);
