@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/physics/contacts/soft_contact.h"
+#include "common/physics/contacts/soft_solve.h"
 #include "common/physics/world_build.h"
 
 namespace seam {

@@ -1,0 +1,69 @@
+#pragma once
+/// Solves soft contacts in substeps (docs/solver.md, Soft contacts), four contacts at a time.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/physics/contacts/soft_contact.h"
+
+namespace seam {
+
+/// Four numbers that are computed together; each as if alone, so bits do not depend on it.
+using Four = float __attribute__((vector_size(16)));
+
+/// Response of a soft constraint: a spring and damper, solved implicitly.
+struct Softness {
+  float bias_rate = 0, mass_scale = 1, impulse_scale = 0;
+};
+
+class SoftContacts {
+ public:
+  std::vector<SoftBody> bodies;  ///< moving bodies, then one that rests, then kinematic ones
+  std::size_t moving = 0;        ///< number of moving bodies
+  std::vector<SoftContact> contacts;
+
+  /// Advances the bodies by `substeps` substeps of h s, each with `sweeps` rounds over the contacts
+  /// and one without bias. `warm`: begin with the contacts' impulses. These are those of a whole
+  /// step, before and after.
+  void Step(float h, int substeps, int sweeps, bool warm);
+
+ private:
+  struct Points {  // SoftContact::Point of four contacts
+    Four ax, ay, bx, by, turn_ax, turn_ay, turn_bx, turn_by, apart, mass_n, mass_t;
+    Four pushed, rubbed, sum_n, sum_t;  // pushed, rubbed: in this substep
+    Four closing;                       // m/s, before it was first pushed
+  };
+  struct Block {  // four contacts without a moving body in common
+    int a[4], b[4];  // indices into bodies
+    int count;       // of points, the most of the four
+    bool returns;    // one has restitution
+    Four nx, ny, friction, restitution, threshold, belt;
+    Four im_a, ii_a, im_b, ii_b, bias_rate, mass_scale, impulse_scale;
+    Points point[b2_maxManifoldPoints];
+  };
+  struct Ends;
+
+  void Arrange(float h);
+  void Put(const SoftContact& contact, int lane, Block* block) const;
+  void Take();
+  Ends Gather(const Block& block) const;
+  void Scatter(const Block& block, const Ends& ends);
+  void Kick(float h);
+  void WarmStart(float share);
+  void Watch();
+  void Push(float h, bool biased, Block* block);
+  void PushAll(float h, bool biased);
+  void Drift(float h);
+  void Sum();
+  void Restore();
+
+  Softness soft_, stiff_;
+  std::vector<Block> blocks_;
+  std::vector<int> layer_;        // by body: the first layer that has no contact of it
+  std::vector<int> layer_of_;     // by contact
+  std::vector<int> first_;        // by layer: its first lane
+  std::vector<int> lane_;         // by contact: its lane in blocks_
+};
+
+}  // namespace seam
