@@ -8,7 +8,8 @@
 
 namespace seam {
 
-struct SoftBody {
+struct alignas(16) SoftBody {
+  // The first four are read and written together, and so are the next four read.
   float vx = 0, vy = 0, w = 0;     // m/s, rad/s
   float dx = 0, dy = 0;            // m: moved in this step
   float c = 1, s = 0;              // cosine and sine of da

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace seam {
 namespace {
@@ -24,6 +25,19 @@ Softness SoftnessOf(float hz, float h) {
 }
 
 Four All(float x) { return Four{x, x, x, x}; }
+/// Exchanges rows and columns of four times four numbers.
+struct Table {
+  Four row[4];
+  Table Turned() const {
+    const Four a = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+    const Four b = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+    const Four c = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+    const Four d = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+    return {{__builtin_shufflevector(a, b, 0, 1, 4, 5), __builtin_shufflevector(a, b, 2, 3, 6, 7),
+             __builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7)}};
+  }
+};
+
 Four Less(Four a, Four b) { return a < b ? a : b; }
 Four More(Four a, Four b) { return a > b ? a : b; }
 
@@ -31,7 +45,7 @@ Four More(Four a, Four b) { return a > b ? a : b; }
 
 /// The bodies of a block's contacts.
 struct SoftContacts::Ends {
-  Four avx, avy, aw, bvx, bvy, bw;
+  Four avx, avy, aw, adx, bvx, bvy, bw, bdx;
 
   Four SpeedAlong(const Points& p, Four x, Four y) const {
     return (bvx - bw * p.by - avx + aw * p.ay) * x + (bvy + bw * p.bx - avy - aw * p.ax) * y;
@@ -46,31 +60,23 @@ struct SoftContacts::Ends {
   }
 };
 
-SoftContacts::Ends SoftContacts::Gather(const Block& block) const {
-  Ends e;
+inline SoftContacts::Ends SoftContacts::Gather(const Block& block) const {
+  Table a, b;
   for (int i = 0; i < kLanes; ++i) {
-    const SoftBody& a = bodies[static_cast<std::size_t>(block.a[i])];
-    const SoftBody& b = bodies[static_cast<std::size_t>(block.b[i])];
-    e.avx[i] = a.vx;
-    e.avy[i] = a.vy;
-    e.aw[i] = a.w;
-    e.bvx[i] = b.vx;
-    e.bvy[i] = b.vy;
-    e.bw[i] = b.w;
+    std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block.a[i])].vx, sizeof(Four));
+    std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block.b[i])].vx, sizeof(Four));
   }
-  return e;
+  a = a.Turned();
+  b = b.Turned();
+  return {a.row[0], a.row[1], a.row[2], a.row[3], b.row[0], b.row[1], b.row[2], b.row[3]};
 }
 
-void SoftContacts::Scatter(const Block& block, const Ends& e) {
+inline void SoftContacts::Scatter(const Block& block, const Ends& e) {
+  const Table a = Table{{e.avx, e.avy, e.aw, e.adx}}.Turned();
+  const Table b = Table{{e.bvx, e.bvy, e.bw, e.bdx}}.Turned();
   for (int i = 0; i < kLanes; ++i) {
-    SoftBody& a = bodies[static_cast<std::size_t>(block.a[i])];
-    SoftBody& b = bodies[static_cast<std::size_t>(block.b[i])];
-    a.vx = e.avx[i];
-    a.vy = e.avy[i];
-    a.w = e.aw[i];
-    b.vx = e.bvx[i];
-    b.vy = e.bvy[i];
-    b.w = e.bw[i];
+    std::memcpy(&bodies[static_cast<std::size_t>(block.a[i])].vx, &a.row[i], sizeof(Four));
+    std::memcpy(&bodies[static_cast<std::size_t>(block.b[i])].vx, &b.row[i], sizeof(Four));
   }
 }
 
@@ -207,18 +213,16 @@ void SoftContacts::Watch() {
 
 void SoftContacts::Push(float h, bool biased, Block* block) {
   const Four none = All(0), rate = All(1 / h), most_out = All(-kPushOutMost);
-  Four dx, dy, ac, as, bc, bs;
+  Table a, b;
   for (int i = 0; i < kLanes; ++i) {
-    const SoftBody& a = bodies[static_cast<std::size_t>(block->a[i])];
-    const SoftBody& b = bodies[static_cast<std::size_t>(block->b[i])];
-    dx[i] = b.dx - a.dx;
-    dy[i] = b.dy - a.dy;
-    ac[i] = a.c;
-    as[i] = a.s;
-    bc[i] = b.c;
-    bs[i] = b.s;
+    std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block->a[i])].dy, sizeof(Four));
+    std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block->b[i])].dy, sizeof(Four));
   }
+  a = a.Turned();
+  b = b.Turned();
   Ends e = Gather(*block);
+  const Four dx = e.bdx - e.adx, dy = b.row[0] - a.row[0];
+  const Four ac = a.row[1], as = a.row[2], bc = b.row[1], bs = b.row[2];
   const Four nx = block->nx, ny = block->ny;
   for (int i = 0; i < block->count; ++i) {
     Points& p = block->point[i];
