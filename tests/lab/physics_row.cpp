@@ -75,6 +75,7 @@ Values PhysicsKey(const PhysicsPoint& point) {
   const std::string& text = point.scene.text;
   const auto hash = static_cast<std::uint32_t>(Fnv1a(text.data(), text.size()));
   const bool iterative = s.joints == JointSolving::kIterative;
+  const bool soft = s.contacts == ContactSolving::kSoft;
   return {{"version", fmt::format("{}/{:08x}", kLabVersion, hash)},
           {"case", hard.name},
           {"truth", Word(hard.truth)},
@@ -90,6 +91,8 @@ Values PhysicsKey(const PhysicsPoint& point) {
           {"welds", s.weld_joints ? "joint" : "body"},
           {"joints", JointsWord(s.joints)},
           Count("joint_substeps", iterative ? 1 : s.joint_substeps),
+          {"contacts", soft ? "soft" : "engine"},
+          Count("contact_substeps", soft ? s.contact_substeps : 1),
           {"seconds", fmt::format("{}", hard.seconds)}};
 }
 

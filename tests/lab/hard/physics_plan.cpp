@@ -47,6 +47,22 @@ void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan)
   }
 }
 
+/// Soft contacts, with two and with four substeps in each of as few engine steps as a scene may
+/// have; joints as in the scene.
+void AddSoftPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan) {
+  const Solver stock = StockSolver();
+  Solver solver = scene.solver;
+  solver.contacts = ContactSolving::kSoft;
+  solver.skin = static_cast<float>(kSkinRange.min);
+  solver.substeps = SubstepsMin(solver.tick_hz);
+  solver.velocity_iterations = stock.velocity_iterations;
+  solver.position_iterations = stock.position_iterations;
+  for (const int substeps : {2, 4}) {
+    solver.contact_substeps = substeps;
+    plan->points.push_back({hard, "soft", WithSolver(scene, solver)});
+  }
+}
+
 /// What sleeps costs little, but the world is looked through.
 double SleptThrough(double awake) { return 0.1 + 0.9 * awake; }
 
@@ -115,6 +131,7 @@ PhysicsPlan PlanPhysics(const std::vector<const HardCase*>& cases, GridSize size
       plan.points.push_back({hard, "grid", WithSolver(scene, solver)});
     }
     AddJointPoints(hard, scene, &plan);
+    AddSoftPoints(hard, scene, &plan);
     if (left_out > 0) {
       plan.left_out.push_back(
           fmt::format("{}: {} of {} settings of the grid left out: over {:.0f} s of CPU",

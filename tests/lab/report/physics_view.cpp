@@ -47,6 +47,9 @@ PhysicsRun RunOf(const CsvTable& t, std::size_t row) {
   if (run.joints != "iterative") {
     run.setting += fmt::format(", joints {} × {}", run.joints, run.joint_substeps);
   }
+  if (t.Has("contacts") && t.Text(row, "contacts") == "soft") {
+    run.setting += ", soft contacts × " + t.Text(row, "contact_substeps");
+  }
   const auto measured = [&](const char* column) {
     return t.Has(column) ? t.Number(row, column).value_or(kInfinity) : 0;
   };
