@@ -26,11 +26,10 @@ std::string SceneName(const std::string& file) {
 void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver) {
   const TomlNode* table = root.Table("solver");
   if (table == nullptr) return;
-  const SceneReader r(
-      *table, file, "solver",
-      {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep", "continuous",
-       "warm_starting", "skin", "welds", "faces", "joints", "joint_substeps", "contacts",
-       "contact_substeps"});
+  const SceneReader r(*table, file, "solver",
+                      {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep",
+                       "continuous", "warm_starting", "skin", "welds", "faces", "joints",
+                       "joint_substeps", "contacts", "contact_substeps"});
   solver->tick_hz = r.Integer("tick_hz", kTickHz, solver->tick_hz);
   solver->substeps =
       std::max(SubstepsMin(solver->tick_hz), r.Integer("substeps", {1, 32}, solver->substeps));

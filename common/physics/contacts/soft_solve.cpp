@@ -234,8 +234,8 @@ void SoftContacts::Push(float h, bool biased, Block* block) {
     if (biased) {
       const Four ahead = p.pushed - p.mass_n * (speed + apart * rate);
       const Four out = More(block->bias_rate * apart, most_out);
-      const Four soft = p.pushed - p.mass_n * block->mass_scale * (speed + out) -
-                        block->impulse_scale * p.pushed;
+      const Four soft =
+          p.pushed - p.mass_n * block->mass_scale * (speed + out) - block->impulse_scale * p.pushed;
       to = apart > none ? ahead : soft;
     } else {
       to = p.pushed - p.mass_n * (speed + More(apart, none) * rate);

@@ -34,7 +34,7 @@ class SoftContacts {
     Four pushed, rubbed, sum_n, sum_t;  // pushed, rubbed: in this substep
     Four closing;                       // m/s, before it was first pushed
   };
-  struct Block {  // four contacts without a moving body in common
+  struct Block {     // four contacts without a moving body in common
     int a[4], b[4];  // indices into bodies
     int count;       // of points, the most of the four
     bool returns;    // one has restitution
@@ -60,10 +60,10 @@ class SoftContacts {
 
   Softness soft_, stiff_;
   std::vector<Block> blocks_;
-  std::vector<int> layer_;        // by body: the first layer that has no contact of it
-  std::vector<int> layer_of_;     // by contact
-  std::vector<int> first_;        // by layer: its first lane
-  std::vector<int> lane_;         // by contact: its lane in blocks_
+  std::vector<int> layer_;     // by body: the first layer that has no contact of it
+  std::vector<int> layer_of_;  // by contact
+  std::vector<int> first_;     // by layer: its first lane
+  std::vector<int> lane_;      // by contact: its lane in blocks_
 };
 
 }  // namespace seam

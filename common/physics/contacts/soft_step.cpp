@@ -10,7 +10,8 @@ SoftStep::SoftStep(const Solver& solver, b2World* world, const BuiltScene& built
                    const std::vector<int>& made)
     : substeps_(solver.contact_substeps),
       sweeps_(1 + solver.velocity_iterations / solver.contact_substeps),
-      world_(world), place_(built.moving.size(), -1) {
+      world_(world),
+      place_(built.moving.size(), -1) {
   for (const int body : made) {
     place_[static_cast<std::size_t>(body)] = static_cast<int>(all_.size());
     all_.push_back(built.moving[static_cast<std::size_t>(body)].body);
@@ -173,9 +174,9 @@ void SoftStep::Save(float h) {
     (body->*Member(BodyVelocity())).Set(q.vx, q.vy);
     body->*Member(BodySpin()) = q.w;
     (body->*Member(SyncFixtures()))();
-    const bool slow = q.w * q.w <= b2_angularSleepTolerance * b2_angularSleepTolerance &&
-                      q.vx * q.vx + q.vy * q.vy <=
-                          b2_linearSleepTolerance * b2_linearSleepTolerance;
+    const bool slow =
+        q.w * q.w <= b2_angularSleepTolerance * b2_angularSleepTolerance &&
+        q.vx * q.vx + q.vy * q.vy <= b2_linearSleepTolerance * b2_linearSleepTolerance;
     float& slept = body->*Member(BodySleepTime());
     slept = slow && (body->*Member(BodyFlags()) & kBodyAutoSleep) != 0 ? slept + h : 0;
     Island& island = islands_[static_cast<std::size_t>(Root(ours_[k]))];
@@ -219,8 +220,7 @@ bool SoftStep::Solve(float h) {
   const bool left = FindOurs();
   Load();
   LoadContacts();
-  soft_.Step(h / static_cast<float>(substeps_), substeps_, sweeps_,
-             world_->GetWarmStarting());
+  soft_.Step(h / static_cast<float>(substeps_), substeps_, sweeps_, world_->GetWarmStarting());
   Save(h);
   Report();
   for (const int i : ours_) {

@@ -14,7 +14,8 @@ namespace seam {
 class SoftStep {
  public:
   /// `made`: the moving bodies that are in the world, by index in `built`. Both must outlive this.
-  SoftStep(const Solver& solver, b2World* world, const BuiltScene& built, const std::vector<int>& made);
+  SoftStep(const Solver& solver, b2World* world, const BuiltScene& built,
+           const std::vector<int>& made);
 
   /// Advances each awake island without joints by h s, between the engine's narrow phase and its
   /// continuous collision. Reports the impulses (PostSolve). Ignores disabled bodies and contacts.
@@ -59,12 +60,12 @@ class SoftStep {
   std::vector<int> root_;      // likewise: towards the root of its island
   std::vector<Island> islands_;
   std::vector<Pair> pairs_;
-  std::vector<int> ours_;      // indices into all_, in the order of soft_.bodies
-  std::vector<int> index_;     // by index into all_: in soft_.bodies, -1: not ours
+  std::vector<int> ours_;       // indices into all_, in the order of soft_.bodies
+  std::vector<int> index_;      // by index into all_: in soft_.bodies, -1: not ours
   std::vector<b2Body*> fixed_;  // kinematic bodies of contacts
   SoftContacts soft_;
-  float step_s_ = 0;           // of the last Solve
-  std::vector<char> touched_;  // by index in soft_.bodies: pushed by a contact
+  float step_s_ = 0;            // of the last Solve
+  std::vector<char> touched_;   // by index in soft_.bodies: pushed by a contact
   std::vector<float> untaken_;  // likewise: s of fall that AtImpact has taken back
 };
 

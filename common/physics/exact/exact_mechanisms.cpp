@@ -88,8 +88,9 @@ void ExactStep::LeaveLarge() {
 }
 
 bool ExactStep::needed() const {
-  return soft_ || blows_ || std::any_of(mechanisms_.begin(), mechanisms_.end(),
-                               [](const Mechanism& m) { return m.exact; });
+  return soft_ || blows_ ||
+         std::any_of(mechanisms_.begin(), mechanisms_.end(),
+                     [](const Mechanism& m) { return m.exact; });
 }
 
 }  // namespace seam

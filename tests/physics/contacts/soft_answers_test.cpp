@@ -50,8 +50,7 @@ TEST(SoftAnswers, ASlidingDiscBeginsToRoll) {
     const auto world = SoftWorld(Ground(0.3) + Thing("circle = 0.5", 0, 0.5, rest));
     Steps(world.get(), 240);
     const double slides = speed / 9, t = 4;
-    const double right =
-        speed * slides - 1.5 * slides * slides + 2 * speed / 3 * (t - slides);
+    const double right = speed * slides - 1.5 * slides * slides + 2 * speed / 3 * (t - slides);
     const BodyState disc = world->Read(0);
     EXPECT_NEAR(disc.position.x(), right, 0.01) << speed;
     EXPECT_NEAR(disc.velocity.x(), 2 * speed / 3, 1e-3 * speed);
@@ -77,11 +76,12 @@ TEST(SoftAnswers, ARollingDiscDoesNotSlip) {
 /// Garwin: spin about the point of contact stays, and a gripping ball leaves without slip.
 TEST(SoftAnswers, ASpinningBallLeavesAWallWithoutSlip) {
   for (const double spin : {-6.0, 0.0, 3.0}) {
-    const std::string rest = "friction = 1\nrestitution = 0.8\nvelocity = [4, -8]\nspin = " +
-                             FloatDigits(spin);
+    const std::string rest =
+        "friction = 1\nrestitution = 0.8\nvelocity = [4, -8]\nspin = " + FloatDigits(spin);
     const auto world = SmallWorld(
         "[[part]]\nname = \"wall\"\nbox = [90, 2]\nposition = [0, -1]\nanchored = true\n"
-        "friction = 1\n" + Thing("circle = 0.5", 0, 2, rest),
+        "friction = 1\n" +
+            Thing("circle = 0.5", 0, 2, rest),
         kSoft, "gravity = [0, 0]");
     Steps(world.get(), 60);
     const double right = (4 - 0.5 * spin / 2) * 2 / 3;
@@ -102,9 +102,8 @@ double BallEnergy(const World& world) {
 TEST(SoftAnswers, ABouncingBallKeepsTheSquareOfItsRestitution) {
   for (const double restitution : {0.5, 0.7, 0.9}) {
     for (const double height : {2.0, 5.0, 7.3}) {
-      const auto world =
-          SoftWorld(Ground(0) + Thing("circle = 0.5", 0, 0.5 + height,
-                                      "restitution = " + FloatDigits(restitution)));
+      const auto world = SoftWorld(Ground(0) + Thing("circle = 0.5", 0, 0.5 + height,
+                                                     "restitution = " + FloatDigits(restitution)));
       while (world->Read(0).velocity.y() <= 0 && world->tick() < 300) world->Step();
       const double left = BallEnergy(*world) / (10 * height);
       EXPECT_NEAR(left, restitution * restitution, 0.02 * left) << restitution << ' ' << height;
@@ -121,10 +120,9 @@ float TopFalls(double share, double length, double height) {
   double edge = 0;
   for (int i = 0; i < kBricks; ++i) {
     edge += share * length / 2 / (kBricks - i);
-    parts += "[[part]]\nname = \"brick" + std::to_string(i) + "\"\nbox = [" +
-             FloatDigits(length) + ", " + FloatDigits(height) + "]\nposition = [" +
-             FloatDigits(edge - length / 2) + ", " + FloatDigits((i + 0.5) * height) +
-             "]\nfriction = 0.6\n";
+    parts += "[[part]]\nname = \"brick" + std::to_string(i) + "\"\nbox = [" + FloatDigits(length) +
+             ", " + FloatDigits(height) + "]\nposition = [" + FloatDigits(edge - length / 2) +
+             ", " + FloatDigits((i + 0.5) * height) + "]\nfriction = 0.6\n";
   }
   const auto world = SoftWorld(parts);
   const float before = world->Read(kBricks - 1).position.y();

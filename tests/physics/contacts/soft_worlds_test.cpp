@@ -91,10 +91,10 @@ TEST(SoftWorlds, APileFallsAsleepAndWakesWhenItIsStruck) {
 
 /// The impulses of a tick hold the weight: 1 kg and 10 m/s2 for each box.
 TEST(SoftWorlds, ImpactsReportTheMomentumOfAFall) {
-  const auto world =
-      SmallWorld(std::string(kGround) + "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
-                 "[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [0, 2.7]\n",
-                 kSoft, "gravity = [0, -10]");
+  const auto world = SmallWorld(std::string(kGround) +
+                                    "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
+                                    "[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [0, 2.7]\n",
+                                kSoft, "gravity = [0, -10]");
   double most = 0;
   for (int t = 0; t < 90; ++t) {
     world->Step();
@@ -108,14 +108,14 @@ TEST(SoftWorlds, ImpactsReportTheMomentumOfAFall) {
 }
 
 TEST(SoftWorlds, AnIslandWithAJointRestsBesideOthersAsDeep) {
-  const auto world = SmallWorld(
-      Pile(3) +
-          "[[part]]\nname = \"left\"\nbox = [1, 1]\nposition = [5, 0.5]\n"
-          "[[part]]\nname = \"right\"\nbox = [1, 1]\nposition = [7, 0.5]\n"
-          "[[part]]\nname = \"lid\"\nbox = [1, 1]\nposition = [5, 1.5]\n"
-          "[[joint]]\nname = \"j\"\nkind = \"hinge\"\na = \"left\"\nb = \"right\"\n"
-          "anchor = [6, 0.5]\n",
-      kSoft);
+  const auto world =
+      SmallWorld(Pile(3) +
+                     "[[part]]\nname = \"left\"\nbox = [1, 1]\nposition = [5, 0.5]\n"
+                     "[[part]]\nname = \"right\"\nbox = [1, 1]\nposition = [7, 0.5]\n"
+                     "[[part]]\nname = \"lid\"\nbox = [1, 1]\nposition = [5, 1.5]\n"
+                     "[[joint]]\nname = \"j\"\nkind = \"hinge\"\na = \"left\"\nb = \"right\"\n"
+                     "anchor = [6, 0.5]\n",
+                 kSoft);
   Steps(world.get(), 240);
   const std::vector<float> right = {0.5f, 1.5f, 2.5f, 0.5f, 0.5f, 1.5f};
   for (int body = 0; body < 6; ++body) {

@@ -12,8 +12,7 @@ namespace seam {
 namespace soft_contacts_cluster_test {
 
 Measures SoftSession(const std::string& name, const std::string& mode, const std::string& impair) {
-  const Scene scene =
-      LoadSceneWith("scenes/" + name + ".toml", {"solver.contacts=\"soft\""});
+  const Scene scene = LoadSceneWith("scenes/" + name + ".toml", {"solver.contacts=\"soft\""});
   EXPECT_EQ(scene.solver.contacts, ContactSolving::kSoft);
   ClusterConfig config;
   config.scene = name + ".toml";
