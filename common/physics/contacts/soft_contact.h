@@ -31,8 +31,9 @@ struct SoftContact {
     float sum_n = 0, sum_t = 0;    // N s, of all substeps
   };
   b2Contact* made = nullptr;
-  int a = 0, b = 0;  // indices into the list of bodies
-  int count = 0;     // of points
+  int a = 0, b = 0;    // indices into the list of bodies
+  int count = 0;       // of points
+  bool small = false;  // its island has few points
   float nx = 0, ny = 0;
   float friction = 0, restitution = 0, threshold = 0, belt = 0;
   Point point[b2_maxManifoldPoints];

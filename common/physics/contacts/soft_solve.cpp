@@ -14,6 +14,8 @@ constexpr float kContactHz = 60, kContactDamping = 10, kFixedStiffer = 2;
 constexpr float kRateShare = 0.25f;
 /// m/s: at most so fast is an overlap undone.
 constexpr float kPushOutMost = 3;
+/// Further rounds in small islands, for each round in all: there they cost little.
+constexpr int kMoreInSmall = 2;
 constexpr int kLanes = 4;
 
 Softness SoftnessOf(float hz, float h) {
@@ -128,32 +130,36 @@ void SoftContacts::Arrange(float h) {
   soft_ = SoftnessOf(hz, h);
   stiff_ = SoftnessOf(kFixedStiffer * hz, h);
   layer_.assign(moving, 0);
-  layer_of_.resize(contacts.size());
   lane_.resize(contacts.size());
-  first_.clear();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto a = static_cast<std::size_t>(contacts[i].a);
-    const auto b = static_cast<std::size_t>(contacts[i].b);
-    const int layer = std::max(a < moving ? layer_[a] : 0, b < moving ? layer_[b] : 0);
-    if (a < moving) layer_[a] = layer + 1;
-    if (b < moving) layer_[b] = layer + 1;
-    layer_of_[i] = layer;
-    if (first_.size() <= static_cast<std::size_t>(layer)) first_.push_back(0);
-    ++first_[static_cast<std::size_t>(layer)];
-  }
   int lanes = 0;
-  for (int& first : first_) {
-    const int blocks = (first + kLanes - 1) / kLanes;
-    first = lanes;
-    lanes += blocks * kLanes;
+  for (const bool small : {false, true}) {
+    if (small) small_from_ = static_cast<std::size_t>(lanes / kLanes);
+    first_.clear();
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i].small != small) continue;
+      const auto a = static_cast<std::size_t>(contacts[i].a);
+      const auto b = static_cast<std::size_t>(contacts[i].b);
+      const int layer = std::max(a < moving ? layer_[a] : 0, b < moving ? layer_[b] : 0);
+      if (a < moving) layer_[a] = layer + 1;
+      if (b < moving) layer_[b] = layer + 1;
+      lane_[i] = layer;
+      if (first_.size() <= static_cast<std::size_t>(layer)) first_.push_back(0);
+      ++first_[static_cast<std::size_t>(layer)];
+    }
+    for (int& first : first_) {
+      const int blocks = (first + kLanes - 1) / kLanes;
+      first = lanes;
+      lanes += blocks * kLanes;
+    }
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (contacts[i].small == small) lane_[i] = first_[static_cast<std::size_t>(lane_[i])]++;
+    }
   }
   Block empty{};
   for (int i = 0; i < kLanes; ++i) empty.a[i] = empty.b[i] = static_cast<int>(moving);
   blocks_.assign(static_cast<std::size_t>(lanes / kLanes), empty);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const int lane = first_[static_cast<std::size_t>(layer_of_[i])]++;
-    lane_[i] = lane;
-    Put(contacts[i], lane % kLanes, &blocks_[static_cast<std::size_t>(lane / kLanes)]);
+    Put(contacts[i], lane_[i] % kLanes, &blocks_[static_cast<std::size_t>(lane_[i] / kLanes)]);
   }
 }
 
@@ -260,11 +266,11 @@ void SoftContacts::Push(float h, bool biased, Block* block) {
 
 /// Solves each contact once. With bias from the last to the first, so that both ends of a pile are
 /// heard in a substep.
-void SoftContacts::PushAll(float h, bool biased) {
+void SoftContacts::PushAll(float h, bool biased, std::size_t from) {
   if (biased) {
-    for (std::size_t i = blocks_.size(); i-- > 0;) Push(h, true, &blocks_[i]);
+    for (std::size_t i = blocks_.size(); i-- > from;) Push(h, true, &blocks_[i]);
   } else {
-    for (Block& block : blocks_) Push(h, false, &block);
+    for (std::size_t i = from; i < blocks_.size(); ++i) Push(h, false, &blocks_[i]);
   }
 }
 
@@ -320,14 +326,17 @@ void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
     Kick(i == 0 ? h / 2 : h);
     Watch();
     WarmStart(i > 1 ? 1 : i == 1 ? 2 : warm ? 1 / halves : 0);
-    for (int sweep = 0; sweep < sweeps; ++sweep) PushAll(h, true);
+    for (int sweep = 0; sweep < sweeps; ++sweep) PushAll(h, true, 0);
+    for (int sweep = 0; sweep < kMoreInSmall * sweeps; ++sweep) PushAll(h, true, small_from_);
     Drift(h);
-    PushAll(h, false);
+    PushAll(h, false, 0);
+    for (int sweep = 0; sweep < kMoreInSmall; ++sweep) PushAll(h, false, small_from_);
     Sum();
   }
   Kick(h / 2);
   WarmStart(0.5f);
-  PushAll(h, false);
+  PushAll(h, false, 0);
+  for (int sweep = 0; sweep < kMoreInSmall; ++sweep) PushAll(h, false, small_from_);
   Sum();
   Restore();
   for (Block& block : blocks_) {

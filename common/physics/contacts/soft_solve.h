@@ -53,17 +53,17 @@ class SoftContacts {
   void WarmStart(float share);
   void Watch();
   void Push(float h, bool biased, Block* block);
-  void PushAll(float h, bool biased);
+  void PushAll(float h, bool biased, std::size_t from);
   void Drift(float h);
   void Sum();
   void Restore();
 
   Softness soft_, stiff_;
   std::vector<Block> blocks_;
-  std::vector<int> layer_;     // by body: the first layer that has no contact of it
-  std::vector<int> layer_of_;  // by contact
-  std::vector<int> first_;     // by layer: its first lane
-  std::vector<int> lane_;      // by contact: its lane in blocks_
+  std::vector<int> layer_;      // by body: the first layer that has no contact of it
+  std::vector<int> first_;      // by layer: its first lane
+  std::vector<int> lane_;       // by contact: its layer, then its lane in blocks_
+  std::size_t small_from_ = 0;  // index of the first block of small islands
 };
 
 }  // namespace seam

@@ -5,6 +5,12 @@
 #include "common/physics/exact/engine_members.h"
 
 namespace seam {
+namespace {
+
+/// Islands of so many points or fewer are solved with more rounds.
+constexpr int kPointsOfSmall = 16;
+
+}  // namespace
 
 SoftStep::SoftStep(const Solver& solver, b2World* world, const BuiltScene& built,
                    const std::vector<int>& made)
@@ -72,6 +78,8 @@ void SoftStep::FindIslands() {
     island.quiet = b2_maxFloat;
   }
   for (const Pair& pair : pairs_) {
+    islands_[static_cast<std::size_t>(Root(std::max(pair.a, pair.b)))].points +=
+        pair.made->GetManifold()->pointCount;
     if (pair.a >= 0 && pair.b >= 0) continue;
     b2Fixture* const fixed = pair.a >= 0 ? pair.made->GetFixtureB() : pair.made->GetFixtureA();
     const b2Body* const body = fixed->GetBody();
@@ -153,6 +161,8 @@ void SoftStep::LoadContacts() {
                            : index_[static_cast<std::size_t>(pair.a)];
     contact.b = pair.b < 0 ? Fixed(pair.made->GetFixtureB()->GetBody())
                            : index_[static_cast<std::size_t>(pair.b)];
+    contact.small =
+        islands_[static_cast<std::size_t>(Root(std::max(pair.a, pair.b)))].points <= kPointsOfSmall;
     ReadSoftContact(soft_.bodies, &contact);
     soft_.contacts.push_back(contact);
   }

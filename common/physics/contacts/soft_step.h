@@ -33,6 +33,7 @@ class SoftStep {
  private:
   struct Island {  // at the index of its root in `islands_`
     bool awake = false, jointed = false, driven = false;
+    int points = 0;   // of its contacts
     float quiet = 0;  // s for which all its bodies have been slow
   };
   struct Pair {  // a contact that pushes; indices into bodies_, -1: does not move
