@@ -17,6 +17,7 @@ struct alignas(16) SoftBody {
   float im = 0, ii = 0;            // 1/kg, 1/(kg m2); 0: does not move or turn by impulses
   float ax = 0, ay = 0, turn = 0;  // m/s2, rad/s2: gravity and forces
   float slow = 0, slow_spin = 0;   // 1/s, damping
+  float from_vx = 0, from_vy = 0, from_w = 0;  // m/s, rad/s, at the beginning of the step
 };
 
 /// A contact with one or two points; its normal and its arms stay as they are during a step.

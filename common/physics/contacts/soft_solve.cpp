@@ -16,6 +16,9 @@ constexpr float kRateShare = 0.25f;
 constexpr float kPushOutMost = 3;
 /// Further rounds in small islands, for each round in all: there they cost little.
 constexpr int kMoreInSmall = 2;
+/// Square of the change of speed, as a multiple of that by gravity and forces alone, up to which a
+/// body's motion in a step is smooth.
+constexpr float kSmoothMost = 4;
 constexpr int kLanes = 4;
 
 Softness SoftnessOf(float hz, float h) {
@@ -287,6 +290,21 @@ void SoftContacts::Drift(float h) {
   }
 }
 
+/// Moves bodies back by half a substep's way of what they have gained in speed in the step of
+/// `step_s`: their substeps' ways were those of the speeds at the ends of substeps, not of the mean
+/// ones. A body that has gained more than forces explain had an impact, and stays.
+void SoftContacts::Centre(float h, float step_s) {
+  for (std::size_t i = 0; i < moving; ++i) {
+    SoftBody& q = bodies[i];
+    const float x = q.vx - q.from_vx, y = q.vy - q.from_vy;
+    const float most = kSmoothMost * step_s * step_s * (q.ax * q.ax + q.ay * q.ay);
+    if (x * x + y * y > most) continue;
+    q.dx -= h / 2 * x;
+    q.dy -= h / 2 * y;
+    q.da -= h / 2 * (q.w - q.from_w);
+  }
+}
+
 void SoftContacts::Sum() {
   for (Block& block : blocks_) {
     for (int i = 0; i < block.count; ++i) {
@@ -319,13 +337,17 @@ void SoftContacts::Restore() {
 
 void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
   Arrange(h);
-  const auto halves = static_cast<float>(2 * substeps);
+  const auto parts = static_cast<float>(substeps);
+  for (SoftBody& q : bodies) {
+    q.from_vx = q.vx;
+    q.from_vy = q.vy;
+    q.from_w = q.w;
+  }
   for (int i = 0; i < substeps; ++i) {
-    // Half a kick, then whole ones, and half of one at the end: velocities at the ends of a step
-    // belong to the same moment as places, and the way under a steady force is exact.
-    Kick(i == 0 ? h / 2 : h);
+    Kick(h / 2);
     Watch();
-    WarmStart(i > 1 ? 1 : i == 1 ? 2 : warm ? 1 / halves : 0);
+    Kick(h / 2);
+    WarmStart(i > 0 ? 1 : warm ? 1 / parts : 0);
     for (int sweep = 0; sweep < sweeps; ++sweep) PushAll(h, true, 0);
     for (int sweep = 0; sweep < kMoreInSmall * sweeps; ++sweep) PushAll(h, true, small_from_);
     Drift(h);
@@ -333,16 +355,12 @@ void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
     for (int sweep = 0; sweep < kMoreInSmall; ++sweep) PushAll(h, false, small_from_);
     Sum();
   }
-  Kick(h / 2);
-  WarmStart(0.5f);
-  PushAll(h, false, 0);
-  for (int sweep = 0; sweep < kMoreInSmall; ++sweep) PushAll(h, false, small_from_);
-  Sum();
+  Centre(h, parts * h);
   Restore();
   for (Block& block : blocks_) {
     for (int i = 0; i < block.count; ++i) {
-      block.point[i].pushed *= All(halves);
-      block.point[i].rubbed *= All(halves);
+      block.point[i].pushed *= All(parts);
+      block.point[i].rubbed *= All(parts);
     }
   }
   Take();

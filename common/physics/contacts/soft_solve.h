@@ -55,6 +55,7 @@ class SoftContacts {
   void Push(float h, bool biased, Block* block);
   void PushAll(float h, bool biased, std::size_t from);
   void Drift(float h);
+  void Centre(float h, float step_s);
   void Sum();
   void Restore();
 
