@@ -26,6 +26,9 @@ constexpr const char* kScenes[] = {"crossing", "wall",    "stack",   "cradle",  
                                    "harbour",  "regatta", "skyline", "titanic", "gluehouse",
                                    "headon",   "rally",   "seesaw",  "scrum",   "heap",
                                    "train",    "gas",     "derby",   "relay8"};
+/// Scenes that are also computed with soft contacts.
+constexpr const char* kSoftScenes[] = {"stack", "wall", "heap", "crossing", "gas", "pile"};
+
 std::string GoldenFile() {
   const char* other = std::getenv("SEAM_GOLDEN_FILE");
   return other != nullptr ? other : "tests/physics/golden_hashes.txt";
@@ -130,11 +133,20 @@ TEST(Determinism, EveryBuildComputesTheGoldenHashes) {
       computed[path.substr(std::string("scenes/").size())] = hash;
     }
   }
+  for (const char* name : kSoftScenes) {
+    Scene scene = LoadScene(std::string("scenes/") + name + ".toml");
+    scene.solver.contacts = ContactSolving::kSoft;
+    scene.solver.skin = 0.0025f;
+    ScriptedWorld run(scene);
+    char hash[24];
+    std::snprintf(hash, sizeof hash, "%016" PRIx64, Hashes(run, kHardTicks).back());
+    computed[std::string("soft/") + name + ".toml"] = hash;
+  }
   const char* request = std::getenv("SEAM_GOLDEN");
   if (request != nullptr && std::string(request) == "write") {
     std::ofstream out(GoldenFile());
     out << "# World::Hash() of each scene with its scripts, alone, after " << kTicks
-        << " ticks, in hard/ " << kHardTicks << ".\n";
+        << " ticks, in hard/ and with soft contacts in soft/ " << kHardTicks << ".\n";
     for (const auto& [scene, hash] : computed) out << scene << ' ' << hash << '\n';
     ASSERT_TRUE(out.good()) << "cannot write " << GoldenFile();
   }
