@@ -5,7 +5,8 @@
 # seam-import, seam-view and seam-log too, client/swarm/, client/top/ and client/front/ those of
 # seam-swarm, seam-top and seam); tests/ is one GoogleTest program, tests/lab/ is seam-lab, which
 # alone has server and clients in one process.
-# libseam.a, for other programs, is common/, server/ and client/ without their mains.
+# libseam.a, for other programs, is common/, server/, client/ and client/embed/ without their mains; libseam2d.so is
+# the same behind a C interface. client/python/ is the Python module.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
 
 # All cores, unless -j says otherwise.
@@ -42,6 +43,8 @@ EIGEN := /usr/include/eigen3
 # -march=x86-64-v3 g++ 12 fuses there all the same (make hashes).
 ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-vectorize $(WARN) -MMD -MP -I. \
 	-isystem $(EIGEN) -isystem /usr/include/freetype2 -pthread $(CXXFLAGS)
+# What goes into libraries can be part of a shared one; calls inside of it stay direct.
+LIBRARY_CXXFLAGS := -fPIC -fvisibility=hidden
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
 LIBS := -llcm -lbox2d -lfmt -lsodium -lzstd -pthread
@@ -54,6 +57,10 @@ DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-d
 	fonts-dejavu-core libgtest-dev libsodium-dev nlohmann-json3-dev libtinyxml2-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_test := python3
+# The Python of these packages, also where another one comes first in PATH.
+PYTHON3 ?= /usr/bin/python3
+DEBS_python := python3 libpython3-dev pybind11-dev python3-numpy
+DEBS_deb := dpkg-dev
 # For the tests that open a review page; without it they are skipped. It is 2 minutes, so CI alone installs it.
 DEBS_browser := chromium
 DEBS_coverage := gcovr
@@ -83,9 +90,13 @@ SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
 WATCHERS := $(call obj,$(filter-out $(MAINS),$(filter client/swarm/% client/top/%,$(SOURCES))))
 TOP := $(call obj,$(filter-out $(MAINS),$(filter client/top/%,$(SOURCES))))
 FRONT := $(call obj,$(filter-out $(MAINS),$(filter client/front/%,$(SOURCES))))
-CLIENT := $(filter-out $(WATCHERS) $(FRONT),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
+# What has server and clients in one process, for other programs: behind C++, C and Python.
+EMBED := $(call obj,$(filter client/embed/%,$(SOURCES)))
+PYTHON := $(call obj,$(filter client/python/%,$(SOURCES)))
+CLIENT := $(filter-out $(WATCHERS) $(FRONT) $(EMBED) $(PYTHON),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
 EXPORT := $(call obj,$(filter render/export/%,$(SOURCES))) $(call alone,render/canvas/shapes.cpp render/canvas/figure.cpp)
+MEASURE := $(call obj,$(filter render/measure/%,$(SOURCES))) $(call alone,render/playback/format.cpp)
 LOG := $(call obj,$(filter render/log/%,$(SOURCES)))
 IMPORT := $(call obj,$(filter render/import/%,$(SOURCES))) $(EXPORT)
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
@@ -93,6 +104,7 @@ LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCE
 LAB_SUPPORT := $(call obj,tests/support/plan/plain_scene.cpp)
 TEST_SOURCES := $(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES)))
 TESTS := $(call obj,$(TEST_SOURCES))
+LIBRARY := $(COMMON) $(SERVER) $(CLIENT) $(EMBED) $(PYTHON)
 # Everything that may be compiled: the units, and each source alone.
 OBJECTS_ALONE := $(call alone,$(SOURCES))
 OBJECTS := $(OBJECTS_ALONE) $(UNITS:%=$(OUT)/unity/%.o)
@@ -110,7 +122,7 @@ SOAK ?= 300
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .PHONY: all check check-includes objects docs help deps demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
-	lint compile_commands.json install install-built clean force
+	lint compile_commands.json install install-built python deb clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
 
@@ -150,7 +162,7 @@ $(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk Makefile | build/.deps-build
 
 # What every object is made with. Written when it differs, so that other flags rebuild everything,
 # and an interrupted rebuild goes on where it was.
-FLAGS := $(strip $(CXX) $(ALL_CXXFLAGS) $(CODEC_CXXFLAGS) $(TEST_CXXFLAGS_$(BUILD)) $(LDFLAGS))
+FLAGS := $(strip $(CXX) $(ALL_CXXFLAGS) $(CODEC_CXXFLAGS) $(TEST_CXXFLAGS_$(BUILD)) $(LIBRARY_CXXFLAGS) $(LDFLAGS))
 ifneq ($(file <$(OUT)/.flags),$(FLAGS))
 $(OUT)/.flags: force
 endif
@@ -185,6 +197,9 @@ LINKED = $(filter-out %/.sources,$^)
 $(CODEC): private ALL_CXXFLAGS += $(CODEC_CXXFLAGS)
 $(CODEC): $(GEN)/.stamp
 $(TESTS): private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
+$(LIBRARY): private ALL_CXXFLAGS += $(LIBRARY_CXXFLAGS)
+$(PYTHON): private ALL_CXXFLAGS += -isystem $(shell $(PYTHON3) -c 'import sysconfig; print(sysconfig.get_path("include"))')
+$(PYTHON): build/.deps-python
 # A class of a unit may have members of an unnamed namespace: the warning is for headers.
 $(OUT)/unity/%.o: $(OUT)/unity/%.cpp $(OUT)/.flags | build/.deps-build
 	$(CXX) $(ALL_CXXFLAGS) -Wno-subobject-linkage -include $(PRECOMPILED) -c $< -o $@
@@ -192,21 +207,24 @@ $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) $(if $(filter 0,$(UNITY)),,-include $(PRECOMPILED)) -c $< -o $@
 
-# The libraries' headers that most units include, parsed once; tests have a second one, with GoogleTest and their own
-# options. UNITY=0 goes without, so that each file includes what it needs.
+# The headers that most units include, parsed once; tests have a second one, with GoogleTest and their own options,
+# and what goes into libraries a third one. UNITY=0 goes without, so that each file includes what it needs.
 PRECOMPILED = $(OUT)/precompiled.h
 $(TESTS): private PRECOMPILED = $(OUT)/precompiled-tests.h
+$(LIBRARY): private PRECOMPILED = $(OUT)/precompiled-library.h
 PRECOMPILED_HEADERS := Eigen/Core algorithm array box2d/box2d.h cmath cstdint deque fmt/format.h functional map memory \
 	numeric optional set sstream string unordered_map variant vector
 $(OUT)/precompiled-tests.h: PRECOMPILED_HEADERS += gtest/gtest.h filesystem fstream
-$(OUT)/precompiled.h $(OUT)/precompiled-tests.h: Makefile | build/.deps-build
+$(OUT)/precompiled.h $(OUT)/precompiled-library.h $(OUT)/precompiled-tests.h: Makefile | build/.deps-build
 	@mkdir -p $(@D)
 	@printf '#include <%s>\n' $(PRECOMPILED_HEADERS) > $@
 $(OUT)/precompiled-tests.h.gch: private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
-$(OUT)/precompiled.h.gch $(OUT)/precompiled-tests.h.gch: %.gch: % $(OUT)/.flags
+$(OUT)/precompiled-library.h.gch: private ALL_CXXFLAGS += $(LIBRARY_CXXFLAGS)
+$(OUT)/precompiled.h.gch $(OUT)/precompiled-library.h.gch $(OUT)/precompiled-tests.h.gch: %.gch: % $(OUT)/.flags
 	$(CXX) $(ALL_CXXFLAGS) -x c++-header $< -o $@
 ifneq ($(UNITY),0)
-$(OBJECTS): $(OUT)/precompiled.h.gch
+$(filter-out $(LIBRARY) $(TESTS),$(OBJECTS)): $(OUT)/precompiled.h.gch
+$(LIBRARY): $(OUT)/precompiled-library.h.gch
 $(TESTS): $(OUT)/precompiled-tests.h.gch
 endif
 
@@ -216,12 +234,29 @@ $(OUT)/tests/lab/report/html/report_assets.o $(OUT)/unity/tests/lab/report/html.
 
 # Appended to nothing: two members may have the same name.
 $(OUT)/libseam-common.a: $(COMMON)
-$(OUT)/libseam.a: $(COMMON) $(SERVER) $(CLIENT)
+$(OUT)/libseam.a: $(COMMON) $(SERVER) $(CLIENT) $(EMBED)
 $(OUT)/%.a:
 	@rm -f $@
 	@ar qcs $@ $(LINKED)
 
 LINK = $(CXX) $(ALL_CXXFLAGS) $(LINKER) $(LDFLAGS) $(LINKED)
+
+# The C interface alone is seen from outside: client/embed/seam2d/seam2d.h.
+SEAM2D_ABI := $(shell sed -n 's/^.define SEAM2D_ABI_VERSION //p' client/embed/seam2d/seam2d.h)
+SHARED := $(OUT)/libseam2d.so.$(SEAM2D_ABI)
+$(SHARED): $(EMBED) $(CLIENT) $(SERVER) $(OUT)/libseam-common.a
+	$(LINK) -shared -Wl,-soname,$(@F) -Wl,-z,defs -Wl,--version-script=client/embed/seam2d.map $(LIBS) $(SERVER_LIBS) -o $@
+
+# The Python module, for PYTHONPATH=$(OUT)/python. Its texts are beside what is compiled.
+PYTHON_TEXTS := $(wildcard client/python/seam/*.py client/python/seam/*.pyi client/python/seam/py.typed)
+$(OUT)/python/.stamp: $(OUT)/python/seam/_seam.so $(PYTHON_TEXTS)
+	@cp $(PYTHON_TEXTS) $(@D)/seam/
+	@touch $@
+$(OUT)/python/seam/_seam.so: $(PYTHON) $(EMBED) $(CLIENT) $(SERVER) $(OUT)/libseam-common.a
+	@mkdir -p $(@D)
+	$(LINK) -shared $(LIBS) $(SERVER_LIBS) -o $@
+
+python: build/.deps-build build/.deps-python $(OUT)/python/.stamp   ## the Python module: PYTHONPATH=build/release/python
 $(OUT)/seam: $(OUT)/client/front/main.o $(FRONT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
@@ -236,7 +271,7 @@ $(OUT)/seam-top: $(OUT)/client/top/main.o $(TOP) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
-$(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
+$(OUT)/seam-measure: $(OUT)/render/measure_main.o $(MEASURE) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
@@ -249,7 +284,7 @@ $(OUT)/seam-view: $(OUT)/render/view_main.o $(RENDER) $(OUT)/libseam-common.a
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.
-$(OUT)/seam-tests: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
+$(OUT)/seam-tests: $(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # The tests of what reads from outside and keeps it, without long simulations, programs and pictures: a little
@@ -296,7 +331,7 @@ ROOM_TESTS := $(call obj,$(filter-out $(call slow,$(ROOM_SOURCES)),$(ROOM_SOURCE
 ROOM_USES := $(shell grep -lE '"(server|client|render|tests/lab|tests/support/[a-z_]+)/|tests/support/($(subst $() ,|,$(patsubst \
 	tests/support/%,%,$(shell grep -lE '"(server|client|render|tests/lab)/' tests/support/*.h))))"' $(ROOM_SOURCES))
 ROOM_NEEDS := $(call obj,$(filter $(if $(ROOM_USES),tests/support/%,$(wildcard tests/support/*.cpp)),$(SOURCES))) \
-	$(if $(ROOM_USES),$(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER))
+	$(if $(ROOM_USES),$(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER))
 ROOM_PROGRAM := $(OUT)/seam-tests-$(subst /,-,$(ROOM_FOLDER:tests/%=%))
 $(ROOM_PROGRAM): $(sort $(ROOM_TESTS) $(ROOM_NEEDS)) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(if $(ROOM_USES),$(RENDER_LIBS) $(SERVER_LIBS)) -lgtest -lgtest_main -o $@
@@ -308,7 +343,9 @@ check:
 	@echo 'make check ROOM=FOLDER: the tests of one room, such as common/sync; all of them: make test' >&2; exit 2
 endif
 
-tests: build/.deps-build build/.deps-report build/.deps-test all $(OUT)/seam-tests $(OUT)/libseam.a   ## build the tests
+# A module with a sanitizer does not load into Python.
+tests: build/.deps-build build/.deps-report build/.deps-test all $(OUT)/seam-tests $(OUT)/libseam.a $(SHARED) \
+	$(if $(INSTRUMENT_$(BUILD)),,python)   ## build the tests
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
 
@@ -320,13 +357,13 @@ sanitize:                            ## the tests of what reads from outside, un
 	tests/run.sh build/asan seam-tests-core
 
 FAST_TESTS := $(call obj,$(filter-out $(call slow,$(TEST_SOURCES)),$(TEST_SOURCES)))
-$(OUT)/seam-tests-fast: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(FAST_TESTS) $(OUT)/libseam-common.a
+$(OUT)/seam-tests-fast: $(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(FAST_TESTS) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 check-fast: all $(OUT)/seam-tests-fast   ## build and run the tests that take no processes or long simulations
 	SEAM_BIN=$(OUT) $(OUT)/seam-tests-fast --gtest_brief=1
 
-check-includes: $(GEN)/.stamp        ## compile each source by itself: does it include what it needs? ten minutes
+check-includes: $(GEN)/.stamp build/.deps-python   ## compile each source by itself: does it include what it needs? ten minutes
 	@$(MAKE) --no-print-directory -k UNITY=0 OUT=build/includes CXXFLAGS='$(CXXFLAGS) -fsyntax-only' objects
 objects: $(OBJECTS_ALONE)
 
@@ -381,11 +418,13 @@ $(SPY)/seam-types.jar: $(LCM_TYPES) Makefile | build/.deps-build build/.deps-spy
 	javac -nowarn -cp /usr/share/java/lcm.jar -d $(SPY)/classes $(SPY)/source/seam/*.java
 	jar cf $@ -C $(SPY)/classes .
 
-spy: $(SPY)/seam-types.jar           ## the messages for lcm-spy and lcm-logplayer-gui: builds a jar, says how to start them
+spy: $(SPY)/seam-types.jar           ## lcm-spy with the messages' types: builds a jar, starts it where there is a display
 	@echo 'With a display, and a room or a log on the bus (docs/recordings.md):'
 	@echo '  export CLASSPATH=$(CURDIR)/$(SPY)/seam-types.jar JAVA_TOOL_OPTIONS=-XX:+IgnoreUnrecognizedVMOptions'
 	@echo '  lcm-spy                          # what is on the bus: rates, fields, plots'
 	@echo '  lcm-logplayer-gui session.lcm    # plays a log, with a slider'
+	@if [ -n "$$DISPLAY" ]; then echo 'starting lcm-spy; its window ends it'; \
+	  CLASSPATH='$(CURDIR)/$(SPY)/seam-types.jar' JAVA_TOOL_OPTIONS=-XX:+IgnoreUnrecognizedVMOptions lcm-spy; fi
 
 # QUICK=1: fewer seeds and settings, in two minutes.
 report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)
@@ -396,23 +435,67 @@ relief: build/.deps-report all       ## what distribution takes off the server, 
 	$(OUT)/seam-lab relief $(if $(QUICK),--quick) -o out/relief/data/relief
 	$(OUT)/seam-lab report out/relief/data -o out/relief $(if $(FILL),--markdown $(FILL))
 
-install: all $(OUT)/libseam.a        ## programs, man pages, scenes, library, headers under PREFIX (DESTDIR)
+install: all python $(OUT)/libseam.a $(SHARED)   ## programs, library, headers, Python, docs under PREFIX (DESTDIR)
 	@$(MAKE) --no-print-directory install-built
 
 DEST := $(DESTDIR)$(PREFIX)
+# Where Debian's Python looks, below /usr and elsewhere.
+PYTHON_SITE = $(DEST)/lib/python3$(if $(filter-out /usr,$(PREFIX)),.$(shell $(PYTHON3) -c 'import sys; print(sys.version_info[1])'))/dist-packages
 define PKG_CONFIG_FILE
 prefix=$${pcfiledir}/../..
 libdir=$${prefix}/lib
 includedir=$${prefix}/include
 
 Name: seam2d
-Description: A distributed 2D physics runtime: server, client, world
+Description: A distributed 2D physics runtime: server, client, world, for C++
 Version: $(VERSION)
-Cflags: -std=c++17 -ffp-contract=off -pthread -I$${includedir}/seam2d -I$(EIGEN)
+Cflags: -std=c++17 -ffp-contract=off -pthread -I$${includedir} -I$(EIGEN)
 Libs: -L$${libdir} -lseam $(LIBS) $(SERVER_LIBS) $(INSTRUMENT_$(BUILD))
+endef
+define PKG_CONFIG_FILE_C
+prefix=$${pcfiledir}/../..
+libdir=$${prefix}/lib
+includedir=$${prefix}/include
+
+Name: seam2d-c
+Description: A distributed 2D physics runtime: world and session, for C
+Version: $(VERSION)
+Cflags: -I$${includedir}
+Libs: -L$${libdir} -lseam2d
+endef
+define CMAKE_FILE
+get_filename_component(seam2d_PREFIX "$${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
+include(CMakeFindDependencyMacro)
+find_dependency(Threads)
+if(NOT TARGET seam2d::seam2d)
+  add_library(seam2d::seam2d STATIC IMPORTED)  # C++
+  set_target_properties(seam2d::seam2d PROPERTIES
+    IMPORTED_LOCATION "$${seam2d_PREFIX}/lib/libseam.a"
+    INTERFACE_INCLUDE_DIRECTORIES "$${seam2d_PREFIX}/include;$(EIGEN)"
+    INTERFACE_COMPILE_FEATURES cxx_std_17
+    INTERFACE_COMPILE_OPTIONS "-ffp-contract=off"
+    INTERFACE_LINK_LIBRARIES "$(subst $() ,;,$(patsubst -l%,%,$(filter -l%,$(LIBS) $(SERVER_LIBS))));Threads::Threads;$(INSTRUMENT_$(BUILD))")
+  add_library(seam2d::c SHARED IMPORTED)  # C
+  set_target_properties(seam2d::c PROPERTIES
+    IMPORTED_LOCATION "$${seam2d_PREFIX}/lib/$(notdir $(SHARED))"
+    IMPORTED_SONAME "$(notdir $(SHARED))"
+    INTERFACE_INCLUDE_DIRECTORIES "$${seam2d_PREFIX}/include")
+endif()
+endef
+define CMAKE_VERSION_FILE
+set(PACKAGE_VERSION "$(VERSION)")
+if(PACKAGE_FIND_VERSION VERSION_EQUAL PACKAGE_VERSION)
+  set(PACKAGE_VERSION_EXACT TRUE)
+endif()
+if(NOT PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION)
+  set(PACKAGE_VERSION_COMPATIBLE TRUE)
+endif()
 endef
 
 install-built: export TEXT = $(PKG_CONFIG_FILE)
+install-built: export TEXT_C = $(PKG_CONFIG_FILE_C)
+install-built: export CMAKE_TEXT = $(CMAKE_FILE)
+install-built: export CMAKE_VERSION_TEXT = $(CMAKE_VERSION_FILE)
 install-built:                       ## the same, of what is built: builds nothing
 	install -d '$(DEST)/bin' '$(DEST)/lib/pkgconfig' '$(DEST)/share/seam2d/scenes/hard'
 	install -d '$(DEST)/share/seam2d/scenes/exact'
@@ -420,18 +503,33 @@ install-built:                       ## the same, of what is built: builds nothi
 	install -m 644 scenes/*.toml '$(DEST)/share/seam2d/scenes'
 	install -m 644 scenes/hard/*.toml '$(DEST)/share/seam2d/scenes/hard'
 	install -m 644 scenes/exact/*.toml '$(DEST)/share/seam2d/scenes/exact'
-	install -d '$(DEST)/share/seam2d/cluster'
+	install -d '$(DEST)/share/seam2d/cluster' '$(DEST)/share/seam2d/lcmtypes'
 	install -m 755 tests/lab/shards/seam-sweep-parallel tests/lab/shards/seam-sweep.sbatch '$(DEST)/share/seam2d/cluster'
+	install -m 644 $(LCM_TYPES) '$(DEST)/share/seam2d/lcmtypes'
 	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
 	strip --strip-debug '$(DEST)/lib/libseam.a'
+	install -s -m 644 $(SHARED) '$(DEST)/lib'
+	ln -sf $(notdir $(SHARED)) '$(DEST)/lib/libseam2d.so'
 	install -d '$(DEST)/share/man/man1' '$(DEST)/share/bash-completion/completions'
 	install -d '$(DEST)/share/zsh/site-functions' '$(DEST)/share/fish/vendor_completions.d'
 	install -m 644 $(OUT)/share/man/*.1 '$(DEST)/share/man/man1'
 	install -m 644 $(OUT)/share/bash/* '$(DEST)/share/bash-completion/completions'
 	install -m 644 $(OUT)/share/zsh/* '$(DEST)/share/zsh/site-functions'
 	install -m 644 $(OUT)/share/fish/* '$(DEST)/share/fish/vendor_completions.d'
-	find common server client -name '*.h' -exec install -D -m 644 '{}' '$(DEST)/include/seam2d/{}' ';'
+	CXX='$(CXX)' EIGEN='$(EIGEN)' client/embed/install_headers.sh '$(DEST)/include'
 	@echo "$$TEXT" > '$(DEST)/lib/pkgconfig/seam2d.pc'
+	@echo "$$TEXT_C" > '$(DEST)/lib/pkgconfig/seam2d-c.pc'
+	install -d '$(DEST)/lib/cmake/seam2d' '$(DEST)/share/doc/seam2d'
+	@echo "$$CMAKE_TEXT" > '$(DEST)/lib/cmake/seam2d/seam2d-config.cmake'
+	@echo "$$CMAKE_VERSION_TEXT" > '$(DEST)/lib/cmake/seam2d/seam2d-config-version.cmake'
+	install -m 644 README.md CHANGELOG.md docs/*.md '$(DEST)/share/doc/seam2d'
+	install -m 644 LICENSE '$(DEST)/share/doc/seam2d/copyright'
+	@if [ -e $(OUT)/python/.stamp ]; then install -d '$(PYTHON_SITE)/seam' && \
+	  install -m 644 $(PYTHON_TEXTS) '$(PYTHON_SITE)/seam' && \
+	  install -s -m 644 $(OUT)/python/seam/_seam.so '$(PYTHON_SITE)/seam'; fi
+
+deb: build/.deps-deb all python $(OUT)/libseam.a $(SHARED)   ## Debian packages of programs, library and Python: out/deb/
+	MAKE='$(MAKE)' PYTHON3='$(PYTHON3)' BUILD='$(BUILD)' VERSION='$(VERSION)' client/embed/make_deb.sh out/deb
 
 clean:                               ## remove build/ and out/
 	rm -rf build out

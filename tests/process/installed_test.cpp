@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <sstream>
 
 #include "common/base/version.h"
 #include "common/codec/messages.h"
@@ -61,22 +63,120 @@ std::string Between(const std::string& text, const std::string& begin, const std
   return to == std::string::npos ? "" : text.substr(from, to - from);
 }
 
-TEST_F(Installed, TheEmbeddingPagesProgramCompilesAndPrintsAsDocumented) {
+/// A program of docs/embedding.md: its text, and the line that it prints.
+struct PageProgram {
+  std::string text;
+  std::string printed;
+};
+
+/// Returns the page's block of this language, and the text behind it in "prints `...`".
+PageProgram ProgramOf(const std::string& language) {
   std::ifstream file(Root() / "docs/embedding.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
-  const std::string code = Between(page, "```cpp\n", "```");
-  const std::string printed = Between(page, "\nprints `", "`");
-  ASSERT_FALSE(code.empty() || printed.empty());
+  const std::string begin = "```" + language + "\n";
+  const std::string rest = page.substr(std::min(page.size(), page.find(begin)));
+  PageProgram program{Between(rest, begin, "```"), Between(rest, "prints `", "`") + "\n"};
+  EXPECT_GT(program.text.size(), 100u) << language;
+  EXPECT_GT(program.printed.size(), 10u) << language;
+  return program;
+}
+
+TEST_F(Installed, TheEmbeddingPagesProgramsCompileAndPrintAsDocumented) {
+  struct Case {
+    const char *language, *file, *command;
+  };
+  for (const Case& each :
+       {Case{"cpp", "slide.cpp",
+             "g++ -Wall -Wextra -Werror slide.cpp $(pkg-config --cflags --libs seam2d) -o out"},
+        Case{"c", "slide.c",
+             "gcc -std=c99 -Wall -Wextra -Wpedantic -Werror slide.c "
+             "$(pkg-config --cflags --libs seam2d-c) -Wl,-rpath,$(pkg-config --variable=libdir "
+             "seam2d-c) -o out"}}) {
+    const PageProgram program = ProgramOf(each.language);
+    const Workspace folder;
+    folder.Write(each.file, program.text);
+    const auto compile = Run({"sh", "-c", each.command}, folder);
+    ASSERT_EQ(compile->status(), 0) << compile->Story();
+    const auto run = Run({"./out"}, folder);
+    EXPECT_EQ(run->status(), 0) << run->Story();
+    EXPECT_EQ(run->output(), program.printed);
+  }
+}
+
+TEST_F(Installed, CMakeFindsBothLibraries) {
+  if (std::system("cmake --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "cmake is not here";
   const Workspace folder;
-  folder.Write("slide.cpp", code);
+  const PageProgram cpp = ProgramOf("cpp"), c = ProgramOf("c");
+  folder.Write("slide.cpp", cpp.text);
+  folder.Write("slide.c", c.text);
+  folder.Write("CMakeLists.txt",
+               "cmake_minimum_required(VERSION 3.16)\nproject(slide C CXX)\n"
+               "find_package(seam2d 0.26 REQUIRED)\n"
+               "add_executable(one slide.cpp)\ntarget_link_libraries(one seam2d::seam2d)\n"
+               "add_executable(two slide.c)\ntarget_link_libraries(two seam2d::c)\n");
+  const auto made = Run({"sh", "-c",
+                         "cmake -S . -B build -DCMAKE_PREFIX_PATH=" + At("") +
+                             " && cmake --build build && build/one && build/two"},
+                        folder);
+  ASSERT_EQ(made->status(), 0) << made->Story();
+  EXPECT_NE(made->output().find(cpp.printed + c.printed), std::string::npos) << made->Story();
+  folder.Write("CMakeLists.txt",
+               "cmake_minimum_required(VERSION 3.16)\nproject(slide C)\n"
+               "find_package(seam2d 99 REQUIRED)\n");
+  EXPECT_NE(
+      Run({"cmake", "-S", ".", "-B", "other", "-DCMAKE_PREFIX_PATH=" + At("")}, folder)->status(),
+      0);
+}
+
+TEST_F(Installed, HeadersTakeNoNameButSeam2d) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(At("include"))) {
+    names.push_back(entry.path().filename().string());
+  }
+  EXPECT_EQ(names, std::vector<std::string>{"seam2d"});
+  // Each public header compiles alone, though the program has folders of our names.
+  const Workspace folder;
+  for (const char* own : {"common", "server", "client"}) fs::create_directory(folder / own);
+  int headers = 0;
+  for (const auto& entry : fs::directory_iterator(At("include/seam2d"))) {
+    if (entry.path().extension() != ".h") continue;
+    ++headers;
+    const std::string name = "seam2d/" + entry.path().filename().string();
+    folder.Write("one" + std::to_string(headers) + ".cpp", "#include <" + name + ">\n");
+  }
+  EXPECT_GE(headers, 9);
   const auto compile = Run({"sh", "-c",
-                            "g++ -Wall -Wextra -Werror slide.cpp "
-                            "$(pkg-config --cflags --libs seam2d) -o slide"},
+                            "g++ -fsyntax-only -Wall -Wextra -Werror -I. one*.cpp "
+                            "$(pkg-config --cflags seam2d)"},
                            folder);
-  ASSERT_EQ(compile->status(), 0) << compile->Story();
-  const auto slide = Run({"./slide"}, folder);
-  EXPECT_EQ(slide->status(), 0);
-  EXPECT_EQ(slide->output(), printed + "\n");
+  EXPECT_EQ(compile->status(), 0) << compile->Story();
+}
+
+TEST_F(Installed, TheSharedLibraryShowsNothingButTheCInterface) {
+  const Workspace folder;
+  const auto names = Run({"nm", "-D", "--defined-only", At("lib/libseam2d.so")}, folder);
+  ASSERT_EQ(names->status(), 0) << names->Story();
+  std::istringstream lines(names->output());
+  std::string line;
+  int functions = 0;
+  while (std::getline(lines, line)) {
+    EXPECT_NE(line.find(" T seam2d_"), std::string::npos) << line;
+    ++functions;
+  }
+  EXPECT_GE(functions, 20);
+}
+
+TEST_F(Installed, TypesDocsAndLicenceAreThere) {
+  std::size_t types = 0;
+  for (const auto& entry : fs::directory_iterator(Root() / "lcmtypes")) {
+    if (entry.path().extension() != ".lcm") continue;
+    ++types;
+    EXPECT_TRUE(fs::exists(At("share/seam2d/lcmtypes/" + entry.path().filename().string())));
+  }
+  EXPECT_GT(types, 20u);
+  for (const char* file : {"copyright", "embedding.md", "recordings.md", "README.md"}) {
+    EXPECT_GT(fs::file_size(At(std::string("share/doc/seam2d/") + file)), 500u) << file;
+  }
 }
 
 TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {

@@ -75,10 +75,13 @@ const std::vector<Room>& Rooms() {
         "common/physics", "common/stages", "common/sync"}},
       {"server", common},
       {"client", common},
+      {"client/embed", with({"server", "client"})},
+      {"client/python", with({"server", "client", "client/embed"})},
       {"render", common},
       {"tests/support", with({"server", "client", "render", "tests/lab"})},
       {"tests/lab", with({"server", "client", "tests/support"})},
-      {"tests", with({"server", "client", "render", "tests/support", "tests/lab"})}};
+      {"tests",
+       with({"server", "client", "client/embed", "render", "tests/support", "tests/lab"})}};
   return rooms;
 }
 
@@ -173,6 +176,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"client/swarm", "client(/top)?"},
       {"client/top", "none"},
       {"client/front", "none"},
+      {"client/embed/seam2d", "client/embed"},
       {"server/authority", "none"},
       {"server/edits", "server/authority"},
       {"server/interest", "none"},
@@ -196,6 +200,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"render/export", "render/canvas"},
       {"render/import", "none"},
       {"render/log", "none"},
+      {"render/measure", "render/playback"},
       {"render/page", "render/(canvas|draw|playback)"},
       {"render/view", "render/(canvas|page|playback)"},
       {"tests/support/allocations", "none"},
@@ -299,6 +304,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
                "sodium\\.h|sodium/.*");
   ExpectOnlyIn("render/import/rube\\.cpp", kCode, "nlohmann/.*");
   ExpectOnlyIn("render/import/tiled\\.cpp", kCode, "tinyxml2\\.h");
+  ExpectOnlyIn("client/python/.*", kCode, "pybind11/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
   ExpectOnlyIn("common/net/(udp|http_)[^/]*", kProduct,
                "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");

@@ -1,0 +1,102 @@
+#pragma once
+/// A whole session in one process and in virtual time: a server, a client for each of the scene's
+/// players, and a simulated network between them. The same calls give the same bits.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/client.h"
+#include "common/base/entropy.h"
+#include "common/net/impair.h"
+#include "common/net/memory.h"
+#include "common/record/recording.h"
+#include "common/record/room_log.h"
+#include "server/server.h"
+
+namespace seam {
+
+struct LocalSessionConfig {
+  std::string mode = "buffer";   ///< as of seam-server --mode
+  std::string reconcile;         ///< of mode buffer; "": its default
+  std::string predict;           ///< of mode central; "": all
+  std::string impair = "demo";   ///< network between server and clients
+  std::int64_t seed = 1;         ///< of the network and of bots
+  int send_hz = 30;              ///< States per second from each peer
+  std::string drive = "inputs";  ///< inputs (SetInput) | script (the scene's) | bot
+  std::string record;            ///< log to write; "": none
+  bool force = false;            ///< replaces a log that is there
+  bool keep = false;             ///< recording() has everything, which costs memory
+};
+
+class LocalSession {
+ public:
+  /// Throws OperatorError when a name is unknown, a number out of range, or the log cannot be
+  /// written.
+  LocalSession(const Scene& scene, const LocalSessionConfig& config);
+  ~LocalSession();
+  LocalSession(const LocalSession&) = delete;
+  LocalSession& operator=(const LocalSession&) = delete;
+
+  /// Runs until the server has done this many ticks; nothing if it has. Throws OperatorError if
+  /// the players cannot join within 30 s of virtual time, or the log cannot be written.
+  void RunToTick(std::int64_t tick);
+  /// Sets a player's input, held until the next call, in a session that is driven by inputs. Throws
+  /// OperatorError if there is no such player or the session is driven otherwise.
+  void SetInput(int player, const Input& input);
+
+  std::int64_t tick() const { return server_->tick(); }
+  /// Returns the number of clients: that of the scene's players.
+  int client_count() const { return static_cast<int>(peers_.size()); }
+  /// Returns the bodies as a peer displays them now; 0: the server, 1 .. client_count(): the client
+  /// of the scene's first player and so on. Empty before a client has the room. Throws
+  /// OperatorError if there is no such peer.
+  View ViewOf(int peer) const;
+  const Scene& scene() const { return scene_; }
+  const Server& server() const { return *server_; }
+  /// Returns the client of a player, 0 .. client_count() - 1.
+  const Client& client(int player) const {
+    return *peers_[static_cast<std::size_t>(player)].client;
+  }
+  /// Returns all messages so far. Requires LocalSessionConfig::keep; else empty.
+  const Recording& recording() { return tap_.memory.builder.recording(); }
+  /// Writes the log's last events. Throws OperatorError if the log cannot be written.
+  void Flush();
+
+ private:
+  /// Records with the virtual time, as lcm-logger does in a live session.
+  class Tap : public Recorder {
+   public:
+    explicit Tap(const LocalSession& session) : session_(session) {}
+    void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
+    void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override;
+    bool listening() const override;
+    MemoryRecorder memory;
+    std::unique_ptr<RoomLog> log;
+
+   private:
+    const LocalSession& session_;
+  };
+  struct Peer {
+    std::unique_ptr<Net> endpoint;
+    std::unique_ptr<Entropy> entropy;
+    std::unique_ptr<Client> client;
+    std::int64_t clock_offset_us = 0;
+  };
+  void StartClient(Drive drive);
+  void Instant();
+
+  const Scene scene_;
+  const LocalSessionConfig config_;
+  Tap tap_{*this};
+  MemoryNetwork network_;
+  std::unique_ptr<Net> endpoint_;
+  std::unique_ptr<ImpairedNet> impaired_;
+  std::unique_ptr<Entropy> entropy_;
+  std::unique_ptr<Server> server_;
+  std::vector<Peer> peers_;
+  std::int64_t now_us_ = 1000000;
+};
+
+}  // namespace seam
