@@ -1,0 +1,32 @@
+#pragma once
+/// The parts of the Python module `seam._seam`, which the package in client/python/seam wraps.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/measure/measure.h"
+#include "common/scene/scene.h"
+
+namespace seam {
+
+/// Adds the classes of logs, worlds and sessions.
+void AddLog(pybind11::module_& module);
+void AddPlay(pybind11::module_& module);
+
+/// Returns an array with a copy of the values.
+template <class T>
+pybind11::array_t<T> ArrayOf(const std::vector<T>& values, std::vector<pybind11::ssize_t> shape) {
+  pybind11::array_t<T> array(shape);
+  std::copy(values.begin(), values.end(), array.mutable_data());
+  return array;
+}
+
+/// Returns the measures by name: those of the table, and validity.
+pybind11::dict MeasuresDict(const Measures& measures, const std::string& valid);
+
+}  // namespace seam
