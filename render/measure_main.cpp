@@ -1,5 +1,8 @@
 /// seam-measure: measures recordings. docs/metrics.md defines each measure.
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -23,6 +26,7 @@
 #include "common/record/loss_timeline.h"
 #include "common/record/recording.h"
 #include "common/record/time_range.h"
+#include "render/measure/readable_table.h"
 
 namespace seam {
 namespace {
@@ -34,6 +38,7 @@ struct Options {
   bool append = false;
   bool force = false;
   bool more = false;
+  bool wide = false;
   bool floor = false;
   bool limit = false;
   bool trust = false;
@@ -145,6 +150,22 @@ void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
   if (std::fclose(file) != 0 || !written) throw OperatorError(options.csv + ": disk full?");
 }
 
+/// Prints a line a run, as scripts read it, or at a terminal the table for people.
+void PrintTable(const std::vector<MeasuredRun>& runs, const Options& options) {
+  if (options.wide || isatty(STDOUT_FILENO) == 0) {
+    std::fputs(FormatTable(runs, options.more).c_str(), stdout);
+    return;
+  }
+  constexpr std::size_t kUnknownWidth = 80;
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  const std::size_t width = known ? size.ws_col : kUnknownWidth;
+  std::fputs(FormatReadable(runs, width, options.names.empty()).c_str(), stdout);
+  for (const MeasuredRun& run : runs) {
+    if (options.more) std::fputs(FormatMore(run).c_str(), stdout);
+  }
+}
+
 void PrintLimit(const Recording& recording) {
   const std::optional<double> limit = HeldInputsError(recording);
   if (!limit) {
@@ -211,7 +232,7 @@ void Run(const Options& options) {
   }
   progress.End();
   if (!options.csv.empty()) WriteCsv(runs, options);
-  std::fputs(FormatTable(runs, options.more).c_str(), stdout);
+  PrintTable(runs, options);
   for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
     PrintHandOvers(ReadLog(options, i), runs[i].run, options.range);
   }
@@ -250,6 +271,7 @@ void Define(Command& app, Options& options) {
   app.Switch("--trust", options.trust, "also list the server's doubts about clients");
   app.Switch("--list", options.list, "say what is in the logs, and measure nothing");
   app.Switch("--more", options.more, "print the further measures");
+  app.Switch("--wide", options.wide, "at a terminal too, print one line a run, as into a pipe");
 }
 
 }  // namespace

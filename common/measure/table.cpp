@@ -93,7 +93,9 @@ std::string Beside(const std::optional<double>& value, const std::optional<doubl
   return text;
 }
 
-std::string More(const MeasuredRun& run) {
+}  // namespace
+
+std::string FormatMore(const MeasuredRun& run) {
   const Measures& m = run.measures;
   std::string out = fmt::format("\n{}\n", run.run);
   out +=
@@ -157,8 +159,6 @@ std::string More(const MeasuredRun& run) {
   return out;
 }
 
-}  // namespace
-
 std::string CsvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
@@ -201,7 +201,7 @@ std::string FormatTable(const std::vector<MeasuredRun>& runs, bool more) {
     out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
   if (more) {
-    for (const MeasuredRun& run : runs) out += More(run);
+    for (const MeasuredRun& run : runs) out += FormatMore(run);
   }
   return out;
 }

@@ -38,4 +38,7 @@ std::string CsvLine(const MeasuredRun& run);
 /// appends the further measures, a paragraph per run.
 std::string FormatTable(const std::vector<MeasuredRun>& runs, bool more);
 
+/// Formats the further measures of a run, a paragraph.
+std::string FormatMore(const MeasuredRun& run);
+
 }  // namespace seam
