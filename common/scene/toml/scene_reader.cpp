@@ -6,16 +6,25 @@
 #include "common/base/check.h"
 #include "common/base/names.h"
 #include "common/base/nearest.h"
+#include "common/scene/toml/read_watch.h"
 #include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {
+
+thread_local ReadWatch* g_watch = nullptr;
+
+void Note(const TomlNode& table, const char* key, ReadAs as, Range range = {}) {
+  if (g_watch != nullptr) g_watch->OnKey(table, key, as, range);
+}
 
 std::string Suggested(const std::string& key, std::initializer_list<const char*> keys) {
   return Suggestion(key, {keys.begin(), keys.end()}, keys.size());
 }
 
 }  // namespace
+
+void WatchReads(ReadWatch* watch) { g_watch = watch; }
 
 std::string Decimal(double value) {
   char text[40];
@@ -29,6 +38,7 @@ SceneReader::SceneReader(const TomlNode& table, const std::string& file, std::st
   if (table.kind != TomlNode::Kind::kTable) {
     FailLine(table.line, std::string("must be a table, not ") + KindName(table.kind));
   }
+  if (g_watch != nullptr) g_watch->OnTable(table, what_, {keys.begin(), keys.end()});
   for (const auto& [key, node] : table.members) {
     const std::string& name = key;
     const auto same = [&name](const char* known) { return name == known; };
@@ -76,7 +86,10 @@ double SceneReader::NumberIn(const TomlNode& node, const char* key, Range range)
   const bool inside =
       value >= static_cast<float>(range.min) && value <= static_cast<float>(range.max);
   if (!is_number || !inside) {
-    Expected(node, key, "a number from " + Decimal(range.min) + " to " + Decimal(range.max));
+    const bool degrees = is_number && std::string(key).find("angle") != std::string::npos;
+    Expected(node, key,
+             "a number from " + Decimal(range.min) + " to " + Decimal(range.max) +
+                 (degrees ? " (in radians: 180 degrees are 3.1416)" : ""));
   }
   return node.number;
 }
@@ -90,16 +103,19 @@ Vec2 SceneReader::VectorIn(const TomlNode& node, const char* key, Range range) c
 }
 
 float SceneReader::Number(const char* key, Range range, std::optional<float> fallback) const {
+  Note(table_, key, ReadAs::kNumber, range);
   const TomlNode* node = Get(key, !fallback);
   return node == nullptr ? *fallback : static_cast<float>(NumberIn(*node, key, range));
 }
 
 double SceneReader::Seconds(const char* key, Range range, std::optional<double> fallback) const {
+  Note(table_, key, ReadAs::kNumber, range);
   const TomlNode* node = Get(key, !fallback);
   return node == nullptr ? *fallback : NumberIn(*node, key, range);
 }
 
 int SceneReader::Integer(const char* key, Range range, std::optional<int> fallback) const {
+  Note(table_, key, ReadAs::kInteger, range);
   const TomlNode* node = Get(key, !fallback);
   if (node == nullptr) return *fallback;
   if (node->kind != TomlNode::Kind::kInteger || !(node->number >= range.min) ||
@@ -110,6 +126,7 @@ int SceneReader::Integer(const char* key, Range range, std::optional<int> fallba
 }
 
 bool SceneReader::Flag(const char* key, bool fallback) const {
+  Note(table_, key, ReadAs::kFlag);
   const TomlNode* node = Get(key, false);
   if (node == nullptr) return fallback;
   if (node->kind != TomlNode::Kind::kBoolean) Expected(*node, key, "true or false");
@@ -117,6 +134,7 @@ bool SceneReader::Flag(const char* key, bool fallback) const {
 }
 
 std::string SceneReader::Text(const char* key, std::optional<std::string> fallback) const {
+  Note(table_, key, ReadAs::kText);
   const TomlNode* node = Get(key, !fallback);
   if (node == nullptr) return *fallback;
   if (node->kind != TomlNode::Kind::kText) Expected(*node, key, "text");
@@ -126,6 +144,7 @@ std::string SceneReader::Text(const char* key, std::optional<std::string> fallba
 }
 
 std::string SceneReader::Code(const char* key) const {
+  Note(table_, key, ReadAs::kText);
   const TomlNode* node = Get(key, true);
   if (node->kind != TomlNode::Kind::kText) Expected(*node, key, "text");
   if (!IsCleanText(node->text, "\n\r\t")) {
@@ -149,11 +168,13 @@ std::string SceneReader::Name(const char* key) const {
 }
 
 Vec2 SceneReader::Vector(const char* key, Range range, std::optional<Vec2> fallback) const {
+  Note(table_, key, ReadAs::kVector, range);
   const TomlNode* node = Get(key, !fallback);
   return node == nullptr ? *fallback : VectorIn(*node, key, range);
 }
 
 std::vector<Vec2> SceneReader::Points(const char* key, Range range, std::size_t count_max) const {
+  Note(table_, key, ReadAs::kPoints, range);
   std::vector<Vec2> points;
   for (const TomlNode& item : Items(key)) {
     if (points.size() == count_max) {
@@ -165,6 +186,7 @@ std::vector<Vec2> SceneReader::Points(const char* key, Range range, std::size_t 
 }
 
 std::vector<std::string> SceneReader::Texts(const char* key) const {
+  Note(table_, key, ReadAs::kTexts);
   std::vector<std::string> texts;
   const TomlNode* node = Get(key, false);
   if (node == nullptr) return texts;
@@ -177,6 +199,7 @@ std::vector<std::string> SceneReader::Texts(const char* key) const {
 }
 
 std::vector<const TomlNode*> SceneReader::Tables(const char* key) const {
+  Note(table_, key, ReadAs::kTables);
   std::vector<const TomlNode*> tables;
   for (const TomlNode& item : Items(key)) {
     if (item.kind != TomlNode::Kind::kTable) Expected(item, key, "tables");
@@ -186,6 +209,7 @@ std::vector<const TomlNode*> SceneReader::Tables(const char* key) const {
 }
 
 const std::vector<TomlNode>& SceneReader::Items(const char* key) const {
+  Note(table_, key, ReadAs::kItems);
   static const std::vector<TomlNode> kNone;
   const TomlNode* node = Get(key, false);
   if (node == nullptr) return kNone;
@@ -199,6 +223,7 @@ bool SceneReader::IsTable(const char* key) const {
 }
 
 const TomlNode* SceneReader::Table(const char* key) const {
+  Note(table_, key, ReadAs::kTable);
   const TomlNode* node = Get(key, false);
   if (node != nullptr && node->kind != TomlNode::Kind::kTable) Expected(*node, key, "a table");
   return node;

@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "common/scene/toml/scene_text.h"
+#include "common/scene/toml/toml_hint.h"
 
 namespace seam {
 namespace {
@@ -125,7 +126,9 @@ TomlNode ParseToml(const std::string& text, const std::string& file) {
     return Convert(toml::parse(in, file), LineEnds(text));
   } catch (const toml::syntax_error& e) {
     const auto [line, what] = Explain(e);
-    throw OperatorError(file + ":" + std::to_string(line) + ": " + FirstLine(what));
+    const std::string hint = TomlHint(text, line);
+    throw OperatorError(file + ":" + std::to_string(line) + ": " +
+                        (hint.empty() ? FirstLine(what) : hint));
   } catch (const std::exception& e) {
     // Some mistakes (a number that does not fit) reach us without a position.
     throw OperatorError(file + ":1: not valid TOML: " + FirstLine(e.what()));
