@@ -294,12 +294,13 @@ CORE_TESTS := $(foreach f,base client codec net record scene server sync topolog
 $(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(call alone,tests/lab/cluster.cpp tests/lab/world/plan_worlds.cpp) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
-# Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.
-$(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml)
+# Man pages, completion and the schema of scenes, by the programs themselves: from what parses their flags and scenes.
+$(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml scenes/*/*.toml)
 	@rm -rf $(@D) && mkdir -p $(addprefix $(@D)/,man bash zsh fish)
 	@for p in $(notdir $(PROGRAMS)); do \
 	  $(OUT)/$$p --generate man > $(@D)/man/$$p.1 && $(OUT)/$$p --generate bash > $(@D)/bash/$$p && \
 	  $(OUT)/$$p --generate zsh > $(@D)/zsh/_$$p && $(OUT)/$$p --generate fish > $(@D)/fish/$$p.fish || exit 1; done
+	@$(OUT)/seam-lab schema scenes/*.toml scenes/*/*.toml > $(@D)/seam.schema.json
 	@touch $@
 
 # An example of a page to look through: three methods on one network.
@@ -512,6 +513,7 @@ install-built:                       ## the same, of what is built: builds nothi
 	ln -sf $(notdir $(SHARED)) '$(DEST)/lib/libseam2d.so'
 	install -d '$(DEST)/share/man/man1' '$(DEST)/share/bash-completion/completions'
 	install -d '$(DEST)/share/zsh/site-functions' '$(DEST)/share/fish/vendor_completions.d'
+	install -m 644 $(OUT)/share/seam.schema.json '$(DEST)/share/seam2d'
 	install -m 644 $(OUT)/share/man/*.1 '$(DEST)/share/man/man1'
 	install -m 644 $(OUT)/share/bash/* '$(DEST)/share/bash-completion/completions'
 	install -m 644 $(OUT)/share/zsh/* '$(DEST)/share/zsh/site-functions'

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/front/edit.h"
 #include "client/front/play.h"
 #include "client/front/verbs.h"
 #include "common/base/command_line.h"
@@ -20,7 +21,9 @@ using namespace seam;
 struct FrontCommands {
   Command* play = nullptr;
   Command* demo = nullptr;
+  Command* edit = nullptr;
   PlayOptions options;
+  EditOptions edited;
   bool no_browser = false;
 };
 
@@ -41,6 +44,13 @@ void DefineFront(Command& app, FrontCommands& f) {
   f.play->Option("--name", f.options.name, "player to drive (the scene's first)");
   f.demo = &app.Add("demo", "the same with bots only, to look on");
   AddPlay(*f.demo, f);
+  f.edit = &app.Add("edit", "check a scene each time it is saved, and play it anew");
+  f.edit->Option("scene", f.edited.scene, "scene file or name").Required();
+  f.edit->Switch("--play", f.edited.play, "play it from the start after each save that loads");
+  f.edit->Option("--port", f.edited.room.port, "of its page; 0: any that is free (0)")
+      .Range(0, 65535);
+  f.edit->Option("--impair", f.edited.room.impair, "network of all players (demo)");
+  f.edit->Option("--mode", f.edited.room.mode, "as of seam-server (buffer)");
   for (const Verb& verb : Verbs()) {
     app.Add(verb.name, std::string(verb.about) + " (" + verb.program + ")");
   }
@@ -48,6 +58,10 @@ void DefineFront(Command& app, FrontCommands& f) {
 }
 
 int RunFront(FrontCommands& f) {
+  if (f.edit->chosen()) {
+    FindProfile(f.edited.room.impair);
+    return EditScene(f.edited);
+  }
   f.options.drive = f.play->chosen();
   f.options.browser = !f.no_browser;
   FindProfile(f.options.impair);  // refuses a name that is none

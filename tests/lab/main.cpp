@@ -15,6 +15,7 @@
 #include "common/sync/method.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/experiment/probes.h"
+#include "tests/lab/schema/scene_schema.h"
 
 namespace {
 
@@ -60,6 +61,12 @@ Command* DefineCheck(Command& app, CheckCommand& c) {
   check->Option("-o,--output", c.picture, "draw the scene into this PNG");
   check->Switch("--force", c.force, "overwrite the PNG");
   return check;
+}
+
+Command* DefineSchema(Command& app, std::vector<std::string>& scenes) {
+  Command* schema = &app.Add("schema", "a JSON schema of scene files, for editors, to stdout");
+  schema->Option("SCENES", scenes, "scenes from which types are learned (all found by name)");
+  return schema;
 }
 
 Command* DefineDivergence(Command& app, DivergenceCommand& c) {
@@ -191,6 +198,7 @@ Command* DefineReport(Command& app, ReportCommand& c) {
 int main(int argc, char** argv) {
   RunCommand run;
   CheckCommand check;
+  std::vector<std::string> schema_scenes;
   DivergenceCommand divergence;
   ReplayCommand replay;
   SweepCommand sweep;
@@ -210,6 +218,7 @@ int main(int argc, char** argv) {
     app.RequireCommand();
     commands = {{DefineRun(app, run), [&] { return RunLog(run); }},
                 {DefineCheck(app, check), [&] { return RunCheck(check); }},
+                {DefineSchema(app, schema_scenes), [&] { return PrintSchema(schema_scenes); }},
                 {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
                 {DefineReplay(app, replay), [&] { return RunReplay(replay); }},
                 {DefineSweep(app, sweep), [&] { return RunSweep(sweep); }},

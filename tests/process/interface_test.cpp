@@ -108,7 +108,7 @@ void AddPrograms(Interface* interface) {
   }
   const Names verbs = Below(Output({"seam", "--help"}), "subcommands");
   interface->Add("seam subcommand", verbs);
-  for (const char* verb : {"play", "demo"}) {
+  for (const char* verb : {"play", "demo", "edit"}) {
     interface->Add("seam " + std::string(verb) + " flag",
                    Below(Output({"seam", verb, "--help"}), "options"));
   }

@@ -213,6 +213,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"tests/lab/fairness", "tests/lab(/experiment|/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/check", "tests/lab"},
+      {"tests/lab/schema", "none"},
       {"tests/lab/shards", "tests/lab(/experiment)?"},
       {"tests/lab/exact", "tests/lab(/experiment|/hard|/report)?"},
       {"tests/lab/gait", "tests/lab(/experiment)?"},
