@@ -51,6 +51,23 @@ void CheckRoute(const std::string& group, DoctorReport* report) {
   }
 }
 
+/// Says how far messages go: LCM's default keeps them on the machine.
+void CheckReach(const std::string& url, DoctorReport* report) {
+  const int ttl = TtlOf(url);
+  const std::string interface = RouteInterface(ReadText("/proc/net/route"), GroupOf(url));
+  if (ttl <= 0) {
+    report->lines.push_back(
+        "ok       messages stay on this machine (ttl 0); ?ttl=1 in the url lets them out to the "
+        "local network");
+  } else if (interface == "lo") {
+    report->lines.push_back("warning  ttl " + std::to_string(ttl) +
+                            ", but multicast takes interface lo: nothing leaves this machine");
+  } else {
+    report->lines.push_back("ok       messages reach other machines, over at most " +
+                            std::to_string(ttl) + " network(s)");
+  }
+}
+
 void CheckBuffers(DoctorReport* report) {
   const std::string text = ReadText("/proc/sys/net/core/rmem_max");
   const long limit = std::atol(text.c_str());
@@ -110,6 +127,13 @@ void CheckBus(const std::string& url, DoctorReport* report) {
 
 }  // namespace
 
+int TtlOf(const std::string& url) {
+  for (std::size_t at = url.find('?'); at != std::string::npos; at = url.find('&', at + 1)) {
+    if (url.compare(at + 1, 4, "ttl=") == 0) return std::atoi(url.c_str() + at + 5);
+  }
+  return 0;
+}
+
 std::string RouteInterface(const std::string& routes, const std::string& address) {
   unsigned wanted = 0;
   if (!ParseAddress(address, &wanted)) return "";
@@ -142,7 +166,10 @@ DoctorReport RunDoctor(const std::string& url) {
   const char* fallback = std::getenv("LCM_DEFAULT_URL");
   const std::string used = url.empty() && fallback != nullptr ? fallback : url;
   report.lines.push_back("ok       LCM url: " + (used.empty() ? "LCM's default" : used));
-  if (used.empty() || used.compare(0, 7, "udpm://") == 0) CheckRoute(GroupOf(used), &report);
+  if (used.empty() || used.compare(0, 7, "udpm://") == 0) {
+    CheckRoute(GroupOf(used), &report);
+    CheckReach(used, &report);
+  }
   CheckBuffers(&report);
   CheckTools(&report);
   CheckBus(url, &report);

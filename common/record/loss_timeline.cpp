@@ -166,6 +166,36 @@ std::string FormatLosses(const std::vector<Loss>& losses) {
   return text;
 }
 
+std::string FormatLossStrips(const std::vector<Loss>& losses, double end_s) {
+  std::map<std::string, std::vector<double>> strips;  // by kind and channel: lost in each slice
+  std::size_t width = 0;
+  const double slice_s = std::max(end_s, 1e-3) / kLossSlices;
+  const auto slice_of = [&](double second) {
+    return static_cast<std::size_t>(std::clamp(second / slice_s, 0.0, kLossSlices - 1.0));
+  };
+  for (const Loss& loss : losses) {
+    const std::string name = fmt::format("{:<7}  {}", LossKind(loss.kind), loss.channel);
+    width = std::max(width, name.size());
+    std::vector<double>& strip = strips.emplace(name, kLossSlices).first->second;
+    const std::size_t first = slice_of(loss.from_s), last = slice_of(loss.to_s);
+    for (std::size_t i = first; i <= last; ++i) {
+      strip[i] += static_cast<double>(loss.lost) / static_cast<double>(last - first + 1);
+    }
+  }
+  if (strips.empty()) return "";
+  std::string text = fmt::format("{:<{}}  |0 s{:>{}}|\n", "kind     channel", width,
+                                 fmt::format("{:.1f} s", end_s), kLossSlices - 3);
+  for (const auto& [name, strip] : strips) {
+    text += fmt::format("{:<{}}  |", name, width);
+    for (const double lost : strip) {
+      const int count = static_cast<int>(std::ceil(lost - 1e-9));
+      text += count <= 0 ? '.' : count <= 9 ? static_cast<char>('0' + count) : '#';
+    }
+    text += "|\n";
+  }
+  return text;
+}
+
 std::string LossesCsv(const std::vector<Loss>& losses) {
   std::string text = "kind,channel,from_s,to_s,lost\n";
   for (const Loss& loss : losses) {

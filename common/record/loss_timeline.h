@@ -30,6 +30,9 @@ std::vector<Loss> FindLosses(const std::string& path, const Recording& recording
 /// Returns the losses except kBus, for a recording without a log.
 std::vector<Loss> FindLosses(const Recording& recording);
 
+/// Slices of a session in a strip: it fits a terminal beside the channel's name.
+constexpr int kLossSlices = 50;
+
 /// Returns the losses that overlap the range.
 std::vector<Loss> Within(const std::vector<Loss>& losses, const TimeRange& range);
 
@@ -38,6 +41,10 @@ const char* LossKind(Loss::Kind kind);
 
 /// Returns a heading and one aligned line per loss; "no losses" when there are none.
 std::string FormatLosses(const std::vector<Loss>& losses);
+/// Returns a line per kind and channel: the session from 0 to `end_s` from left to right, in
+/// kLossSlices slices. '.': nothing lost; 1 to 9, then '#': so many or more in the slice, a loss
+/// spread evenly over its interval. "" when there are none.
+std::string FormatLossStrips(const std::vector<Loss>& losses, double end_s);
 /// Returns the losses as CSV: kind,channel,from_s,to_s,lost.
 std::string LossesCsv(const std::vector<Loss>& losses);
 

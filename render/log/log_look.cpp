@@ -122,7 +122,12 @@ int RunLogStats(const LogStatsCommand& command) {
                 static_cast<long long>(gap == recording.gaps.end() ? 0 : gap->second));
   }
   if (!command.csv) {
-    std::printf("\n%s", FormatLosses(FindLosses(command.log, recording)).c_str());
+    const std::vector<Loss> losses = FindLosses(command.log, recording);
+    const double hz = std::max(1, recording.room.tick_hz);
+    const std::string strips =
+        FormatLossStrips(losses, static_cast<double>(recording.last_tick) / hz);
+    std::printf("\n%s%s", FormatLosses(losses).c_str(), strips.empty() ? "" : "\n");
+    std::fputs(strips.c_str(), stdout);
   }
   return StatusAfterReading(0);
 }

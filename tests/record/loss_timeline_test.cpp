@@ -44,6 +44,25 @@ TEST(LossTimeline, TicksWithoutAViewAreOneLossWithItsSpan) {
   EXPECT_EQ(losses[1].from_s, 1.5);
 }
 
+TEST(LossTimeline, StripsShowEachChannelFromTheSessionsStartToItsEnd) {
+  const Loss early{Loss::Kind::kView, "SEAM.r.view.1", 0, 0.01, 3};
+  const Loss late{Loss::Kind::kView, "SEAM.r.view.1", 9.9, 10, 40};
+  const Loss spread{Loss::Kind::kNetwork, "to peer 2", 4, 6, 22};
+  const std::string strips = FormatLossStrips({early, spread, late}, 10);
+  const std::string dots(20, '.');
+  // 10 s in 50 slices of 0.2 s: from 4 to 6 s are 11 slices, with 2 datagrams each.
+  EXPECT_NE(strips.find("network  to peer 2      |" + dots + std::string(11, '2') +
+                        std::string(19, '.') + "|\n"),
+            std::string::npos)
+      << strips;
+  EXPECT_NE(strips.find("view     SEAM.r.view.1  |3" + std::string(48, '.') + "#|\n"),
+            std::string::npos)
+      << strips;
+  EXPECT_EQ(strips.find("\n"), strips.find("10.0 s|\n") + 7) << strips;
+  EXPECT_EQ(FormatLossStrips({}, 10), "");
+  EXPECT_NE(FormatLossStrips({late}, 0), "") << "a session without a tick";
+}
+
 TEST(LossTimeline, InputsThatNeverCameAndDatagramsThatWereLostAreFound) {
   Recording recording = MakeRecording(1, 128, Moving(1));
   recording.room.room = "r";

@@ -222,6 +222,24 @@ TEST_F(BusInNamespace, TheDoctorNamesTheFixForAMissingRoute) {
   EXPECT_NE(Text(report).find("ip route add 224.0.0.0/4 dev lo"), std::string::npos);
 }
 
+TEST_F(BusInNamespace, TheDoctorSaysHowFarMessagesGo) {
+  SEAM_ENTER(kMulticast);
+  EXPECT_NE(Text(RunDoctor("")).find("ok       messages stay on this machine (ttl 0)"),
+            std::string::npos)
+      << Text(RunDoctor(""));
+  EXPECT_NE(Text(RunDoctor("udpm://239.255.76.67:7667?ttl=1"))
+                .find("warning  ttl 1, but multicast takes interface lo"),
+            std::string::npos);
+}
+
+TEST(Doctor, ReadsTheTimeToLiveOfAUrl) {
+  EXPECT_EQ(TtlOf("udpm://239.255.76.67:7667?ttl=1"), 1);
+  EXPECT_EQ(TtlOf("udpm://239.255.76.67:7667?recv_buf_size=9&ttl=12"), 12);
+  EXPECT_EQ(TtlOf("udpm://239.255.76.67:7667?recv_buf_size=9"), 0);
+  EXPECT_EQ(TtlOf(""), 0);
+  EXPECT_EQ(TtlOf("udpm://?xttl=3&"), 0);
+}
+
 TEST(Doctor, FindsTheMostSpecificUsableRoute) {
   const std::string head = "Iface Destination Gateway Flags RefCnt Use Metric Mask MTU\n";
   const std::string any = "eth0\t00000000\t0100A8C0\t0003\t0\t0\t0\t00000000\t0\t0\t0\n";
