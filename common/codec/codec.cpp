@@ -113,6 +113,20 @@ constexpr std::uint64_t kHashWithoutAges = 0x8e3b87bafb80c4b7;
 constexpr std::size_t kViewHeadBytes = 58, kViewBodyBytes = 31;
 /// The bytes of an age, the last field of each body.
 constexpr std::size_t kViewAgeBytes = 4;
+/// Type hash of events that are only a text, up to version 0.25.
+constexpr std::uint64_t kHashWithoutKind = 0x71e7d8d436202ff5;
+/// Bytes of the fields of an event after its text: kind, five ids, value.
+constexpr std::size_t kEventKindBytes = 1, kEventIdsBytes = 20, kEventValueBytes = 8;
+
+/// Bytes at a message's end that its form without a session lacks, too.
+std::size_t YoungerBytes(const View& view) { return kViewAgeBytes * view.id.size(); }
+std::size_t YoungerBytes(const Event&) {
+  return kEventKindBytes + kEventIdsBytes + kEventValueBytes;
+}
+template <class Message>
+std::size_t YoungerBytes(const Message&) {
+  return 0;
+}
 
 std::uint64_t ReadUint64(const std::uint8_t* from) {
   std::uint64_t value = 0;
@@ -139,9 +153,7 @@ Bytes EncodeAs(const Message& message) {
     if (message.session == 0) {
       bytes.erase(bytes.begin() + kSessionFieldAt,
                   bytes.begin() + kSessionFieldAt + kSessionFieldBytes);
-      if constexpr (std::is_same_v<Message, View>) {
-        bytes.resize(bytes.size() - kViewAgeBytes * message.id.size());
-      }
+      bytes.resize(bytes.size() - YoungerBytes(message));
       WriteUint64(kHashWithoutSession<Message>, bytes.data());
     }
   }
@@ -181,6 +193,13 @@ void AppendAges(Bytes* view) {
   view->resize(view->size() + kViewAgeBytes * bodies, 0);
 }
 
+/// Puts kind 0, ids of -1 and value 0 behind the text of an event.
+void AppendKind(Bytes* event) {
+  event->resize(event->size() + kEventKindBytes, 0);
+  event->resize(event->size() + kEventIdsBytes, 0xff);
+  event->resize(event->size() + kEventValueBytes, 0);
+}
+
 /// Decodes a message that lacks the field `session`: puts a 0 there.
 template <class Message>
 AnyMessage DecodeWithoutSession(ByteView bytes) {
@@ -189,6 +208,7 @@ AnyMessage DecodeWithoutSession(ByteView bytes) {
   whole.assign(bytes.data, bytes.data + bytes.size);
   whole.insert(whole.begin() + kSessionFieldAt, kSessionFieldBytes, 0);
   if constexpr (std::is_same_v<Message, View>) AppendAges(&whole);
+  if constexpr (std::is_same_v<Message, Event>) AppendKind(&whole);
   WriteUint64(WireHash<Message>(), whole.data());
   return DecodeAs<Message>(whole);
 }
@@ -202,12 +222,14 @@ AnyMessage DecodeWithSession(ByteView bytes) {
   return DecodeAs<Message>(bytes);
 }
 
-AnyMessage DecodeWithoutAges(ByteView bytes) {
+/// Decodes an older form of a message, whose last fields `append` adds.
+template <class Message, void (*append)(Bytes*)>
+AnyMessage DecodeOlder(ByteView bytes) {
   thread_local Bytes whole;  // reuses memory
   whole.assign(bytes.data, bytes.data + bytes.size);
-  AppendAges(&whole);
-  WriteUint64(WireHash<View>(), whole.data());
-  return DecodeWithSession<View>(whole);
+  append(&whole);
+  WriteUint64(WireHash<Message>(), whole.data());
+  return DecodeWithSession<Message>(whole);
 }
 
 struct Decoder {
@@ -238,7 +260,8 @@ const Decoder* FindDecoder(ByteView bytes) {
 #define SEAM_MESSAGE_DECODER(Struct, ...) AddDecoders<Struct>(&all);
     SEAM_MESSAGES(SEAM_MESSAGE_DECODER)
 #undef SEAM_MESSAGE_DECODER
-    all[kHashWithoutAges] = {DecodeWithoutAges, true, true, kEncodedBytesMax<View>};
+    all[kHashWithoutAges] = {DecodeOlder<View, AppendAges>, true, true, kEncodedBytesMax<View>};
+    all[kHashWithoutKind] = {DecodeOlder<Event, AppendKind>, true, true, kEncodedBytesMax<Event>};
     return all;
   }();
   if (bytes.size < 8) return nullptr;

@@ -71,7 +71,13 @@
     m.cpu_us, m.clients, m.players, m.bodies, m.moving, m.moving_held, m.islands, m.hand_overs,    \
     m.jumps, m.dropped_malformed, m.dropped_stale, m.dropped_right, m.dropped_implausible,         \
     m.dropped_budget, m.kind, m.bytes_out, m.bytes_in)                                             \
-  X(Event, event_t, kBusPeer, "event", m.utime, m.session, m.sequence, m.peer, m.tick, m.text)     \
+  X(Event, event_t, kBusPeer, "event", m.utime, m.session, m.sequence, m.peer, m.tick, m.text,     \
+    m.kind, m.client, m.player, m.body, m.other, m.index, m.value_milli)                           \
+  X(Summary, summary_t, kBusRoom, "summary", m.utime, m.session, m.sequence, m.tick, m.of,         \
+    m.ended, m.ticks, m.late_ticks, m.edits, m.hand_overs, m.events, m.events_dropped, m.clients,  \
+    m.names, m.peer, m.player, m.joins, m.rejoins, m.present_ticks, m.score, m.bytes_in,           \
+    m.bytes_out, m.rtt_us, m.rtt_worst_us, m.loss_ppm, m.corrections, m.malformed, m.stale,        \
+    m.right, m.implausible, m.budget, m.hand_overs_to, m.trust)                                    \
   X(TickChain, chain_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,         \
     m.messages, m.messages_crc, m.log_events, m.log_crc)                                           \
   X(LogSeal, seal_t, kBusPeer, "chain", m.utime, m.session, m.sequence, m.peer, m.tick,            \

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "common/codec/audit.h"
+#include "common/codec/event.h"
 #include "common/codec/load.h"
 #include "common/codec/message_limits.h"
+#include "common/codec/summary.h"
 
 namespace seam {
 
@@ -329,15 +331,6 @@ struct Stats {
   std::int32_t loss_ppm = 0;             ///< datagrams lost on the way in, per million
   std::int32_t tick_late_us = 0;         ///< worst lateness of a tick in the last second
   std::int32_t clock_offset_us = 0;      ///< clock offset still to be slewed away
-};
-
-/// Bus only: an event for people to read (joined, left, hand-over, repaired).
-struct Event {
-  std::int64_t utime = 0;
-  std::int64_t session = 0, sequence = 0;
-  std::int32_t peer = 0;
-  std::int64_t tick = 0;
-  std::string text;
 };
 
 /// Both directions: the last message of a link, or the refusal of a Hello.

@@ -290,7 +290,37 @@ bool Valid(const Load& m) {
 
 bool Valid(const Event& m) {
   return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && TickOrBefore(m.tick) &&
-         IsPrintable(m.text, kTextBytesMax);
+         IsPrintable(m.text, kTextBytesMax) && Within(m.kind, 0, kEventKindMax) &&
+         Within(m.client, -1, kPeersMax - 1) && Within(m.player, -1, kPlayersMax - 1) &&
+         Within(m.body, -1, kIdsMax - 1) && Within(m.other, -1, kIdsMax - 1) && m.index >= -1 &&
+         Within(m.value_milli, -kEventValueMax, kEventValueMax);
+}
+
+bool Valid(const Summary& m) {
+  const std::size_t count = m.peer.size();
+  bool good = Time(m.utime) && m.session != 0 && m.sequence >= 0 && TickOrBefore(m.tick) &&
+              Within(m.ended, 0, static_cast<std::int8_t>(Ended::kKilled)) &&
+              count <= kSummaryClientsMax && m.clients >= static_cast<std::int32_t>(count) &&
+              IsPrintable(m.names, 33 * kSummaryClientsMax) &&
+              Lengths(count, m.player, m.joins, m.rejoins, m.present_ticks, m.score, m.bytes_in,
+                      m.bytes_out, m.rtt_us, m.rtt_worst_us, m.loss_ppm, m.corrections, m.malformed,
+                      m.stale, m.right, m.implausible, m.budget, m.hand_overs_to, m.trust) &&
+              AllWithin(m.peer, 0, kPeersMax - 1) && AllWithin(m.player, -1, kPlayersMax - 1) &&
+              Finite(m.score) && AllWithin(m.trust, 0, kAuditStepMax);
+  for (const std::int64_t n :
+       {m.ticks, m.late_ticks, m.edits, m.hand_overs, m.events, m.events_dropped}) {
+    good = good && Counter(n);
+  }
+  for (const auto* counts :
+       {&m.present_ticks, &m.bytes_in, &m.bytes_out, &m.corrections, &m.malformed, &m.stale,
+        &m.right, &m.implausible, &m.budget, &m.hand_overs_to}) {
+    good = good && std::all_of(counts->begin(), counts->end(), Counter);
+  }
+  for (const auto* counts : {&m.joins, &m.rejoins}) good = good && AllWithin(*counts, 0, INT32_MAX);
+  for (const auto* values : {&m.rtt_us, &m.rtt_worst_us, &m.loss_ppm}) {
+    good = good && AllWithin(*values, -1, INT32_MAX);
+  }
+  return good;
 }
 
 bool Valid(const TickChain& m) {

@@ -226,6 +226,11 @@ bool RecordingBuilder::Keep(Event& event) {
   return true;
 }
 
+bool RecordingBuilder::Keep(Summary& summary) {
+  recording_.summaries.push_back(std::move(summary));
+  return true;
+}
+
 bool RecordingBuilder::Keep(Audit& audit) {
   sorted_ = AppendByTick(&recording_.audits, audit) && sorted_;
   return true;

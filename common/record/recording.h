@@ -35,6 +35,7 @@ struct Recording {
   std::map<int, std::vector<Stats>> stats;                 ///< by peer, ascending
   std::vector<Load> loads;                                 ///< the server's, ascending
   std::vector<Event> events;
+  std::vector<Summary> summaries;  ///< in log order
   std::vector<Audit> audits;  ///< by tick
 
   std::vector<LogSession> sessions;          ///< all of the room in the log, this one among them
@@ -113,6 +114,7 @@ class RecordingBuilder {
   bool Keep(Stats& stats);
   bool Keep(Load& load);
   bool Keep(Event& event);
+  bool Keep(Summary& summary);
   bool Keep(TickChain&) { return true; }  // LogReader has checked it
   bool Keep(LogSeal&) { return true; }
   bool Keep(Accepted&) { return true; }  // for replays of the room

@@ -93,6 +93,7 @@ template void Publisher::Publish(Strands);
 template void Publisher::Publish(Stats);
 template void Publisher::Publish(Load);
 template void Publisher::Publish(Event);
+template void Publisher::Publish(Summary);
 
 void Publisher::Publish(const View& message) {
   if (!recorder_.listening()) return;

@@ -4,18 +4,17 @@
 
 #include "common/base/check.h"
 #include "common/base/state_archive.h"
+#include "common/record/events/event_text.h"
 
 namespace seam {
 namespace {
 
 /// Largest score: a liar's score may not grow for minutes.
 constexpr float kScoreMax = 2 * TrustLadder::kDistrusted;
-constexpr const char* kStepNames[] = {"trusted",      "noted",       "watched",
-                                      "server holds", "inputs only", "out"};
 
 }  // namespace
 
-const char* ToString(TrustStep step) { return kStepNames[static_cast<std::size_t>(step)]; }
+const char* ToString(TrustStep step) { return TrustStepName(static_cast<std::int8_t>(step)); }
 
 TrustMode ParseTrustMode(const std::string& text) {
   if (text == "off") return TrustMode::kOff;

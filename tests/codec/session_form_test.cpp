@@ -20,9 +20,10 @@ void CheckSessionForms(std::uint64_t hash) {
   Message with = without;
   with.session = 0x1122334455667788;
   const Bytes longer = Encode(with), shorter = Encode(without);
-  std::size_t ages = 0;  // the ages of a view's bodies are at its end
-  if constexpr (std::is_same_v<Message, View>) ages = 4 * with.id.size();
-  ASSERT_EQ(longer.size(), shorter.size() + 8 + ages);
+  std::size_t younger = 0;  // the ages of a view's bodies are at its end, an event's kind and so on
+  if constexpr (std::is_same_v<Message, View>) younger = 4 * with.id.size();
+  if constexpr (std::is_same_v<Message, Event>) younger = 29;
+  ASSERT_EQ(longer.size(), shorter.size() + 8 + younger);
   EXPECT_EQ(SessionOf(longer), with.session);
   EXPECT_EQ(SessionOf(shorter), 0);
   const AnyMessage any = Decode(longer);
@@ -31,7 +32,7 @@ void CheckSessionForms(std::uint64_t hash) {
   // The shorter form lacks the session alone, and has the hash of protocols 8 to 12.
   Bytes cut = longer;
   cut.erase(cut.begin() + 16, cut.begin() + 24);
-  cut.resize(cut.size() - ages);
+  cut.resize(cut.size() - younger);
   for (int i = 0; i < 8; ++i)
     cut[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(hash >> (56 - 8 * i));
   EXPECT_EQ(cut, shorter);
@@ -53,6 +54,31 @@ TEST(SessionForm, AViewOfProtocol12HasNoAges) {
   found = std::get<View>(Decode(Encode(view)));
   EXPECT_EQ(found.age, view.age);
   EXPECT_EQ(found.spin, view.spin);
+}
+
+TEST(SessionForm, AnEventOfBefore026IsALine) {
+  Event event = MakeEvent(EventKind::kBroke, "a and b come apart", 3);
+  event.body = 5;
+  event.value_milli = 7;
+  event.session = 9;
+  const Bytes now = Encode(event);
+  EXPECT_EQ(std::get<Event>(Decode(now)).body, 5);
+  // Version 0.25 wrote the same up to the text, with another hash.
+  Bytes before(now.begin(), now.end() - 29);
+  for (int i = 0; i < 8; ++i) {
+    before[static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(0x71e7d8d436202ff5u >> (56 - 8 * i));
+  }
+  const AnyMessage any = Decode(before);
+  ASSERT_TRUE(std::holds_alternative<Event>(any));
+  const Event& read = std::get<Event>(any);
+  EXPECT_EQ(read.text, event.text);
+  EXPECT_EQ(read.session, 9);
+  EXPECT_EQ(read.kind, 0);
+  EXPECT_EQ(read.player, -1);
+  EXPECT_EQ(read.index, -1);
+  EXPECT_EQ(read.value_milli, 0);
+  EXPECT_EQ(SessionOf(before), 9);
 }
 
 TEST(SessionForm, AMessageWithoutSessionIsEncodedAsProtocol12Did) {

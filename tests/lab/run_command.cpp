@@ -24,7 +24,7 @@ std::string Metres(const std::optional<double>& metres) {
 
 /// Returns the headline, the error of others' bodies at the tick that is shown, with its age, the
 /// error of the present and the disagreement of the peers beside it.
-std::string Summary(const Recording& recording) {
+std::string Headline(const Recording& recording) {
   try {
     const Oracle plain = ComputeOracle(recording);
     const bool barriers = JudgedByBarriers(recording.room);
@@ -77,7 +77,7 @@ int RunLog(const RunCommand& command) {
   std::printf("%s: %lld ticks, %.3f s simulated in %.3f s: %.1f x real time\n", command.log.c_str(),
               static_cast<long long>(result.ticks), result.simulated_s, wall_s,
               result.simulated_s / std::max(wall_s, 1e-6));
-  if (command.floor) std::printf("%s\n", Summary(recording).c_str());
+  if (command.floor) std::printf("%s\n", Headline(recording).c_str());
   for (const std::string& warning : result.warnings) {
     std::fprintf(stderr, "seam-lab: %s\n", warning.c_str());
   }

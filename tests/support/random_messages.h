@@ -196,6 +196,26 @@ class RandomMessages {
   }
   void Fill(Event& m) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), m.text = Text(1000);
+    // Without a session, nothing of what follows the text is encoded.
+  }
+  void Fill(Summary& m) {
+    Common(m), Sequence(m), m.session = Integer(1, INT64_MAX - 1), m.tick = Tick();
+    Set(m.ended, 0, 2), m.of = Integer(1, INT64_MAX - 1);
+    for (auto* n :
+         {&m.ticks, &m.late_ticks, &m.edits, &m.hand_overs, &m.events, &m.events_dropped}) {
+      Set(*n, 0, kTimeMaxUs - 1);
+    }
+    const std::size_t count = Count(0, 3);
+    Set(m.clients, static_cast<int>(count), 5000), m.names = Text(60);
+    Vector(m.peer, count, 0, 31), Vector(m.player, count, -1, 31), Vector(m.trust, count, 0, 5);
+    for (auto* v : {&m.joins, &m.rejoins}) Vector(*v, count, 0, INT32_MAX);
+    for (auto* v : {&m.rtt_us, &m.rtt_worst_us, &m.loss_ppm}) Vector(*v, count, -1, INT32_MAX);
+    for (auto* v : {&m.present_ticks, &m.bytes_in, &m.bytes_out, &m.corrections, &m.malformed,
+                    &m.stale, &m.right, &m.implausible, &m.budget, &m.hand_overs_to}) {
+      v->resize(count);
+      for (std::int64_t& n : *v) Set(n, 0, kTimeMaxUs - 1);
+    }
+    Floats(m.score, count);
   }
   void Fill(TickChain& m) {
     Common(m), Sequence(m), m.session = Integer(1, INT64_MAX - 1), Set(m.peer, 0, 31);

@@ -4,13 +4,10 @@
 
 #include <cmath>
 
+#include "common/record/events/event_text.h"
+
 namespace seam {
 namespace {
-
-constexpr const char* kDoubtSteps[] = {"trusted",      "noted",       "watched",
-                                       "server holds", "inputs only", "out"};
-static_assert(sizeof kDoubtSteps / sizeof kDoubtSteps[0] == kAuditStepMax + 1,
-              "a name for each step");
 
 std::string PlayerOf(const Scene& scene, const Audit& audit) {
   const auto player = static_cast<std::size_t>(audit.player);
@@ -30,14 +27,15 @@ std::string FormatDoubts(const Recording& recording, const Scene& scene) {
       "    tick  player       body            off m  off m/s  refused  score  step\n";
   for (const Audit& a : recording.audits) {
     if (a.body < 0) {
-      text += fmt::format("{:>8}  {:<12} -> {}\n", a.tick, PlayerOf(scene, a), kDoubtSteps[a.step]);
+      text +=
+          fmt::format("{:>8}  {:<12} -> {}\n", a.tick, PlayerOf(scene, a), TrustStepName(a.step));
       continue;
     }
     const auto apart = [&a](std::size_t i) { return a.told[i] - a.expected[i]; };
     const float off = std::hypot(apart(0), apart(1)), kick = std::hypot(apart(2), apart(3));
     text += fmt::format("{:>8}  {:<12} {:<14} {:>6.3g}  {:>7.3g}  {:>7}  {:>5.2f}  {}\n", a.tick,
                         PlayerOf(scene, a), BodyOf(scene, a), off, kick,
-                        a.refused != 0 ? "yes" : "no", 1e-3 * a.score_milli, kDoubtSteps[a.step]);
+                        a.refused != 0 ? "yes" : "no", 1e-3 * a.score_milli, TrustStepName(a.step));
   }
   return text;
 }

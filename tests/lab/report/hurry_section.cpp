@@ -64,7 +64,7 @@ struct Offer {
 std::vector<Offer> OffersAt(const Sweep& sweep, const SweepGroup& group, double x) {
   std::vector<Offer> offers;
   const auto median = [&](const std::vector<std::size_t>& rows, const char* id) {
-    const auto q = Summary(sweep.table, MeasureNamed(id), rows);
+    const auto q = QuartilesOf(sweep.table, MeasureNamed(id), rows);
     return q ? std::optional<double>(q->median) : std::nullopt;
   };
   for (const std::string& method : group.methods) {
@@ -218,7 +218,7 @@ TextTable WhichTable(const std::vector<Sweep>& sweeps) {
         for (const auto& method : group.runs) {
           const auto found = method.second.find(x);
           if (limit || found == method.second.end()) continue;
-          const auto q = Summary(sweep.table, MeasureNamed("info-limit"), found->second);
+          const auto q = QuartilesOf(sweep.table, MeasureNamed("info-limit"), found->second);
           if (q) limit = q->median;
         }
         row.push_back(DigitsOrDash(limit));

@@ -49,7 +49,7 @@ PlotPanel MeasurePanel(const Sweep& sweep, const SweepGroup& group, const SweepM
     curve.name = method;
     curve.look = MethodLook(method);
     for (const auto& point : group.runs.at(method)) {
-      const auto q = Summary(sweep.table, measure, point.second);
+      const auto q = QuartilesOf(sweep.table, measure, point.second);
       if (q) curve.points.push_back({point.first, q->median, q->low, q->high});
     }
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
@@ -70,7 +70,7 @@ void AddLimit(const Sweep& sweep, const SweepGroup& group, PlotPanel* panel) {
         rows.insert(rows.end(), found->second.begin(), found->second.end());
       }
     }
-    const auto q = Summary(sweep.table, MeasureNamed("info-limit"), rows);
+    const auto q = QuartilesOf(sweep.table, MeasureNamed("info-limit"), rows);
     if (q) curve.points.push_back({x, q->median, q->low, q->high});
   }
   if (!curve.points.empty()) panel->curves.push_back(std::move(curve));
@@ -109,12 +109,12 @@ Figure CurvesOf(const Sweep& sweep, const SweepGroup& group) {
       AddLimit(sweep, group, &panel);
       for (const SweepMeasure& measured : FloorMeasures()) {
         if (measured.id == "info-limit") continue;
-        const auto floor = Summary(sweep.table, measured, group);
+        const auto floor = QuartilesOf(sweep.table, measured, group);
         if (floor) panel.levels.push_back({floor->median, measured.name});
       }
     }
     if (measure.id == "penetration") {
-      const auto oracle = Summary(sweep.table, OraclesPenetration(), group);
+      const auto oracle = QuartilesOf(sweep.table, OraclesPenetration(), group);
       if (oracle && oracle->median > 0) panel.levels.push_back({oracle->median, "oracle's own"});
     }
     if (measure.id == "rebound") panel.levels.push_back({1, "right"});
@@ -146,14 +146,14 @@ TextTable AlongTable(const Sweep& sweep, const SweepGroup& group, const SweepMea
         row.push_back("–");
         continue;
       }
-      row.push_back(WithValidity(Digits(Summary(sweep.table, measure, found->second)),
+      row.push_back(WithValidity(Digits(QuartilesOf(sweep.table, measure, found->second)),
                                  FindValidity(sweep.table, found->second)));
     }
     table.rows.push_back(std::move(row));
   }
   table.note = fmt::format("{}, median (quartiles) of {} seeds. ", measure.Label(), Counts(group));
   for (const SweepMeasure& floor : FloorMeasures()) {
-    const auto q = Summary(sweep.table, floor, group);
+    const auto q = QuartilesOf(sweep.table, floor, group);
     if (q && measure.id == HeadlineOf(sweep).id) {
       table.note += fmt::format("{}: {} m. ", floor.name, Digits(q->median));
     }
@@ -180,7 +180,7 @@ TextTable MeasuresTable(const Sweep& sweep, const SweepGroup& group) {
     std::vector<std::string> row = {method};
     const Validity validity = FindValidity(sweep.table, found->second);
     for (const SweepMeasure& measure : measures) {
-      const auto q = Summary(sweep.table, measure, found->second);
+      const auto q = QuartilesOf(sweep.table, measure, found->second);
       const bool first = row.size() == 1;  // said once
       row.push_back(first ? WithValidity(q ? Digits(q->median) : "–", validity)
                           : (q ? Digits(q->median) : "–"));
@@ -275,8 +275,8 @@ std::vector<MethodTrial> Trials(const Sweep& sweep, const SweepGroup& group,
   std::vector<MethodTrial> trials;
   for (const std::string& method : group.methods) {
     for (const auto& point : group.runs.at(method)) {
-      const auto price = Summary(sweep.table, cost, point.second);
-      const auto error = Summary(sweep.table, error_measure, point.second);
+      const auto price = QuartilesOf(sweep.table, cost, point.second);
+      const auto error = QuartilesOf(sweep.table, error_measure, point.second);
       if (!price || !error) continue;
       trials.push_back({method, point.first, {price->median, error->median}});
     }
@@ -304,10 +304,10 @@ Section SweepSection(const Sweep& sweep) {
     if (headline.id != "error") {
       section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("error")));
     }
-    if (Summary(sweep.table, MeasureNamed("seam"), group)) {
+    if (QuartilesOf(sweep.table, MeasureNamed("seam"), group)) {
       section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("seam")));
     }
-    if (Summary(sweep.table, LimitMeasure(), group)) {
+    if (QuartilesOf(sweep.table, LimitMeasure(), group)) {
       section.items.emplace_back(AlongTable(sweep, group, LimitMeasure()));
     }
     section.items.emplace_back(MeasuresTable(sweep, group));

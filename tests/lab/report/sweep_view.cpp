@@ -203,8 +203,8 @@ SweepView ViewSweep(const CsvTable& table) {
   return view;
 }
 
-std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& measure,
-                                 const std::vector<std::size_t>& rows) {
+std::optional<Quartiles> QuartilesOf(const CsvTable& table, const SweepMeasure& measure,
+                                     const std::vector<std::size_t>& rows) {
   std::vector<double> values;
   for (const std::size_t row : rows) {
     const std::optional<double> value = measure.value(table, row);
@@ -213,15 +213,15 @@ std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& meas
   return FindQuartiles(std::move(values));
 }
 
-std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& measure,
-                                 const SweepGroup& group) {
+std::optional<Quartiles> QuartilesOf(const CsvTable& table, const SweepMeasure& measure,
+                                     const SweepGroup& group) {
   std::vector<std::size_t> rows;
   for (const auto& method : group.runs) {
     for (const auto& point : method.second) {
       rows.insert(rows.end(), point.second.begin(), point.second.end());
     }
   }
-  return Summary(table, measure, rows);
+  return QuartilesOf(table, measure, rows);
 }
 
 }  // namespace seam

@@ -69,10 +69,10 @@ SweepView ViewSweep(const CsvTable& table);
 
 /// Returns quartiles of one measure over the runs of one method at one x; nothing where no run has
 /// it.
-std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& measure,
-                                 const std::vector<std::size_t>& rows);
+std::optional<Quartiles> QuartilesOf(const CsvTable& table, const SweepMeasure& measure,
+                                     const std::vector<std::size_t>& rows);
 /// The same over all runs of a group.
-std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& measure,
-                                 const SweepGroup& group);
+std::optional<Quartiles> QuartilesOf(const CsvTable& table, const SweepMeasure& measure,
+                                     const SweepGroup& group);
 
 }  // namespace seam

@@ -17,7 +17,7 @@ using Place = std::tuple<double, double>;  ///< latency, loss
 
 std::optional<double> Median(const Sweep& sweep, const char* id,
                              const std::vector<std::size_t>& rows) {
-  const auto q = Summary(sweep.table, MeasureNamed(id), rows);
+  const auto q = QuartilesOf(sweep.table, MeasureNamed(id), rows);
   return q ? std::optional<double>(q->median) : std::nullopt;
 }
 
