@@ -25,6 +25,15 @@ void Write(const ExportSession& session, ExportFormat format, OutputFile* out) {
   }
 }
 
+/// Writes one of the tables, if `path` names a file for it.
+void WriteTable(const ExportOptions& options, const std::string& path,
+                void (*write)(const ExportSession&, OutputFile*), const ExportSession& session) {
+  if (path.empty()) return;
+  OutputFile out(path, options.force, {options.log, options.oracle});
+  write(session, &out);
+  out.Finish();
+}
+
 int Run(const ExportOptions& options) {
   CheckExportOptions(options);
   StopOnSignals();
@@ -32,7 +41,10 @@ int Run(const ExportOptions& options) {
   if (options.mcap && to_stdout && isatty(STDOUT_FILENO) != 0) {
     throw OperatorError("--mcap is not text: say where it goes with -o");
   }
-  OutputFile out(options.out, options.force, {options.log, options.oracle});
+  std::optional<OutputFile> out;
+  if (options.HasFormat()) {
+    out.emplace(options.out, options.force, std::vector<std::string>{options.log, options.oracle});
+  }
   ExportSession session = LoadExport(options);
   for (const std::string& line : session.lacking) {
     PrintError("seam-export", "warning: " + options.log + ": " + line);
@@ -42,9 +54,13 @@ int Run(const ExportOptions& options) {
     if (!count) count.emplace("exporting", "ticks", ticks);
     (*count)(done);
   };
-  Write(session, options.format(), &out);
-  count.reset();
-  out.Finish();
+  WriteTable(options, options.events, WriteEventsTable, session);
+  WriteTable(options, options.metrics, WriteMetricsTable, session);
+  if (out) {
+    Write(session, options.format(), &*out);
+    count.reset();
+    out->Finish();
+  }
   return session.damaged ? 1 : 0;
 }
 
@@ -61,6 +77,7 @@ int main(int argc, char** argv) {
       "  seam-export session.lcm --csv -o session.csv             all views and bodies\n"
       "  seam-export session.lcm --csv --view ann --body crate1   to stdout\n"
       "  seam-export session.lcm --mcap -o session.mcap           for Foxglove and Rerun\n"
+      "  seam-export session.lcm --events events.csv              joined, left, scored, broke ...\n"
       "  seam-export session.lcm --trace -o session.json          for ui.perfetto.dev"};
   return RunCommandLine(
       text, argc, argv, [&](Command& app) { DefineExportOptions(&app, &options); },

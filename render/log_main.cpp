@@ -11,10 +11,12 @@ int main(int argc, char** argv) {
   LogsCommand list;
   LogVerifyCommand verify;
   LogStatsCommand stats;
+  LogEventsCommand events;
+  LogTopCommand top;
   LogCutCommand cut;
   LogMergeCommand merge;
-  Command* commands[5] = {};
-  const ProgramText text{"seam-log", "Checks, lists, cuts and merges recordings.",
+  Command* commands[7] = {};
+  const ProgramText text{"seam-log", "Checks, lists, cuts and merges recordings; prints events.",
                          VersionLine("seam-log"),
                          "examples:\n"
                          "  seam-log verify session.lcm                        status 1: damaged\n"
@@ -50,12 +52,26 @@ int main(int argc, char** argv) {
     merges.Option("LOGS", merge.logs, "LCM logs, two or more").Required();
     merges.Option("-o,--output", merge.out, "log to write").Required();
     merges.Switch("--force", merge.force, "overwrite the log");
+    Command& prints =
+        *(commands[5] = &app.Add("events", "print the events of a session, and its sum"));
+    prints.Option("LOG", events.log, "an LCM log").Required();
+    prints.Option("--room", events.room, "of a log with several rooms (default: the first)");
+    prints.Option("--session", events.session, "number or id (default: the last)");
+    prints.Switch("--json", events.json, "an object on each line");
+    Command& ranks =
+        *(commands[6] = &app.Add("top", "the leaderboard and past sessions of a server's --store"));
+    ranks.Option("STORE", top.store, "a database of seam-server --store").Required();
+    ranks.Option("--scene", top.scene, "of this scene alone, by its name");
+    ranks.Option("--by", top.by, "best score, or time in rooms").OneOf({"score", "time"});
+    ranks.Option("--limit", top.limit, "lines of each table").Range(1, 1000000);
   };
   return RunCommandLine(text, argc, argv, define, [&] {
     if (commands[0]->chosen()) return RunLogVerify(verify);
     if (commands[1]->chosen()) return RunLogList(list);
     if (commands[2]->chosen()) return RunLogStats(stats);
     if (commands[3]->chosen()) return RunLogCut(cut);
-    return RunLogMerge(merge);
+    if (commands[4]->chosen()) return RunLogMerge(merge);
+    if (commands[5]->chosen()) return RunLogEvents(events);
+    return RunLogTop(top);
   });
 }

@@ -272,13 +272,4 @@ void Broadcast::LookAround(std::int64_t now_us) {
   });
 }
 
-Event Broadcast::Say(std::int64_t now_us, const std::string& text) {
-  Event event;
-  event.utime = now_us;
-  event.tick = replica_.tick();
-  event.text = text;
-  Publish(event);
-  return event;
-}
-
 }  // namespace seam

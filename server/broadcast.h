@@ -62,6 +62,7 @@ class Broadcast {
   }
   /// While muted publishes nothing: a log has it already.
   void Mute(bool muted) { muted_ = muted; }
+  bool muted() const { return muted_; }
   /// Publishes the checksum of a tick, and of what was published before tick 0. The log has all of
   /// it then, before the tick's datagrams leave.
   void EndTick(std::int64_t now_us, bool stepped, bool last = false) {
@@ -146,9 +147,6 @@ class Broadcast {
     visit_peer(record.authority);
     record.secondaries.Each(visit_peer);
   }
-  /// Publishes a line for people, on the bus only, and returns it.
-  Event Say(std::int64_t now_us, const std::string& text);
-
   /// Calls of LookAround a second.
   static constexpr int kInterestHz = 10;
   /// Mechanisms out of interest that a receiver is sent per second, in turn, each at most every

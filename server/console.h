@@ -1,10 +1,8 @@
 #pragma once
-/// Texts of seam-server for the terminal: the progress line, the missing players, and the table at
-/// the end.
+/// Texts of seam-server for the terminal: the progress line and the missing players.
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "common/base/duration_histogram.h"
 #include "server/server.h"
@@ -19,9 +17,5 @@ std::string MissingPlayers(const Server& server);
 /// are the worst client's. `ticks`: wall time of all ticks so far.
 std::string ServerProgress(const Server& server, std::int64_t last_tick,
                            const DurationHistogram& ticks);
-
-/// Returns a line for each client that was ready in the room, after a line with the column names;
-/// "" if there was none. Each line ends with a line end.
-std::string SessionSummary(const std::vector<ClientAccount>& accounts);
 
 }  // namespace seam

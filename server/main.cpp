@@ -213,7 +213,14 @@ void SetKeys(const Flags& f, std::vector<RoomPlan>* plans) {
 
 int Serve(const Flags& f) {
   std::vector<RoomPlan> plans = MakePlans(f);
+  if (!f.summary.empty()) RequireOutput(f.summary, f.force, f.scenes);
   SetKeys(f, &plans);
+  std::shared_ptr<StoreWriter> store;
+  if (!f.store.empty()) {
+    RequirePlainFile(f.store);
+    store = std::make_shared<StoreWriter>(f.store);
+  }
+  for (RoomPlan& plan : plans) plan.store = store;
   const int rooms = static_cast<int>(plans.size());
   if (f.workers > 0 && rooms == 1) throw OperatorError("--workers: one room has one thread");
   UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));
@@ -256,7 +263,8 @@ int Serve(const Flags& f) {
   }
   line.End();
   hub.Close();
-  return ReportEnd(hub);
+  if (store != nullptr) store->Finish();
+  return ReportEnd(hub, f.summary);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "common/sync/lease.h"
 #include "common/sync/method.h"
 #include "server/authority_source.h"
+#include "server/chronicle.h"
 #include "server/console.h"
 #include "server/room_state.h"
 #include "server/rules/rules.h"
@@ -80,6 +81,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
       ladder_(scene_.players.size(), config.sync.tick_hz),
       broadcast_(recorder, room_, config.publish != Publish::kNone, config.sync, scene_, replica_,
                  sessions_),
+      chronicle_(std::make_unique<Chronicle>(room_, replica_, sessions_, broadcast_)),
       room_feed_(room_),
       clock_(config.sync.tick_hz) {
   replica_.OnCorrected([this](int body, const BodyState& by) { NoteCorrected(body, by); });
@@ -111,6 +113,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   const std::int64_t before = replica_.tick();
   for (int steps = 0; steps < kStepsMax && now_us >= next_tick_us(); ++steps) {
     stats_.NoteLate(now_us - next_tick_us());
+    chronicle_->NoteTick(now_us - next_tick_us());
     StepOnce(now_us);
   }
   WatchClock(now_us);
@@ -119,6 +122,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
                                      sessions_.WorstLossPpm()));
     sessions_.ReadAccounts(&stats_.connections);
   }
+  if (started() && chronicle_->SumIsDue(now_us)) chronicle_->Publish(now_us, Sum(now_us));
   if (replica_.tick() != before || !started()) {
     broadcast_.EndTick(now_us, replica_.tick() != before);
   }
@@ -135,10 +139,16 @@ std::int64_t Server::next_tick_us() const {
 void Server::WatchClock(std::int64_t now_us) {
   if (!clock_.Note(now_us, replica_.tick())) return;
   const std::string percent = std::to_string(clock_.speed_ppm() / 10000);
-  broadcast_.Say(
-      now_us, clock_.speed_ppm() == kFullSpeedPpm
-                  ? "the room runs at full speed again"
-                  : "the server cannot keep up: the room runs at " + percent + " % of its speed");
+  Event event = MakeEvent(EventKind::kSpeed, clock_.speed_ppm() == kFullSpeedPpm
+                                                 ? "the room runs at full speed again"
+                                                 : "the server cannot keep up: the room runs at " +
+                                                       percent + " % of its speed");
+  event.value_milli = clock_.speed_ppm() / 1000;
+  chronicle_->Say(now_us, event);
+}
+
+Summary Server::Sum(std::int64_t now_us, Ended ended) const {
+  return chronicle_->Sum(now_us, ended, ladder_, rules_.get());
 }
 
 void Server::TellRest(std::int64_t now_us) {
@@ -176,7 +186,10 @@ void Server::StartIfReady(std::int64_t now_us) {
   // Clients that are ready at the start have their mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);
   PublishShown(now_us);
-  broadcast_.Say(now_us, "the room starts with " + std::to_string(ready) + " players");
+  Event event =
+      MakeEvent(EventKind::kStarted, "the room starts with " + std::to_string(ready) + " players");
+  event.value_milli = 1000 * ready;
+  chronicle_->Say(now_us, event);
   Tell("the room starts");
 }
 
@@ -250,6 +263,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
     const Edit edit = replica_.next_queued();
     const bool hung = replica_.world().topology().hanging().has_value();
+    chronicle_->NoteEdit(now_us, edit);
     replica_.ApplyNextEdit();
     broadcast_.NoteAllUnsettled();
     bounds_.NoteApplied(edit);
@@ -286,6 +300,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   }
   broadcast_.Tell(grants);
   NoteAuthority(now_us);
+  chronicle_->CountHandOvers();
   UpdateInterest(now_us, !grants.empty());
   broadcast_.SendPendingGrants(now_us);
   EndLeases(now_us);
@@ -316,8 +331,11 @@ void Server::RunRules(std::int64_t now_us) {
   rule_source_->NoteTick(replica_.TakeTouches());
   rules_->AfterTick();
   if (rules_->WantTouches()) replica_.WatchTouches();
-  for (const std::string& text : commands_->TakeSaid()) broadcast_.Say(now_us, text);
-  for (const Meta& meta : rules_->TakeChanges(now_us)) broadcast_.ToAll(meta);
+  for (const Event& event : commands_->TakeSaid()) chronicle_->Say(now_us, event);
+  for (const Meta& meta : rules_->TakeChanges(now_us)) {
+    chronicle_->NoteValues(now_us, meta);
+    broadcast_.ToAll(meta);
+  }
 }
 
 void Server::RemoveOutside(std::int64_t now_us) {
@@ -327,7 +345,10 @@ void Server::RemoveOutside(std::int64_t now_us) {
   const PartId first = edits.front().As<RemoveEdit>()->part;
   std::string what = replica_.world().scene().parts[static_cast<std::size_t>(first)].name;
   if (edits.size() > 1) what += " and " + std::to_string(edits.size() - 1) + " more";
-  broadcast_.Say(now_us, "out of bounds: " + what);
+  Event event = MakeEvent(EventKind::kOutOfBounds, "out of bounds: " + what);
+  event.body = first;
+  event.value_milli = 1000 * static_cast<std::int64_t>(edits.size());
+  chronicle_->Say(now_us, event);
 }
 
 std::vector<std::string> Server::TakeWarnings() {
@@ -337,6 +358,8 @@ std::vector<std::string> Server::TakeWarnings() {
 bool Server::script_stopped() const { return rules_ != nullptr && rules_->stopped(); }
 
 void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
+  chronicle_->Say(now_us, MakeEvent(EventKind::kEnded, "the room ends: " + reason));
+  if (started()) chronicle_->Publish(now_us, Sum(now_us, Ended::kEnded));
   broadcast_.EndTick(now_us, false, true);
   sessions_.Close(now_us, reason, &stats_.counters);
 }

@@ -31,6 +31,7 @@
 namespace seam {
 
 class AuthoritySource;
+class Chronicle;
 class RoomState;
 class Rules;
 class SavedRoom;
@@ -79,6 +80,13 @@ class Server {
   /// the first one on, and no clients. Returns false if the rules come to other values than the
   /// log's, which then count.
   bool Replay(const TickMessages& log);
+  /// Publishes a tick of the log with the bytes of its own session, as it was; to be called after
+  /// its Replay.
+  void Republish(const TickMessages& log);
+  /// Goes on by itself after Replay, at `now_us`: has everything, and clients may join.
+  void GoOn(std::int64_t now_us);
+  /// Takes inputs as if from the player's client.
+  void TakeInputs(std::int64_t now_us, const Inputs& inputs);
   /// Returns the room's state as bytes; see RoomState::Save. Not in mode oracle, where no peer can
   /// join a room that runs.
   Bytes Save(std::int64_t now_us);
@@ -132,10 +140,17 @@ class Server {
   const TrafficCount& traffic() const { return sessions_.traffic(); }
   /// The server's lasting public key.
   const PublicKey& identity() const { return sessions_.identity(); }
+  /// The server's lasting keys, for another server that is to be this one.
+  std::shared_ptr<const KeyPair> keys() const { return sessions_.keys(); }
   /// The room's rules (health, scores, scripts); nullptr if the scene has none.
   const Rules* rules() const { return rules_.get(); }
   /// Trust in each player's client.
   const TrustLadder& ladder() const { return ladder_; }
+  /// The room's events, and the sum of its session.
+  const Chronicle& chronicle() const { return *chronicle_; }
+  Chronicle& chronicle() { return *chronicle_; }
+  /// Sums up the session so far.
+  Summary Sum(std::int64_t now_us, Ended ended = Ended::kNot) const;
 
   /// Time from the last player's readiness to tick 0, us: the start has to reach everyone in it.
   static constexpr std::int64_t kLeadInUs = 1000000;
@@ -149,6 +164,8 @@ class Server {
          Recorder& recorder, Entropy& entropy);
   // server_state.cpp
   RoomState State();
+  /// Takes everything back that clients had, or were to get.
+  void TakeAllBack(std::int64_t now_us);
 
   // server_replay.cpp
   /// `players`: those that were in the room.
@@ -278,6 +295,7 @@ class Server {
   };
   std::vector<WaitingBreak> waiting_breaks_;
   Broadcast broadcast_;
+  std::unique_ptr<Chronicle> chronicle_;
   RoomFeed room_feed_;
   std::unique_ptr<ServerCommands> commands_;
   std::unique_ptr<AuthoritySource> rule_source_;

@@ -33,10 +33,10 @@ void ServerCommands::Blast(const Vec2& centre, float radius, float speed, float 
 
 void ServerCommands::Insert(const std::string& text) { Ask(InsertEdit{text}); }
 
-void ServerCommands::Say(const std::string& text) { said_.push_back(text); }
+void ServerCommands::Say(const Event& event) { said_.push_back(event); }
 
 void ServerCommands::Warn(const std::string& text) {
-  said_.push_back(text);
+  said_.push_back(MakeEvent(EventKind::kWarning, text));
   warnings_.push_back(text);
 }
 

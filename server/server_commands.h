@@ -27,15 +27,15 @@ class ServerCommands : public RoomCommands {
   void LeaveSeat(int seat) override;
   void Blast(const Vec2& centre, float radius, float speed, float impulse) override;
   void Insert(const std::string& text) override;
-  void Say(const std::string& text) override;
+  void Say(const Event& event) override;
   void Warn(const std::string& text) override;
   bool Present(int player) const override;
   Input ReadInput(int player) const override;
 
   /// Makes these players present besides those with a session, until the next call.
   void AssumePresent(const std::vector<int>& players) { assumed_ = players; }
-  /// Returns the lines said since the last call, warnings included.
-  std::vector<std::string> TakeSaid() { return std::exchange(said_, {}); }
+  /// Returns the events said since the last call, warnings included.
+  std::vector<Event> TakeSaid() { return std::exchange(said_, {}); }
   std::vector<std::string> TakeWarnings() { return std::exchange(warnings_, {}); }
 
  private:
@@ -45,7 +45,8 @@ class ServerCommands : public RoomCommands {
   Replica& replica_;
   EditLog& edits_;
   const SessionTable& sessions_;
-  std::vector<std::string> said_, warnings_;
+  std::vector<Event> said_;
+  std::vector<std::string> warnings_;
   std::vector<int> assumed_;  // players
 };
 

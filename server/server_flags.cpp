@@ -85,7 +85,12 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
              "keep the rooms in this folder: the log of each, and a snapshot each 5 s");
   app.Option("--resume", f.resume,
              "go on with the rooms in such a folder, and keep them there; takes no scene");
-  app.Switch("--force", f.force, "replace the --record file, or the rooms of --state");
+  app.Option("--store", f.store,
+             "put sessions, players, scores and events into this SQLite database (seam-log top)");
+  app.Option("--summary", f.summary,
+             "write the sums of the sessions to this file at the end, as JSON");
+  app.Switch("--force", f.force,
+             "replace the files of --record and --summary, or the rooms of --state");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.Option("--trust", f.trust,
              "states that differ from the server's copies: off | watch (tell) | act (refuse)");

@@ -28,6 +28,8 @@ struct ServerFlags {
   bool force = false;
   std::string state;   // folder to keep the rooms in
   std::string resume;  // the same, of rooms to go on with
+  std::string store;   // database of past sessions
+  std::string summary;  // file for the sums of the sessions
   std::string lcm_url;
   std::string publish = "all";
   bool quiet = false;

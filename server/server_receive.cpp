@@ -10,6 +10,7 @@
 
 #include "common/sync/rollback/replay.h"
 #include "server/authority_source.h"
+#include "server/chronicle.h"
 #include "server/server.h"
 
 namespace seam {
@@ -115,9 +116,13 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   // Not again too soon: the messages of the last repair must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;
   session.repaired_us = now_us;
-  broadcast_.Say(now_us, session.name + " (peer " + std::to_string(session.peer) +
-                             ") has another composition after " + std::to_string(ping.revision) +
-                             " edits: repaired");
+  Event event = MakeEvent(EventKind::kRepaired,
+                          session.name + " (peer " + std::to_string(session.peer) +
+                              ") has another composition after " + std::to_string(ping.revision) +
+                              " edits: repaired",
+                          session.player);
+  event.client = session.peer;
+  chronicle_->Say(now_us, event);
   ++stats_.connections.compositions;
   session.link.SendReliable(Encode(edits_->BeginAnew(now_us)));
   SendWorld(now_us, session);

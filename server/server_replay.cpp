@@ -1,11 +1,13 @@
 /// Server: does the end of a room's log again, for a room that is resumed.
 
 #include <algorithm>
+#include <type_traits>
 #include <variant>
 
 #include "common/codec/codec.h"
 #include "common/record/tick_splitter.h"
 #include "server/authority_source.h"
+#include "server/chronicle.h"
 #include "server/rules/rules.h"
 #include "server/saved/log_tail.h"
 #include "server/server.h"
@@ -122,6 +124,49 @@ bool Server::Replay(const TickMessages& log) {
   replica_.TakeStates();
   replica_.rest().Take();
   return rules_ == nullptr || RunRulesAgain(values);
+}
+
+void Server::Republish(const TickMessages& log) {
+  std::int64_t now_us = 0;
+  const auto publish = [&](const AnyMessage& any) {
+    std::visit(
+        [&](const auto& message) {
+          using Message = std::decay_t<decltype(message)>;
+          if constexpr (!std::is_same_v<Message, std::monostate>) {
+            constexpr bool seals =
+                std::is_same_v<Message, LogSeal> || std::is_same_v<Message, TickChain>;
+            constexpr bool scene =
+                std::is_same_v<Message, Room> || std::is_same_v<Message, ScenePart>;
+            if constexpr (MessageTraits<Message>::kTravels != Travels::kEdge && !seals && !scene) {
+              now_us = std::max(now_us, message.utime);
+              broadcast_.Publish(message);
+            } else if constexpr (std::is_same_v<Message, Room>) {
+              room_feed_.Publish(message.utime, broadcast_);
+            }
+          }
+        },
+        any);
+  };
+  broadcast_.Mute(false);
+  for (const AnyMessage& message : log.before) publish(message);
+  broadcast_.NoteStep();
+  for (const AnyMessage& message : log.after) publish(message);
+  broadcast_.NoteTick();
+  broadcast_.EndTick(now_us, true);
+  broadcast_.Mute(true);
+}
+
+void Server::GoOn(std::int64_t now_us) {
+  broadcast_.Mute(false);
+  clock_.GoOn(now_us, replica_.tick());
+  TakeAllBack(now_us);
+  chronicle_->Say(now_us, MakeEvent(EventKind::kResumed, "the room goes on after tick " +
+                                                             std::to_string(replica_.tick())));
+}
+
+void Server::TakeInputs(std::int64_t now_us, const Inputs& inputs) {
+  const Inputs fresh = TakeFresh(now_us, inputs);
+  if (!fresh.drive.empty()) broadcast_.Publish(fresh);
 }
 
 /// Returns false if the values are not those of the log.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/scene/forces.h"
+#include "server/chronicle.h"
 #include "server/rules/rules.h"
 #include "server/rules/seats.h"
 #include "server/server.h"
@@ -70,7 +71,9 @@ void Server::RefuseSeat(std::int64_t now_us, int player, int pressed, const std:
   std::int64_t& told_us = seat_told_us_[player];
   if (told_us != 0 && now_us - told_us < kRefuseAgainUs) return;
   told_us = now_us;
-  const Event event = broadcast_.Say(now_us, Describe(scene, player, refused));
+  Event told = MakeEvent(EventKind::kSeatRefused, Describe(scene, player, refused), player);
+  told.index = refused.seat;
+  const Event event = chronicle_->Say(now_us, told);
   if (rules_ != nullptr) {
     rules_->OnSeat(player, refused.seat,
                    refused.taken_by >= 0 ? SeatNews::kTaken : SeatNews::kTooFar);
@@ -89,8 +92,6 @@ void Server::FreeSeats(std::int64_t now_us) {
       seats_freed_.erase(index);
     } else if (seats_freed_.insert(index).second) {
       for (const Edit& edit : LeaveSeat(replica_.world(), index)) edits_->Add(edit);
-      broadcast_.Say(now_us, scene_.players[static_cast<std::size_t>(player)].name +
-                                 " is gone: the seat " + seats[s].name + " is free");
     }
   }
 }

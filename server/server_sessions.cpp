@@ -5,6 +5,7 @@
 
 #include "common/scene/forces.h"
 #include "common/sync/lease.h"
+#include "server/chronicle.h"
 #include "server/console.h"
 #include "server/rules/rules.h"
 #include "server/server.h"
@@ -33,11 +34,16 @@ int PushingButtons(const Scene& scene, int player) {
 void Server::FollowSessions(std::int64_t now_us) {
   for (const SessionEvent& event : sessions_.TakeEvents()) {
     const std::string peer = "peer " + std::to_string(event.peer);
+    const auto say = [&](EventKind kind, const std::string& text) {
+      Event said = MakeEvent(kind, text, event.player);
+      said.client = event.peer;
+      chronicle_->Say(now_us, said);
+    };
     switch (event.kind) {
       case SessionEvent::Kind::kJoined:
         sessions_.Find(event.peer)->kinds = KindBudget(config_.sync.send_hz, scene_.parts.size());
-        broadcast_.Say(now_us,
-                       event.name + " joins from " + ToString(event.address) + " as " + peer);
+        say(EventKind::kConnected,
+            event.name + " joins from " + ToString(event.address) + " as " + peer);
         break;
       case SessionEvent::Kind::kLoading: {
         Session& session = *sessions_.Find(event.peer);
@@ -51,11 +57,13 @@ void Server::FollowSessions(std::int64_t now_us) {
         authority_.PlanSoon();
         look_soon_ = true;
         broadcast_.NotePeerReady();
-        broadcast_.Say(now_us, event.name + " is ready as " + peer);
+        say(chronicle_->NoteReady(event.name) ? EventKind::kRejoined : EventKind::kJoined,
+            event.name + " is ready as " + peer);
         Tell(event.name + " is here as " + peer + ", " + ToString(event.address));
         break;
       case SessionEvent::Kind::kLeft:
-        broadcast_.Say(now_us, event.name + " (" + peer + ") is gone: " + event.why);
+        if (event.was_ready) chronicle_->NoteLeft(event.name);
+        say(EventKind::kLeft, event.name + " (" + peer + ") is gone: " + event.why);
         if (event.was_ready) Tell(event.name + " is gone: " + event.why);
         if (rules_ != nullptr && event.player >= 0 && event.was_ready) {
           rules_->OnLeave(event.player);

@@ -1,8 +1,10 @@
 /// Server: its room's state, for clients that join and for a server that continues the room.
 
 #include "server/authority_source.h"
+#include "server/chronicle.h"
 #include "server/room_state.h"
 #include "server/rules/rules.h"
+#include "server/saved/log_tail.h"
 #include "server/server.h"
 #include "server/server_commands.h"
 
@@ -16,6 +18,7 @@ RoomState Server::State() {
 Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }
 
 Bytes Server::CopyState(std::int64_t now_us, std::size_t expected_bytes) {
+  chronicle_->SumSoon();  // the log behind the snapshot has it, for a server that goes on
   return State().Copy(now_us, expected_bytes);
 }
 
@@ -28,6 +31,21 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
     clock_.GoOn(now_us, replica_.tick());
   }
   if (commands_ != nullptr) commands_->TakeSaid();  // scripts have run their code once more
+  if (tail != nullptr && tail->summary) {
+    chronicle_->SumKilled(now_us, *tail->summary, gone, rules_.get());
+  }
+  Event event = MakeEvent(EventKind::kResumed,
+                          "the room goes on after tick " + std::to_string(replica_.tick()));
+  chronicle_->Say(now_us, event);
+  TakeAllBack(now_us);
+  for (const int player : gone) {
+    if (rules_ != nullptr) rules_->OnLeave(player);
+    LetGo(now_us, player, 0);
+  }
+  return status;
+}
+
+void Server::TakeAllBack(std::int64_t now_us) {
   bool held = false, wanted = false;
   for (int m = 0; m < replica_.authority().count(); ++m) {
     held = held || replica_.authority().at(m).authority != 0;
@@ -35,11 +53,6 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
   }
   for (int peer = 1; held && peer < kPeersMax; ++peer) authority_.TakeBack(now_us, peer);
   if (held || wanted) authority_.PlanSoon();  // before anything is given to a peer that has gone
-  for (const int player : gone) {
-    if (rules_ != nullptr) rules_->OnLeave(player);
-    LetGo(now_us, player, 0);
-  }
-  return status;
 }
 
 void Server::SendWorld(std::int64_t now_us, Session& session) {

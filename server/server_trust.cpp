@@ -6,6 +6,7 @@
 #include "common/stages/make_stages.h"
 #include "common/sync/edits/edit_order.h"
 #include "common/topology/grip.h"
+#include "server/chronicle.h"
 #include "server/server.h"
 
 namespace seam {
@@ -127,8 +128,11 @@ void Server::FollowLadder(std::int64_t now_us) {
     const std::string& name = scene_.players[static_cast<std::size_t>(change.player)].name;
     std::string line = "trust: " + name + " is " + ToString(change.to);
     if (config_.trust == TrustMode::kWatch) line += " (only watched)";
-    broadcast_.Say(now_us, line);
     const int peer = sessions_.PeerOfPlayer()[static_cast<std::size_t>(change.player)];
+    Event event = MakeEvent(EventKind::kTrust, line, change.player);
+    event.client = peer;
+    event.value_milli = 1000 * static_cast<int>(change.to);
+    chronicle_->Say(now_us, event);
     Audit audit;
     audit.utime = now_us;
     audit.session = room_.session;

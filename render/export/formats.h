@@ -16,5 +16,8 @@ void WriteJsonExport(const ExportSession& session, OutputFile* out);
 void WriteMcapExport(const ExportSession& session, OutputFile* out);
 /// trace.cpp: the Trace Event Format of Chrome as JSON.
 void WriteTraceExport(const ExportSession& session, OutputFile* out);
+/// tables.cpp: a row for each event; a row for each peer and second of its counters.
+void WriteEventsTable(const ExportSession& session, OutputFile* out);
+void WriteMetricsTable(const ExportSession& session, OutputFile* out);
 
 }  // namespace seam

@@ -19,6 +19,9 @@ void DefineExportOptions(Command* app, ExportOptions* options) {
   app->Switch("--mcap", o.mcap, "for Foxglove and Rerun");
   app->Switch("--trace", o.trace, "for ui.perfetto.dev: peers, authority, messages, errors");
   app->Option("-o,--out", o.out, "the file to write (stdout)");
+  app->Option("--events", o.events, "write the events to this CSV file, a row each");
+  app->Option("--metrics", o.metrics,
+              "write the peers' counters to this CSV file, a row for each second");
   app->Switch("--force", o.force, "replace the file if it is there");
   app->Option("--from", o.range.from_s, "first moment of the session, s");
   app->Option("--to", o.range.to_s, "last moment of the session, s");
@@ -37,7 +40,11 @@ void DefineExportOptions(Command* app, ExportOptions* options) {
 void CheckExportOptions(const ExportOptions& o) {
   if (o.log.empty()) throw OperatorError("which log? for example: seam-export session.lcm --csv");
   const int formats = int{o.csv} + int{o.json} + int{o.mcap} + int{o.trace};
-  if (formats != 1) throw OperatorError("say one of --csv, --json, --mcap and --trace");
+  const bool tables = !o.events.empty() || !o.metrics.empty();
+  if (formats > 1 || (formats == 0 && !tables)) {
+    throw OperatorError(
+        "say one of --csv, --json, --mcap and --trace, or --events FILE or --metrics FILE");
+  }
 }
 
 }  // namespace seam

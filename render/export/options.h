@@ -14,8 +14,9 @@ enum class ExportFormat { kCsv, kJson, kMcap, kTrace };
 
 struct ExportOptions {
   std::string log;
-  bool csv = false, json = false, mcap = false, trace = false;  ///< exactly one
+  bool csv = false, json = false, mcap = false, trace = false;  ///< at most one
   std::string out;                                              ///< "" or "-": stdout
+  std::string events, metrics;  ///< files for these tables; "": none
   bool force = false;                                           ///< replace a file at `out`
   std::string oracle;               ///< a log made in mode oracle; "": computed
   std::string room;                 ///< "": the first of the log
@@ -26,6 +27,8 @@ struct ExportOptions {
 
   /// Requires CheckExportOptions.
   ExportFormat format() const;
+  /// True if there is a format besides the tables.
+  bool HasFormat() const { return csv || json || mcap || trace; }
 };
 
 void DefineExportOptions(Command* app, ExportOptions* options);

@@ -35,6 +35,7 @@ LogCheck CheckLog(const std::string& path, const Secret* key) {
     span.bytes += bytes;
     span.first_us = std::min(span.first_us, event.timestamp_us);
     span.last_us = std::max(span.last_us, event.timestamp_us);
+    span.happened += std::holds_alternative<Event>(message) ? 1 : 0;
     if (const auto* view = std::get_if<View>(&message)) {
       span.first_tick = span.last_tick < 0 ? view->tick : std::min(span.first_tick, view->tick);
       span.last_tick = std::max(span.last_tick, view->tick);

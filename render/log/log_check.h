@@ -14,6 +14,7 @@ namespace seam {
 /// A session as far as a log has it.
 struct SessionSpan {
   std::int64_t events = 0, bytes = 0;
+  std::int64_t happened = 0;                    ///< Event messages
   std::int64_t first_us = 0, last_us = 0;       ///< timestamps
   std::int64_t first_tick = 0, last_tick = -1;  ///< of the views
 };

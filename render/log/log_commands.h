@@ -35,6 +35,23 @@ struct LogStatsCommand {
 /// then what is missing over time (FindLosses).
 int RunLogStats(const LogStatsCommand& command);
 
+struct LogEventsCommand {
+  std::string log, room, session;
+  bool json = false;
+};
+
+/// Prints the events of a session, a line each, and its newest sum; or, as JSON, an object on each
+/// line.
+int RunLogEvents(const LogEventsCommand& command);
+
+struct LogTopCommand {
+  std::string store, scene, by = "score";
+  int limit = 10;
+};
+
+/// Prints the leaderboard of a database of seam-server --store, and the newest past sessions.
+int RunLogTop(const LogTopCommand& command);
+
 struct LogCutCommand {
   std::string log, out, room, session;
   TimeRange range;

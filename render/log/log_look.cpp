@@ -31,12 +31,13 @@ void PrintSessions(const std::string& path, const std::string& room,
     const SessionSpan span = found == spans.end() ? SessionSpan() : found->second;
     const Room& is = session.room;
     const std::string method = is.mode + (is.reconcile.empty() ? "" : "/" + is.reconcile);
-    std::printf("%-12s %3d  %016llx  %-16s %-20s %7.1f s  ticks %lld..%lld  %8lld  %9.1f kB\n",
-                room.c_str(), ++number, static_cast<unsigned long long>(session.id),
-                is.scene_name.c_str(), method.c_str(),
-                static_cast<double>(span.last_us - span.first_us) * 1e-6,
-                static_cast<long long>(span.first_tick), static_cast<long long>(span.last_tick),
-                static_cast<long long>(span.events), static_cast<double>(span.bytes) * 1e-3);
+    std::printf(
+        "%-12s %3d  %016llx  %-16s %-20s %7.1f s  ticks %lld..%lld  %8lld  %9.1f kB  %8lld\n",
+        room.c_str(), ++number, static_cast<unsigned long long>(session.id), is.scene_name.c_str(),
+        method.c_str(), static_cast<double>(span.last_us - span.first_us) * 1e-6,
+        static_cast<long long>(span.first_tick), static_cast<long long>(span.last_tick),
+        static_cast<long long>(span.events), static_cast<double>(span.bytes) * 1e-3,
+        static_cast<long long>(span.happened));
   }
 }
 
@@ -49,8 +50,8 @@ int RunLogList(const LogsCommand& command) {
     std::printf("%s: %lld events, %.1f kB%s\n", path.c_str(), static_cast<long long>(check.events),
                 static_cast<double>(check.bytes) * 1e-3, check.damaged() ? ", damaged" : "");
     if (check.rooms.empty()) throw OperatorError(path + ": no Seam2D room in this log");
-    std::printf("%-12s %3s  %-16s  %-16s %-20s %9s  %-12s  %8s  %12s\n", "room", "#", "session",
-                "scene", "method", "duration", "", "events", "bytes");
+    std::printf("%-12s %3s  %-16s  %-16s %-20s %9s  %-12s  %8s  %12s  %8s\n", "room", "#",
+                "session", "scene", "method", "duration", "", "messages", "bytes", "events");
     for (const auto& [room, spans] : check.rooms) PrintSessions(path, room, spans);
     status = check.damaged() ? 1 : status;
   }

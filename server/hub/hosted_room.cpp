@@ -7,6 +7,8 @@
 
 #include "common/base/check.h"
 #include "common/base/process.h"
+#include "common/sync/method.h"
+#include "server/chronicle.h"
 
 namespace seam {
 namespace {
@@ -43,14 +45,16 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
     server_ = std::make_unique<Server>(plan_.scene, plan_.config, net, sink_, entropy_);
   } else {
     server_ = std::make_unique<Server>(*plan.resumed->saved, plan_.config, net, sink_, entropy_);
-    GoOn(*plan.resumed);
   }
+  if (plan.store != nullptr) server_->chronicle().Keep();
+  if (plan.resumed != nullptr) GoOn(*plan.resumed);
 }
 
 void HostedRoom::GoOn(const ResumedRoom& resumed) {
   const std::int64_t begin_us = SteadyClockUs();
   const Status status = server_->Resume(*resumed.saved, begin_us, &resumed.tail);
   if (!status.ok()) throw OperatorError(plan_.state + ": " + status.why());
+  TakeSummaries();
   news_ = resumed.notes;
   char line[200];
   std::snprintf(line, sizeof line,
@@ -62,8 +66,9 @@ void HostedRoom::GoOn(const ResumedRoom& resumed) {
 }
 
 Status HostedRoom::trouble() const {
-  if (!sink_.trouble().ok() || keeper_ == nullptr) return sink_.trouble();
-  return keeper_->trouble();
+  if (!sink_.trouble().ok()) return sink_.trouble();
+  if (keeper_ != nullptr && !keeper_->trouble().ok()) return keeper_->trouble();
+  return plan_.store != nullptr ? plan_.store->trouble() : Status::Ok();
 }
 
 void HostedRoom::Run(std::int64_t now_us) {
@@ -116,6 +121,9 @@ void HostedRoom::Tell(std::int64_t now_us) {
   if (plan_.alone) watch_.NoteCpu(CpuUs() - watch_.cpu_us());
   const Load load = watch_.Tell(now_us, *server_);
   server_->PublishLoad(load);
+  if (plan_.store != nullptr) {
+    PutIntoStore(server_->Sum(now_us), server_->chronicle().TakeEvents());
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_.load = load;
   newest_.connections = server_->connections();
@@ -164,8 +172,32 @@ void HostedRoom::Close(std::int64_t now_us) {
   if (!done()) {
     if (keeper_ != nullptr) keeper_->Finish(*server_, now_us);
     server_->Shutdown(now_us, "the server stops");
+    TakeSummaries();
   }
   sink_.Flush();
+}
+
+void HostedRoom::TakeSummaries() {
+  for (Summary& summary : server_->chronicle().TakeEnded()) {
+    const bool ours = summary.of == server_->room().session;
+    if (plan_.store != nullptr) {
+      PutIntoStore(summary, ours ? server_->chronicle().TakeEvents() : std::vector<Event>());
+    }
+    summaries_.push_back(std::move(summary));
+  }
+}
+
+void HostedRoom::PutIntoStore(const Summary& summary, std::vector<Event> events) {
+  StoredSession part;
+  part.room = plan_.config.room;
+  part.scene = plan_.scene.name;
+  const MethodNames method = NamesOf(plan_.config.sync);
+  part.method = method.mode + (method.reconcile.empty() ? "" : "/" + method.reconcile);
+  part.tick_hz = plan_.config.sync.tick_hz;
+  part.now_us = WallClockUs();
+  part.summary = summary;
+  part.events = std::move(events);
+  plan_.store->Put(std::move(part));
 }
 
 bool HostedRoom::DrainNetwork(std::int64_t now_us) {

@@ -11,6 +11,7 @@
 #include "common/net/impair.h"
 #include "common/record/load_page.h"
 #include "common/record/sink.h"
+#include "common/record/store/store.h"
 #include "server/hub/lanes.h"
 #include "server/hub/room_net.h"
 #include "server/load/load_watch.h"
@@ -31,6 +32,7 @@ struct RoomPlan {
   bool force = false;
   std::string state;  ///< folder in which the room is kept, with its log; "": none
   std::shared_ptr<const ResumedRoom> resumed;  ///< the room to go on with; null: it begins
+  std::shared_ptr<StoreWriter> store;          ///< that the sessions are put into; null: none
   bool alone = true;  ///< only room of the program: reports the program's CPU time
   bool news = true;   ///< reports players that come and go
 };
@@ -67,11 +69,14 @@ class HostedRoom : public Runnable {
   const Scene& scene() const { return plan_.scene; }
   const ServerConfig& config() const { return plan_.config; }
   const Sink& sink() const { return sink_; }
-  /// Returns the first failure to write the log or a snapshot.
+  /// Returns the first failure to write the log, a snapshot or the store.
   Status trouble() const;
   /// The room's snapshots; nullptr if it is not kept.
   const RoomKeeper* keeper() const { return keeper_.get(); }
   std::int64_t last_tick() const { return plan_.last_tick; }
+  /// Returns the sums of the sessions that have ended here: of one that was killed before, then
+  /// this.
+  const std::vector<Summary>& summaries() const { return summaries_; }
   /// Returns the wall time of all ticks so far.
   const DurationHistogram& tick_times() const { return watch_.session(); }
 
@@ -82,6 +87,8 @@ class HostedRoom : public Runnable {
   void CollectReports();
   void EndIfDone(std::int64_t now_us);
   void GoOn(const ResumedRoom& resumed);
+  void TakeSummaries();
+  void PutIntoStore(const Summary& summary, std::vector<Event> events);
 
   const RoomPlan plan_;
   RoomNet net_;
@@ -93,6 +100,7 @@ class HostedRoom : public Runnable {
   LoadWatch watch_;
   std::int64_t ran_us_ = 0;
   bool trouble_reported_ = false;
+  std::vector<Summary> summaries_;
   mutable std::mutex mutex_;  // guards all below
   RoomLoad newest_;
   bool done_ = false;

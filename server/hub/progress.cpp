@@ -1,9 +1,15 @@
 #include "server/hub/progress.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
+#include "common/base/command_line.h"
+#include "common/base/json_text.h"
+#include "common/base/plain_file.h"
 #include "common/base/process.h"
+#include "common/record/events/summary_text.h"
 #include "common/record/trouble_report.h"
 #include "server/console.h"
 
@@ -20,6 +26,23 @@ std::string Slowed(std::int32_t speed_ppm) {
 std::string OneRoom(const HostedRoom& room) {
   const Server& server = room.server();
   return ServerProgress(server, room.last_tick(), room.tick_times()) + Slowed(server.speed_ppm());
+}
+
+/// Returns false after a line for the operator if the file cannot be written.
+bool WriteSummaries(const Hub& hub, const std::string& path) {
+  std::vector<std::string> sums;
+  for (const auto& room : hub.rooms()) {
+    for (const Summary& sum : room->summaries()) {
+      sums.push_back("\n" + SummaryJson(sum, room->config().room, room->scene().name,
+                                        room->config().sync.tick_hz));
+    }
+  }
+  const std::string text = JsonList(sums) + "\n";
+  std::FILE* const file = OpenPlainFile(path, FileUse::kReplace);
+  bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (file != nullptr) good = std::fclose(file) == 0 && good;
+  if (!good) PrintError("seam-server", path + ": cannot be written: " + std::strerror(errno));
+  return good;
 }
 
 }  // namespace
@@ -49,7 +72,7 @@ std::string HubProgress(const Hub& hub) {
   return line + Slowed(speed_ppm);
 }
 
-int ReportEnd(const Hub& hub) {
+int ReportEnd(const Hub& hub, const std::string& summary) {
   Stats sum;
   long long ticks = 0, left_bounds = 0, again = 0, deferred = 0, failures = 0;
   int status = 0;
@@ -78,11 +101,10 @@ int ReportEnd(const Hub& hub) {
                static_cast<long long>(sum.dropped_implausible),
                static_cast<long long>(sum.dropped_budget), left_bounds, again, deferred, failures);
   for (const auto& room : hub.rooms()) {
-    const std::string table = SessionSummary(room->server().accounts());
-    if (hub.rooms().size() > 1 && !table.empty()) {
-      std::fprintf(stderr, "room %s:\n", room->newest().room.c_str());
+    if (hub.rooms().size() > 1) std::fprintf(stderr, "room %s:\n", room->newest().room.c_str());
+    for (const Summary& session : room->summaries()) {
+      std::fputs(SummaryTable(session, room->config().sync.tick_hz).c_str(), stderr);
     }
-    std::fputs(table.c_str(), stderr);
     if (const RoomKeeper* keeper = room->keeper()) {
       std::fprintf(stderr, "seam-server: the last snapshot has %.1f kB; one took at most %.2f ms\n",
                    static_cast<double>(keeper->bytes()) * 1e-3,
@@ -91,6 +113,7 @@ int ReportEnd(const Hub& hub) {
     status = std::max(status, recording.End(room->trouble()));
     if (room->server().script_stopped()) status = std::max(status, 1);
   }
+  if (!summary.empty() && !WriteSummaries(hub, summary)) status = std::max(status, 1);
   return status;
 }
 

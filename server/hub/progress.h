@@ -15,8 +15,9 @@ bool HasReport(const Hub& hub);
 /// server is overloaded.
 std::string HubProgress(const Hub& hub);
 
-/// Prints the totals of all rooms to stderr. Returns the program's exit status: 1 if a recording
-/// failed or a script was stopped. To be called after Hub::Close.
-int ReportEnd(const Hub& hub);
+/// Prints the totals of all rooms to stderr, and writes the sums of their sessions to the file
+/// `summary` as a JSON array ("": none). Returns the program's exit status: 1 if a recording or
+/// that file failed, or a script was stopped. To be called after Hub::Close.
+int ReportEnd(const Hub& hub, const std::string& summary);
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/sync/moving.h"
+#include "server/chronicle.h"
 #include "server/load/islands.h"
 
 namespace seam {
@@ -39,22 +40,6 @@ void LoadWatch::NoteCall(const Server& server, std::int64_t begin_us, std::int64
     wall_total_.Add(each_us);
     late_total_.Add(late_us);
   }
-  CountHandOvers(server);
-}
-
-void LoadWatch::CountHandOvers(const Server& server) {
-  const AuthorityTable& table = server.replica().authority();
-  // An edit replaces mechanisms: their authorities are not counted as hand-overs.
-  const bool same = revision_ == server.replica().revision() &&
-                    holders_.size() == static_cast<std::size_t>(table.count());
-  revision_ = server.replica().revision();
-  holders_.resize(static_cast<std::size_t>(table.count()), 0);
-  for (int m = 0; m < table.count(); ++m) {
-    int& before = holders_[static_cast<std::size_t>(m)];
-    const int now = table.at(m).authority;
-    if (same && now != before) ++hand_overs_;
-    before = now;
-  }
 }
 
 Load LoadWatch::Tell(std::int64_t now_us, const Server& server) {
@@ -74,7 +59,7 @@ Load LoadWatch::Tell(std::int64_t now_us, const Server& server) {
   load.players = server.player_count();
   CountMoving(server.replica(), &load);
   load.islands = server.started() ? CountIslands(server.replica().world()) : 0;
-  load.hand_overs = hand_overs_;
+  load.hand_overs = server.chronicle().hand_overs();
   load.jumps = server.jumps();
   const Stats& stats = server.stats();
   load.dropped_malformed = stats.dropped_malformed;

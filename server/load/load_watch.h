@@ -33,16 +33,11 @@ class LoadWatch {
   static constexpr std::int64_t kEveryUs = 1000000;
 
  private:
-  void CountHandOvers(const Server& server);
-
   DurationHistogram wall_, late_;  // ticks since the last Load
   DurationHistogram session_;      // wall time of all ticks
   BucketHistogram wall_total_, late_total_;
   std::int64_t cpu_us_ = 0;
   std::int64_t told_us_ = 0;
-  std::int64_t hand_overs_ = 0;
-  int revision_ = -1;         // edits applied when holders_ was read
-  std::vector<int> holders_;  // rebuilt for each revision, by mechanism: at the last call
 };
 
 }  // namespace seam

@@ -145,11 +145,18 @@ void Rules::OnCheckpoint(const TriggerEvent& event) {
   if (trigger.order != next) return;
   table_.Set(reached, static_cast<float>(trigger.order));
   if (trigger.score != 0) table_.Add({kMetaPlayer, player, kMetaScore}, trigger.score);
-  Say(PlayerName(player) + " passes " + trigger.name);
+  SayTrigger(event.trigger, player, PlayerName(player) + " passes " + trigger.name);
   if (trigger.order != last_checkpoint_) return;
   table_.Set(reached, 0);
   table_.Add({kMetaPlayer, player, kMetaLaps}, 1);
-  Say(PlayerName(player) + " has done a lap");
+  SayTrigger(event.trigger, player, PlayerName(player) + " has done a lap");
+}
+
+void Rules::SayTrigger(int trigger, int player, const std::string& text) {
+  Event event = MakeEvent(EventKind::kTrigger, text, player);
+  event.body = scene().triggers[static_cast<std::size_t>(trigger)].part;
+  event.index = trigger;
+  commands_.Say(event);
 }
 
 void Rules::OnPickup(const TriggerEvent& event) {
@@ -168,7 +175,7 @@ void Rules::OnPickup(const TriggerEvent& event) {
     const float health = std::min(Health(event.part) + trigger.health, taker.rules->health);
     table_.Set({kMetaPart, event.part, kMetaHealth}, health);
   }
-  Say(PlayerName(event.player) + " takes " + trigger.name);
+  SayTrigger(event.trigger, event.player, PlayerName(event.player) + " takes " + trigger.name);
 }
 
 void Rules::NoteHazards(std::int64_t tick) {

@@ -39,8 +39,8 @@ class RoomCommands {
   virtual void Blast(const Vec2& centre, float radius, float speed, float impulse) = 0;
   /// `text`: [[part]] and [[joint]] as in a scene file.
   virtual void Insert(const std::string& text) = 0;
-  virtual void Say(const std::string& text) = 0;
-  /// Like Say, and also prints the text on the operator's terminal.
+  virtual void Say(const Event& event) = 0;
+  /// Says a warning, and also prints the text on the operator's terminal.
   virtual void Warn(const std::string& text) = 0;
   virtual bool Present(int player) const = 0;
   virtual Input ReadInput(int player) const = 0;
@@ -129,7 +129,8 @@ class Rules {
   bool Exists(PartId part) const;
   float Health(PartId part) const;
   std::string PlayerName(int player) const;
-  void Say(const std::string& text) { commands_.Say(text); }
+  /// Says what a trigger did for a player.
+  void SayTrigger(int trigger, int player, const std::string& text);
 
   const World& world_;
   const std::int64_t seed_;

@@ -47,7 +47,9 @@ void Rules::SetOff(const Charge& charge) {
   }
   try {
     Blast({centre, charge.radius, charge.speed, charge.impulse});
-    Say(charge.name + " goes off");
+    Event event = MakeEvent(EventKind::kTrigger, charge.name + " goes off");
+    event.body = charge.part;
+    commands_.Say(event);
   } catch (const ScriptRefusal& refusal) {
     commands_.Warn("charge " + charge.name + " does not go off: " + refusal.what());
   }

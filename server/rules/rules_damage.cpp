@@ -84,7 +84,10 @@ void Rules::Die(PartId id) {
   const Part& part = scene().parts[static_cast<std::size_t>(id)];
   const auto by = struck_by_.find(id);
   const std::string by_whom = by != struck_by_.end() ? " by " + PlayerName(by->second) : "";
-  Say(part.name + " is destroyed" + by_whom);
+  Event event = MakeEvent(EventKind::kDestroyed, part.name + " is destroyed" + by_whom,
+                          by != struck_by_.end() ? by->second : -1);
+  event.body = id;
+  commands_.Say(event);
   if (by != struck_by_.end() && part.rules->score != 0) {
     table_.Add({kMetaPlayer, by->second, kMetaScore}, part.rules->score);
   }

@@ -194,7 +194,7 @@ void ScriptRoom::Set(const std::string& subject, const std::string& key, float v
 void ScriptRoom::Say(const std::string& text) {
   if (text.size() > kSayMax) throw ScriptRefusal("more than 200 bytes of text");
   if (!IsCleanText(text, "")) throw ScriptRefusal("text with a control character");
-  rules_.Say(text);
+  rules_.commands_.Say(MakeEvent(EventKind::kScript, text));
 }
 
 }  // namespace seam

@@ -30,6 +30,11 @@ void AddTick(TickMessages* of, LogTail* tail) {
         tail->ticks[tick].edits.push_back(std::move(*edit));
       } else if (auto* meta = std::get_if<Meta>(&any)) {
         tail->ticks[tick].values.push_back(std::move(*meta));
+      } else if (auto* room = std::get_if<Room>(&any)) {
+        const bool another = tail->summary && tail->summary->session != room->session;
+        if (another) tail->summary.reset();
+      } else if (auto* summary = std::get_if<Summary>(&any)) {
+        if (summary->of == summary->session) tail->summary = std::move(*summary);
       }
     }
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct LogTail {
   std::map<std::int64_t, LogTick> ticks;
   std::int64_t last_tick = -1;  ///< last one whose end is in the log; -1: none
   LogPlace end;                 ///< where the log is to go on
+  std::optional<Summary> summary;  ///< the newest one of the session that wrote the log
   std::string damage;           ///< one line if more follows `end` than a tick that was cut off
 };
 

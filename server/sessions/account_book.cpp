@@ -12,6 +12,16 @@ void ClientAccount::Read(std::int64_t read_rtt_us, std::int64_t read_loss_ppm) {
   loss_ppm_sum += read_loss_ppm;
 }
 
+void ClientAccount::NotePresent(std::int64_t tick, int change) {
+  present_ticks_ = PresentTicks(tick);
+  present_since_ = std::max<std::int64_t>(0, tick);
+  present_ = std::max(0, present_ + change);
+}
+
+std::int64_t ClientAccount::PresentTicks(std::int64_t tick) const {
+  return present_ticks_ + present_ * std::max<std::int64_t>(0, tick - present_since_);
+}
+
 ClientAccount& AccountBook::Of(const std::string& name) {
   const bool known = accounts_.count(name) != 0;
   const std::string kept = known || accounts_.size() + 1 < kAccountsMax ? name : "others";

@@ -122,7 +122,7 @@ Session* SessionTable::Admit(std::int64_t now_us, const SessionId& id, const Sea
   session->created_us = now_us;
   ClientAccount& account = accounts_.Of(place.name);
   account.peer = peer;
-  account.player = place.player >= 0;
+  account.player = place.player;
   session->account = &account;
   places_.Enter(peer, now_us);
   Welcome welcome;

@@ -86,11 +86,13 @@ class SessionTable {
   /// a second.
   void ReadAccounts(Connections* connections);
   /// Accounts of all clients that were in the room, present or gone.
+  AccountBook& accounts() { return accounts_; }
   const AccountBook& accounts() const { return accounts_; }
   /// All bytes of sessions and strangers, by kind.
   const TrafficCount& traffic() const { return traffic_; }
   /// The server's lasting public key.
   const PublicKey& identity() const { return identity_->open; }
+  std::shared_ptr<const KeyPair> keys() const { return identity_; }
 
   /// Sends reliably to every session that was sent the room, except peer `but_peer`. A session that
   /// never acknowledges has to leave.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "common/base/plain_file.h"
 #include "common/base/process.h"
 #include "common/record/damage.h"
 #include "common/record/log_file.h"
@@ -144,7 +145,8 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
   SEAM_INSIDE_ONLY();
   folder_.Write("yard.toml", kYard);
   std::vector<std::unique_ptr<Program>> clients;
-  auto server = std::make_unique<Program>(Server({folder_ / "yard.toml", "--state", State()}));
+  auto server = std::make_unique<Program>(
+      Server({folder_ / "yard.toml", "--state", State(), "--store", folder_ / "past.db"}));
   for (const char* name : {"ann", "bob"}) {
     clients.push_back(std::make_unique<Program>(Client(name)));
   }
@@ -165,7 +167,9 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
     EXPECT_TRUE(DamageLines(was).empty()) << DamageLines(was).front();
     const View before = *LastView(was, 0);
     const std::int64_t begin_us = SteadyClockUs();
-    server = std::make_unique<Program>(Server({"--resume", State()}));
+    server = std::make_unique<Program>(
+        Server({"--resume", State(), "--store", folder_ / "past.db", "--summary",
+                folder_ / ("sum" + std::to_string(round) + ".json")}));
     ASSERT_TRUE(WaitForLog([&](const Recording& r) {
       return r.sessions.size() == was.sessions.size() + 1 && r.views.count(0) != 0;
     })) << server->Story();
@@ -194,6 +198,17 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
     worst_pause_s = std::max(worst_pause_s, static_cast<double>(SteadyClockUs() - begin_us) * 1e-6);
     const Recording back = ReadRecording(Log());
     EXPECT_GE(back.first_tick, before.tick) << "nobody begins at tick 0";
+    // The killed session is summed up in the log, up to its last tick.
+    const auto killed = std::find_if(
+        back.summaries.begin(), back.summaries.end(),
+        [](const Summary& sum) { return sum.ended == static_cast<std::int8_t>(Ended::kKilled); });
+    ASSERT_NE(killed, back.summaries.end());
+    EXPECT_EQ(killed->of, was.room.session);
+    EXPECT_EQ(killed->tick, before.tick);
+    ASSERT_EQ(killed->names, "ann bob");
+    EXPECT_EQ(killed->score[0], 7);
+    EXPECT_GT(killed->present_ticks[0], 100);
+    EXPECT_LE(killed->present_ticks[0], killed->ticks);
     ASSERT_TRUE(WaitForLog([&](const Recording& r) { return LastSecond(r) > 0; }));
     const int second = LastSecond(was);
     for (const Event& event : ReadRecording(Log()).events) {
@@ -211,10 +226,38 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
   server->Signal(SIGTERM);
   EXPECT_TRUE(server->Wait(kPatience));
   EXPECT_EQ(server->status(), 0) << server->Story();
+  const std::string errors = server->errors();
+  EXPECT_NE(errors.find(" killed: "), std::string::npos) << "both sums: " << errors;
+  EXPECT_NE(errors.find(" ended: "), std::string::npos) << errors;
+  const std::string json = ReadPlainFile(folder_ / "sum2.json", 1 << 20);
+  EXPECT_NE(json.find(R"("ended":"killed")"), std::string::npos) << json;
+  EXPECT_NE(json.find(R"("rejoins":1)"), std::string::npos) << json;
+  Program top({BuiltProgram("seam-log"), "top", folder_ / "past.db"});
+  EXPECT_TRUE(top.Wait(kPatience));
+  const std::string ranks = top.output();
+  EXPECT_NE(ranks.find("   1  ann                           7 "), std::string::npos) << ranks;
+  int ended = 0, killed = 0;
+  for (std::size_t at = 0; (at = ranks.find("  killed\n", at)) != std::string::npos; ++at) ++killed;
+  for (std::size_t at = 0; (at = ranks.find("  ended\n", at)) != std::string::npos; ++at) ++ended;
+  EXPECT_EQ(killed, 3) << ranks;
+  EXPECT_EQ(ended, 1) << ranks;
   // Scores are told to those who join: the first session has them, and a resumed room keeps them.
   Program measure({BuiltProgram("seam-measure"), Log()});
   EXPECT_TRUE(measure.Wait(kPatience));
   EXPECT_EQ(measure.status(), 0) << measure.Story();
+}
+
+TEST_F(Resume, ARoomRunsOnWithoutAStoreThatCannotBeWritten) {
+  SEAM_INSIDE_ONLY();
+  folder_.Write("cats.db", std::string(3000, 'c'));
+  auto flags = Server({"crossing", "--wait", "0", "--store", folder_ / "cats.db"});
+  flags[std::find(flags.begin(), flags.end(), "--duration") - flags.begin() + 1] = "2";
+  Program server(flags);
+  ASSERT_TRUE(server.Wait(kPatience));
+  EXPECT_EQ(server.status(), 1) << server.Story();
+  EXPECT_NE(server.errors().find("not a database; the room runs on"), std::string::npos)
+      << server.Story();
+  EXPECT_NE(server.errors().find("120 ticks"), std::string::npos) << server.Story();
 }
 
 TEST_F(Resume, MistakesAreOneLine) {

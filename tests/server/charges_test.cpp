@@ -34,7 +34,7 @@ class Commands : public RoomCommands {
   }
   void LeaveSeat(int) override {}
   void Insert(const std::string&) override {}
-  void Say(const std::string&) override {}
+  void Say(const Event&) override {}
   void Warn(const std::string& text) override { warned.push_back(text); }
   bool Present(int) const override { return true; }
   Input ReadInput(int) const override { return {}; }

@@ -36,7 +36,7 @@ class FakeRoomCommands : public RoomCommands {
   }
   void LeaveSeat(int seat) override { asked.push_back("unseat " + std::to_string(seat)); }
   void Insert(const std::string& text) override { asked.push_back(text); }
-  void Say(const std::string& text) override { said.push_back(text); }
+  void Say(const Event& event) override { said.push_back(event.text); }
   void Warn(const std::string& text) override { said.push_back(text); }
   bool Present(int player) const override { return player == 0; }
   Input ReadInput(int) const override { return {}; }

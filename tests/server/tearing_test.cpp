@@ -24,7 +24,7 @@ class Commands : public RoomCommands {
   void LeaveSeat(int) override {}
   void Blast(const Vec2&, float, float, float) override {}
   void Insert(const std::string&) override {}
-  void Say(const std::string&) override {}
+  void Say(const Event&) override {}
   void Warn(const std::string&) override {}
   bool Present(int) const override { return true; }
   Input ReadInput(int) const override { return {}; }

@@ -169,6 +169,8 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/sync/edits", "none"},
       {"common/base/command", "common/base"},
       {"common/base/spatial", "common/base"},
+      {"common/record/events", "none"},
+      {"common/record/store", "common/record(/events)?"},
       {"common/measure/contents", "common/measure"},
       {"common/measure/screen", "common/measure"},
       {"common/sync/show", "common/sync(/reach|/table)?"},
@@ -214,6 +216,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/check", "tests/lab"},
       {"tests/lab/schema", "none"},
+      {"tests/lab/chaos", "tests/lab(/experiment)?"},
       {"tests/lab/shards", "tests/lab(/experiment)?"},
       {"tests/lab/exact", "tests/lab(/experiment|/hard|/report)?"},
       {"tests/lab/gait", "tests/lab(/experiment)?"},
@@ -303,6 +306,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/(keyed_hash|keyed_chain|seal|key_exchange|connect_token)\\.cpp", kCode,
                "sodium\\.h|sodium/.*");
+  ExpectOnlyIn("common/record/store/store\\.cpp|tests/.*", kCode, "sqlite3\\.h");
   ExpectOnlyIn("render/import/rube\\.cpp", kCode, "nlohmann/.*");
   ExpectOnlyIn("render/import/tiled\\.cpp", kCode, "tinyxml2\\.h");
   ExpectOnlyIn("client/python/.*", kCode, "pybind11/.*");

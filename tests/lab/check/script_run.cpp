@@ -47,7 +47,7 @@ class DryCommands : public RoomCommands {
   void Insert(const std::string& text) override {
     Ask(Edit(InsertEdit{text}, EditCause::kOutside));
   }
-  void Say(const std::string&) override {}
+  void Say(const Event&) override {}
   void Warn(const std::string&) override {}
   bool Present(int) const override { return true; }
   Input ReadInput(int) const override { return {}; }
