@@ -77,11 +77,31 @@ Cluster::Cluster(const ClusterConfig& config)
   server.wait_players = static_cast<int>(players);
   server_entropy_ = std::make_unique<SeededEntropy>(ServerSeed(config, scene_));
   server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
+  server_config_ = server;
   clients_.resize(players + static_cast<std::size_t>(config.spectators));
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
 }
 
 Cluster::~Cluster() = default;
+
+void Cluster::RestartServer(const SavedRoom& saved, const LogTail& tail, std::int64_t down_us) {
+  server_config_.identity = server_->keys();
+  server_config_.wait_players = 0;
+  server_.reset();
+  server_net_.reset();
+  server_endpoint_.reset();
+  ++server_restarts_;
+  server_endpoint_ = network_.Attach(server_address_);
+  const ImpairProfile profile = FindProfile(config_.impair);
+  const auto seed = static_cast<std::uint64_t>(config_.seed) + 1000003 * server_restarts_;
+  server_net_ = std::make_unique<ImpairedNet>(*server_endpoint_, profile, profile, seed);
+  server_entropy_ = std::make_unique<SeededEntropy>(ServerSeed(config_, scene_) + server_restarts_);
+  server_ =
+      std::make_unique<Server>(saved, server_config_, *server_net_, recorder_, *server_entropy_);
+  const Status status = server_->Resume(saved, now_us_ + down_us, &tail);
+  if (!status.ok()) throw OperatorError(status.why());
+  server_busy_until_us_ = now_us_ + down_us;
+}
 
 void Cluster::StartClient(std::size_t i) {
   Peer& peer = clients_[i];

@@ -10,6 +10,8 @@
 #include "common/net/impair.h"
 #include "common/net/memory.h"
 #include "common/record/recording.h"
+#include "server/room_state.h"
+#include "server/saved/log_tail.h"
 #include "server/server.h"
 
 namespace seam {
@@ -71,6 +73,9 @@ class Cluster {
   void Revive(int client);
   /// Lets the client say goodbye and end; Revive lets it come back.
   void Leave(int client);
+  /// Ends the server without a word. Another one goes on with the saved room and the end of its
+  /// log, at the same address, `down_us` later. Throws OperatorError if it cannot.
+  void RestartServer(const SavedRoom& saved, const LogTail& tail, std::int64_t down_us);
   /// Stops the client's process, or lets it go on.
   void Pause(int client, bool paused) {
     clients_[static_cast<std::size_t>(client)].paused = paused;
@@ -132,7 +137,9 @@ class Cluster {
   std::unique_ptr<Net> server_endpoint_;
   std::unique_ptr<ImpairedNet> server_net_;
   std::unique_ptr<Entropy> server_entropy_;
+  ServerConfig server_config_;
   std::unique_ptr<Server> server_;
+  std::uint64_t server_restarts_ = 0;
   std::vector<Peer> clients_;
   std::int64_t now_us_ = 1000000;
   std::uint16_t next_port_ = 20000;

@@ -55,6 +55,30 @@ struct ReplayCommand {
 /// 1: prints the first tick that differs.
 int RunReplay(const ReplayCommand& command);
 
+struct ResumeCommand {
+  std::string log, session, out;
+  int tick = -1;
+  double for_s = 0;                ///< 0: as long as the log
+  std::vector<std::string> edits;  ///< see ParseEditLine
+  bool force = false;
+};
+
+/// Does a room again up to a tick, and goes on from there: with an edit by itself, with the
+/// recorded inputs alone; else as recorded. 0; 1: a tick that should be as recorded is not.
+int RunResume(const ResumeCommand& command);
+
+struct ChaosCommand {
+  int seeds = 20, jobs = 1;
+  std::int64_t first = 1;
+  double seconds = 60;
+  std::vector<std::string> scenes;  ///< empty: the small ones of scenes/
+  bool all = false;                 ///< print the seeds that hold, too
+};
+
+/// Runs sessions with faults of clients, networks and the server; prints the seeds that break an
+/// invariant. 1: some do.
+int RunChaosSeeds(const ChaosCommand& command);
+
 struct SweepCommand {
   std::string file;  ///< sweep file: parameters to vary (docs/lab.md)
   TableFlags output;

@@ -15,6 +15,7 @@
 #include "common/sync/method.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/experiment/probes.h"
+#include "tests/lab/replay/edit_line.h"
 #include "tests/lab/schema/scene_schema.h"
 
 namespace {
@@ -85,6 +86,35 @@ Command* DefineReplay(Command& app, ReplayCommand& c) {
   replay->Option("LOG", c.log, "an LCM log of --record, --state or run").Required();
   replay->Option("--session", c.session, "of a log with several sessions: number or id");
   return replay;
+}
+
+Command* DefineChaos(Command& app, ChaosCommand& c) {
+  Command* chaos = &app.Add(
+      "chaos", "sessions with faults of clients, networks and the server; invariants hold?");
+  chaos->Option("--seeds", c.seeds, "sessions").Range(1, 100000000);
+  chaos->Option("--first", c.first, "seed of the first one").Range(0, 1000000000);
+  chaos->Option("--seconds", c.seconds, "of each; the last 10 are without faults")
+      .Range(12.0, 3600.0);
+  chaos->Option("--scene", c.scenes, "by name in scenes/ (default: all small ones)")
+      .CommaSeparated();
+  chaos->Option("--jobs", c.jobs, "sessions at a time").Range(1, 1024);
+  chaos->Switch("--all", c.all, "print the seeds that hold, too");
+  return chaos;
+}
+
+Command* DefineResume(Command& app, ResumeCommand& c) {
+  Command* resume = &app.Add("resume", "go on with a recorded room from a tick, with an edit");
+  resume->Option("LOG", c.log, "an LCM log of --record, --state or run").Required();
+  resume->Option("--tick", c.tick, "the last tick that is as it was")
+      .Range(1, 2000000000)
+      .Required();
+  resume->Option("--for", c.for_s, "seconds after it (default: as long as the log)")
+      .Range(0.0, 1e5);
+  resume->Option("--edit", c.edits, EditLineHelp()).OneValueEach();
+  resume->Option("-o,--output", c.out, "log to write: the whole room, with the new part");
+  resume->Option("--session", c.session, "of a log with several sessions: number or id");
+  resume->Switch("--force", c.force, "overwrite the log");
+  return resume;
 }
 
 Command* DefineSweep(Command& app, SweepCommand& c) {
@@ -201,6 +231,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> schema_scenes;
   DivergenceCommand divergence;
   ReplayCommand replay;
+  ResumeCommand resume;
+  ChaosCommand chaos;
   SweepCommand sweep;
   MergeCommand merge;
   VerifyCommand verify;
@@ -221,6 +253,8 @@ int main(int argc, char** argv) {
                 {DefineSchema(app, schema_scenes), [&] { return PrintSchema(schema_scenes); }},
                 {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
                 {DefineReplay(app, replay), [&] { return RunReplay(replay); }},
+                {DefineResume(app, resume), [&] { return RunResume(resume); }},
+                {DefineChaos(app, chaos), [&] { return RunChaosSeeds(chaos); }},
                 {DefineSweep(app, sweep), [&] { return RunSweep(sweep); }},
                 {DefineMerge(app, merge), [&] { return RunMerge(merge); }},
                 {DefineVerify(app, verify), [&] { return RunVerify(verify); }},

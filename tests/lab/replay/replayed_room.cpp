@@ -66,11 +66,17 @@ LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session) {
   return logged;
 }
 
-ReplayedRoom::ReplayedRoom(const LoggedRoom& logged)
-    : logged_(logged), net_(network_.Attach({1, 7777})), silence_(std::make_unique<Silence>()) {
+ReplayedRoom::ReplayedRoom(const LoggedRoom& logged, Recorder* out)
+    : logged_(logged),
+      out_(out),
+      net_(network_.Attach({1, 7777})),
+      silence_(std::make_unique<Silence>()) {
   const Room& room = logged.recording.room;
-  server_ = std::make_unique<Server>(ParseScene(room.scene_text, room.scene_name), ConfigOf(room),
-                                     *net_, *silence_, entropy_);
+  ServerConfig config = ConfigOf(room);
+  if (out != nullptr) config.publish = Publish::kAll;
+  Recorder& recorder = out != nullptr ? *out : *silence_;
+  server_ = std::make_unique<Server>(ParseScene(room.scene_text, room.scene_name), config, *net_,
+                                     recorder, entropy_);
 }
 
 ReplayedRoom::~ReplayedRoom() = default;
@@ -78,6 +84,7 @@ ReplayedRoom::~ReplayedRoom() = default;
 ReplayedRoom::Tick ReplayedRoom::Step() {
   const TickMessages& tick = logged_.ticks[next_++];
   const bool same_values = server_->Replay(tick);
+  if (out_ != nullptr) server_->Republish(tick);
   const auto hash = static_cast<std::uint16_t>(server_->replica().world().Hash());
   if (tick.hash && hash != *tick.hash) return Tick::kOtherWorld;
   return same_values ? Tick::kSame : Tick::kOtherValues;

@@ -26,7 +26,8 @@ LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session);
 
 class ReplayedRoom {
  public:
-  explicit ReplayedRoom(const LoggedRoom& logged);
+  /// `out` gets what is done again, as the log of another session; nullptr: nothing does.
+  explicit ReplayedRoom(const LoggedRoom& logged, Recorder* out = nullptr);
   ~ReplayedRoom();
 
   /// Result of a tick.
@@ -34,12 +35,15 @@ class ReplayedRoom {
   /// Does the next tick of the log.
   Tick Step();
   bool done() const { return next_ == logged_.ticks.size(); }
+  /// Number of ticks that were done.
+  std::size_t next() const { return next_; }
   Server& server() { return *server_; }
 
  private:
   class Silence;
 
   const LoggedRoom& logged_;
+  Recorder* const out_;
   std::size_t next_ = 0;
   MemoryNetwork network_;
   SeededEntropy entropy_{1};

@@ -55,6 +55,8 @@ Fault DrawFault(Random* random, int client, double from_s) {
       break;
     case FaultKind::kKill:
     case FaultKind::kLeave: fault.to_s = from_s + random->Uniform(0.05, 7); break;
+    case FaultKind::kMove:
+    case FaultKind::kServer: break;  // AddServerFaults
   }
   return fault;
 }
@@ -100,8 +102,40 @@ const char* ToString(FaultKind kind) {
     case FaultKind::kSlowed: return "slow";
     case FaultKind::kKill: return "killed";
     case FaultKind::kLeave: return "away";
+    case FaultKind::kMove: return "moved";
+    case FaultKind::kServer: return "server killed";
   }
   return "";
+}
+
+void AddServerFaults(std::uint64_t seed, double seconds, FaultPlan* plan) {
+  Random random = Random(seed).Fork(3);
+  const double last_s = seconds - kCalmSeconds;
+  double at = kFirstSeconds;
+  int kills = 0, moves = 0;
+  while ((at += 1 + random.Exponential(kBetweenSeconds * 2)) < last_s) {
+    Fault fault;
+    fault.kind = FaultKind::kServer;
+    fault.client = -1;
+    fault.from_s = fault.to_s = at;
+    fault.every_us = 1000 * Between(&random, 50, 3000);
+    plan->faults.push_back(fault);
+    ++kills;
+  }
+  const int clients = plan->config.players + plan->config.spectators;
+  for (int client = 0; client < clients; ++client) {
+    if (!random.Chance(0.5)) continue;
+    Fault fault;
+    fault.kind = FaultKind::kMove;
+    fault.client = client;
+    fault.from_s = fault.to_s = random.Uniform(kFirstSeconds, last_s);
+    plan->faults.push_back(fault);
+    ++moves;
+  }
+  std::stable_sort(plan->faults.begin(), plan->faults.end(),
+                   [](const Fault& a, const Fault& b) { return a.from_s < b.from_s; });
+  plan->name += ", " + std::to_string(kills) + " deaths of the server, " + std::to_string(moves) +
+                " new addresses";
 }
 
 FaultPlan DrawFaults(std::uint64_t seed, const FaultChoice& choice) {

@@ -16,6 +16,8 @@ enum class FaultKind {
   kSlowed,  ///< it is run only now and then
   kKill,    ///< its process dies, and another begins later
   kLeave,   ///< it says goodbye, and comes back later
+  kMove,    ///< its address changes
+  kServer,  ///< the server dies, and another goes on with its room later; client is -1
 };
 const char* ToString(FaultKind kind);
 
@@ -45,6 +47,8 @@ struct FaultChoice {
   bool narrow = false;
 };
 
+/// Adds deaths of the server, and clients whose address changes. The same seed adds the same.
+void AddServerFaults(std::uint64_t seed, double seconds, FaultPlan* plan);
 /// Draws a session. The same seed and choice draw the same.
 FaultPlan DrawFaults(std::uint64_t seed, const FaultChoice& choice);
 

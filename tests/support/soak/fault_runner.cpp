@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tests/support/soak/cut_net.h"
+#include "tests/support/soak/movable_net.h"
 
 namespace seam {
 
@@ -15,17 +16,21 @@ FaultRunner::FaultRunner(const FaultPlan& plan) : plan_(plan) {
   if (config.players > 0) count = std::min(count, static_cast<std::size_t>(config.players));
   count += static_cast<std::size_t>(config.spectators);
   for (std::size_t i = 0; i < count; ++i) clients_.push_back(std::make_unique<State>());
+  nets_.resize(count);
 }
 
 ClusterConfig FaultRunner::Config() {
   ClusterConfig config = plan_.config;
   config.client_net = [this](std::size_t client, std::unique_ptr<Net> net) {
-    return std::make_unique<CutNet>(std::move(net), &clients_[client]->cut);
+    auto movable = std::make_unique<MovableNet>(std::move(net));
+    nets_[client] = movable.get();
+    return std::make_unique<CutNet>(std::move(movable), &clients_[client]->cut);
   };
   return config;
 }
 
 void FaultRunner::Act(Cluster& cluster) {
+  FindSessions(cluster);
   const double now_s = static_cast<double>(cluster.server().tick()) /
                        static_cast<double>(cluster.scene().solver.tick_hz);
   for (std::size_t i = 0; i < running_.size();) {
@@ -43,7 +48,36 @@ void FaultRunner::Act(Cluster& cluster) {
   RunSlowly(cluster);
 }
 
+void FaultRunner::KillServer(const Fault& fault, Cluster& cluster) {
+  if (!restart_server || !restart_server(cluster, fault.every_us)) return;
+  for (std::size_t c = 0; c < clients_.size(); ++c) {
+    State& state = *clients_[c];
+    const Client* const client = cluster.client(static_cast<int>(c));
+    if (client == nullptr) continue;
+    state.lost_session = client->sessions();
+    state.loser = client;
+    if (state.well_since_us >= 0) state.well_since_us = cluster.now_us() + fault.every_us;
+  }
+}
+
+void FaultRunner::FindSessions(Cluster& cluster) {
+  for (std::size_t c = 0; c < clients_.size(); ++c) {
+    State& state = *clients_[c];
+    if (state.lost_session < 0) continue;
+    const Client* const client = cluster.client(static_cast<int>(c));
+    const bool same = client == state.loser && client->sessions() == state.lost_session;
+    if (!same) state.lost_session = -1;
+  }
+}
+
 void FaultRunner::Begin(const Fault& fault, Cluster& cluster) {
+  if (fault.kind == FaultKind::kServer) return KillServer(fault, cluster);
+  if (fault.kind == FaultKind::kMove) {
+    const Address address{0x7f000001, next_port_++};
+    const bool there = cluster.client(fault.client) != nullptr;
+    if (there) nets_[static_cast<std::size_t>(fault.client)]->Move(cluster.Attach(address));
+    return;
+  }
   State& state = at(fault.client);
   state.well_since_us = -1;
   switch (fault.kind) {
@@ -61,12 +95,17 @@ void FaultRunner::Begin(const Fault& fault, Cluster& cluster) {
       state.stopped = true;
       cluster.Leave(fault.client);
       break;
+    case FaultKind::kMove:
+    case FaultKind::kServer: break;
   }
 }
 
 void FaultRunner::End(const Fault& fault, Cluster& cluster) {
+  if (fault.kind == FaultKind::kServer || fault.kind == FaultKind::kMove) return;
   State& state = at(fault.client);
-  state = State();
+  const State was = std::exchange(state, State());
+  state.lost_session = was.lost_session;
+  state.loser = was.loser;
   state.well_since_us = cluster.now_us();
   const bool gone = fault.kind == FaultKind::kKill || fault.kind == FaultKind::kLeave;
   if (gone) cluster.Revive(fault.client);

@@ -1,0 +1,41 @@
+/// Sessions with faults of everything, the server too.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/lab/chaos/chaos.h"
+#include "tests/support/soak.h"
+
+namespace seam {
+namespace chaos_cluster_test {
+
+/// Seeds in a test, and s of each; a soak has more.
+constexpr int kSeeds = 20;
+constexpr double kSeconds = 24;
+
+TEST(ChaosCluster, EverySeedKeepsItsInvariantsThroughDeathsOfTheServer) {
+  ChaosChoice choice;
+  choice.seconds = kSeconds;
+  int restarts = 0;
+  for (int seed = 1; seed <= Soak(kSeeds); ++seed) {
+    const ChaosOutcome outcome = RunChaos(static_cast<std::uint64_t>(seed), choice);
+    restarts += outcome.restarts;
+    for (const std::string& line : outcome.broken) ADD_FAILURE() << outcome.name << ": " << line;
+  }
+  EXPECT_GT(restarts, kSeeds / 2) << "no server died: the test would show nothing";
+}
+
+TEST(ChaosCluster, ASeedRepeats) {
+  ChaosChoice choice;
+  choice.seconds = 16;
+  choice.scenes = {"rally"};
+  const ChaosOutcome first = RunChaos(7, choice), second = RunChaos(7, choice);
+  EXPECT_EQ(first.name, second.name);
+  EXPECT_EQ(first.broken, second.broken);
+  EXPECT_EQ(first.restarts, second.restarts);
+}
+
+}  // namespace chaos_cluster_test
+}  // namespace seam
