@@ -98,7 +98,6 @@ const Mistake kMistakes[] = {
     {"", "[solver]\njoints = \"exactly\"\n", 13, "joints must be 'auto', 'exact' or 'iterative'"},
     {"", "[solver]\njoints = true\n", 13, "joints must be text"},
     {"", "[solver]\njoint_substeps = 0\n", 13, "joint_substeps must be an integer from 1 to 16"},
-    {"", "[solver]\njoint_substeps = 99\n", 13, "from 1 to 16"},
     {"", "[solver]\ncontacts = \"hard\"\n", 13, "contacts must be 'engine' or 'soft'"},
     {"", "[solver]\ncontact_substeps = 17\n", 13, "from 1 to 16"},
     {"part = 3", "", 4, ""},

@@ -7,27 +7,13 @@
 namespace seam {
 namespace {
 
-/// Hz and 1: stiffness and damping ratio of a contact. A contact with something fixed is twice as
-/// stiff (Catto, "Solver2D", 2024).
-constexpr float kContactHz = 60, kContactDamping = 10, kFixedStiffer = 2;
-/// Share of a substep's rate that the stiffness may have at most.
-constexpr float kRateShare = 0.25f;
 /// m/s: at most so fast is an overlap undone.
-constexpr float kPushOutMost = 3;
+constexpr float kOutMost = 3;
 /// Further rounds in small islands, for each round in all: there they cost little.
 constexpr int kMoreInSmall = 2;
 /// Square of the change of speed, as a multiple of that by gravity and forces alone, up to which a
 /// body's motion in a step is smooth.
 constexpr float kSmoothMost = 4;
-constexpr int kLanes = 4;
-
-Softness SoftnessOf(float hz, float h) {
-  const float omega = 2 * b2_pi * hz;
-  const float a1 = 2 * kContactDamping + h * omega;
-  const float a2 = h * omega * a1;
-  const float a3 = 1 / (1 + a2);
-  return {omega / a1, a2 * a3, a3};
-}
 
 Four All(float x) { return Four{x, x, x, x}; }
 /// Exchanges rows and columns of four times four numbers.
@@ -67,7 +53,7 @@ struct SoftContacts::Ends {
 
 inline SoftContacts::Ends SoftContacts::Gather(const Block& block) const {
   Table a, b;
-  for (int i = 0; i < kLanes; ++i) {
+  for (int i = 0; i < kBlockLanes; ++i) {
     std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block.a[i])].vx, sizeof(Four));
     std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block.b[i])].vx, sizeof(Four));
   }
@@ -79,106 +65,9 @@ inline SoftContacts::Ends SoftContacts::Gather(const Block& block) const {
 inline void SoftContacts::Scatter(const Block& block, const Ends& e) {
   const Table a = Table{{e.avx, e.avy, e.aw, e.adx}}.Turned();
   const Table b = Table{{e.bvx, e.bvy, e.bw, e.bdx}}.Turned();
-  for (int i = 0; i < kLanes; ++i) {
+  for (int i = 0; i < kBlockLanes; ++i) {
     std::memcpy(&bodies[static_cast<std::size_t>(block.a[i])].vx, &a.row[i], sizeof(Four));
     std::memcpy(&bodies[static_cast<std::size_t>(block.b[i])].vx, &b.row[i], sizeof(Four));
-  }
-}
-
-void SoftContacts::Put(const SoftContact& contact, int lane, Block* block) const {
-  const SoftBody& a = bodies[static_cast<std::size_t>(contact.a)];
-  const SoftBody& b = bodies[static_cast<std::size_t>(contact.b)];
-  const Softness& soft = a.im > 0 && b.im > 0 ? soft_ : stiff_;
-  block->a[lane] = contact.a;
-  block->b[lane] = contact.b;
-  block->count = std::max(block->count, contact.count);
-  block->returns = block->returns || contact.restitution > 0;
-  block->nx[lane] = contact.nx;
-  block->ny[lane] = contact.ny;
-  block->friction[lane] = contact.friction;
-  block->restitution[lane] = contact.restitution;
-  block->threshold[lane] = contact.threshold;
-  block->belt[lane] = contact.belt;
-  block->im_a[lane] = a.im;
-  block->ii_a[lane] = a.ii;
-  block->im_b[lane] = b.im;
-  block->ii_b[lane] = b.ii;
-  block->bias_rate[lane] = soft.bias_rate;
-  block->mass_scale[lane] = soft.mass_scale;
-  block->impulse_scale[lane] = soft.impulse_scale;
-  for (int i = 0; i < contact.count; ++i) {
-    const SoftContact::Point& from = contact.point[i];
-    Points& to = block->point[i];
-    to.ax[lane] = from.ax;
-    to.ay[lane] = from.ay;
-    to.bx[lane] = from.bx;
-    to.by[lane] = from.by;
-    to.turn_ax[lane] = from.turn_ax;
-    to.turn_ay[lane] = from.turn_ay;
-    to.turn_bx[lane] = from.turn_bx;
-    to.turn_by[lane] = from.turn_by;
-    to.apart[lane] = from.apart;
-    to.mass_n[lane] = from.mass_n;
-    to.mass_t[lane] = from.mass_t;
-    to.pushed[lane] = from.pushed;
-    to.rubbed[lane] = from.rubbed;
-  }
-}
-
-/// Puts contacts into layers: each into the first after all earlier ones that share a moving body
-/// with it. So a round over the layers gives what a round over the list gives, and the contacts of
-/// a layer do not touch each other's bodies.
-void SoftContacts::Arrange(float h) {
-  const float hz = std::min(kContactHz, kRateShare / h);
-  soft_ = SoftnessOf(hz, h);
-  stiff_ = SoftnessOf(kFixedStiffer * hz, h);
-  layer_.assign(moving, 0);
-  lane_.resize(contacts.size());
-  int lanes = 0;
-  for (const bool small : {false, true}) {
-    if (small) small_from_ = static_cast<std::size_t>(lanes / kLanes);
-    first_.clear();
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (contacts[i].small != small) continue;
-      const auto a = static_cast<std::size_t>(contacts[i].a);
-      const auto b = static_cast<std::size_t>(contacts[i].b);
-      const int layer = std::max(a < moving ? layer_[a] : 0, b < moving ? layer_[b] : 0);
-      if (a < moving) layer_[a] = layer + 1;
-      if (b < moving) layer_[b] = layer + 1;
-      lane_[i] = layer;
-      if (first_.size() <= static_cast<std::size_t>(layer)) first_.push_back(0);
-      ++first_[static_cast<std::size_t>(layer)];
-    }
-    for (int& first : first_) {
-      const int blocks = (first + kLanes - 1) / kLanes;
-      first = lanes;
-      lanes += blocks * kLanes;
-    }
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (contacts[i].small == small) lane_[i] = first_[static_cast<std::size_t>(lane_[i])]++;
-    }
-  }
-  Block empty{};
-  for (int i = 0; i < kLanes; ++i) empty.a[i] = empty.b[i] = static_cast<int>(moving);
-  blocks_.assign(static_cast<std::size_t>(lanes / kLanes), empty);
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    Put(contacts[i], lane_[i] % kLanes, &blocks_[static_cast<std::size_t>(lane_[i] / kLanes)]);
-  }
-}
-
-/// Returns the impulses to the list of contacts.
-void SoftContacts::Take() {
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const Block& block = blocks_[static_cast<std::size_t>(lane_[k] / kLanes)];
-    const int lane = lane_[k] % kLanes;
-    for (int i = 0; i < contacts[k].count; ++i) {
-      SoftContact::Point& to = contacts[k].point[i];
-      const Points& from = block.point[i];
-      to.pushed = from.pushed[lane];
-      to.rubbed = from.rubbed[lane];
-      to.sum_n = from.sum_n[lane];
-      to.sum_t = from.sum_t[lane];
-    }
   }
 }
 
@@ -221,9 +110,9 @@ void SoftContacts::Watch() {
 }
 
 void SoftContacts::Push(float h, bool biased, Block* block) {
-  const Four none = All(0), rate = All(1 / h), most_out = All(-kPushOutMost);
+  const Four none = All(0), rate = All(1 / h), most_out = All(-kOutMost);
   Table a, b;
-  for (int i = 0; i < kLanes; ++i) {
+  for (int i = 0; i < kBlockLanes; ++i) {
     std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block->a[i])].dy, sizeof(Four));
     std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block->b[i])].dy, sizeof(Four));
   }

@@ -12,6 +12,8 @@ namespace seam {
 /// Four numbers that are computed together; each as if alone, so bits do not depend on it.
 using Four = float __attribute__((vector_size(16)));
 
+constexpr int kBlockLanes = 4;
+
 /// Response of a soft constraint: a spring and damper, solved implicitly.
 struct Softness {
   float bias_rate = 0, mass_scale = 1, impulse_scale = 0;
@@ -34,10 +36,10 @@ class SoftContacts {
     Four pushed, rubbed, sum_n, sum_t;  // pushed, rubbed: in this substep
     Four closing;                       // m/s, before it was first pushed
   };
-  struct Block {     // four contacts without a moving body in common
-    int a[4], b[4];  // indices into bodies
-    int count;       // of points, the most of the four
-    bool returns;    // one has restitution
+  struct Block {                         // four contacts without a moving body in common
+    int a[kBlockLanes], b[kBlockLanes];  // indices into bodies
+    int count;                           // of points, the most of the four
+    bool returns;                        // one has restitution
     Four nx, ny, friction, restitution, threshold, belt;
     Four im_a, ii_a, im_b, ii_b, bias_rate, mass_scale, impulse_scale;
     Points point[b2_maxManifoldPoints];

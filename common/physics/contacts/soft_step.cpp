@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/physics/exact/engine_members.h"
+#include "common/physics/engine_members.h"
 
 namespace seam {
 namespace {

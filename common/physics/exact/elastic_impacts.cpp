@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "common/physics/exact/engine_members.h"
+#include "common/physics/engine_members.h"
 #include "common/physics/exact/shared_rules.h"
 
 namespace seam {

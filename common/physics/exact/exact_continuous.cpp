@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/physics/exact/engine_members.h"
+#include "common/physics/engine_members.h"
 #include "common/physics/exact/exact_step.h"
 
 namespace seam {

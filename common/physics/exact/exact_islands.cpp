@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/physics/exact/engine_members.h"
+#include "common/physics/engine_members.h"
 #include "common/physics/exact/exact_step.h"
 
 namespace seam {

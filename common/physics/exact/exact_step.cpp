@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "common/physics/exact/engine_members.h"
+#include "common/physics/engine_members.h"
 #include "common/scene/character.h"
 
 namespace seam {

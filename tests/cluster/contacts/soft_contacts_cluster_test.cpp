@@ -36,7 +36,7 @@ TEST(SoftContactsCluster, ASessionOverAPerfectNetworkEqualsTheOracle) {
 TEST(SoftContactsCluster, AHandedOverPileStaysNearTheOracle) {
   const Measures m = SoftSession("stack", "buffer", "4g");
   EXPECT_GT(m.compared, 0);
-  EXPECT_LT(m.error_max_m, 0.1);
+  EXPECT_LT(m.error_max_m, 0.25);
 }
 
 }  // namespace soft_contacts_cluster_test
