@@ -218,7 +218,7 @@ TEST(PhysicsRow, DependsOnThePointAloneExceptForCpu) {
   EXPECT_EQ(CsvColumns(CrashedValues("crashed: Aborted")), PhysicsValueColumns());
   EXPECT_EQ(CsvRow(CrashedValues("crashed: Aborted")), "inf,crashed: Aborted,,,,,,,,,,");
   EXPECT_EQ(CsvRow(Values(key.begin() + 1, key.end())),
-            "made-up,invariant,m,grid,60,2,8,3,off,0.0025,on,body,auto,2,1");
+            "made-up,invariant,m,grid,60,2,8,3,off,0.0025,on,body,auto,2,engine,1,1");
   std::map<std::string, std::string> texts = WithoutCpu(row);
   EXPECT_NEAR(std::stod(texts["error"]), 2, 1e-3);
   EXPECT_EQ(texts["failure"], "left, \"far\"");
