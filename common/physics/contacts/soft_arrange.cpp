@@ -100,7 +100,8 @@ void SoftContacts::Arrange(float h) {
   for (int i = 0; i < kBlockLanes; ++i) empty.a[i] = empty.b[i] = static_cast<int>(moving);
   blocks_.assign(static_cast<std::size_t>(lanes / kBlockLanes), empty);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    Put(contacts[i], lane_[i] % kBlockLanes, &blocks_[static_cast<std::size_t>(lane_[i] / kBlockLanes)]);
+    Put(contacts[i], lane_[i] % kBlockLanes,
+        &blocks_[static_cast<std::size_t>(lane_[i] / kBlockLanes)]);
   }
 }
 
