@@ -23,7 +23,7 @@ Event Chronicle::Say(std::int64_t now_us, Event event) {
   if (broadcast_.muted()) return event;
   Allowance& allowance = allowances_[static_cast<std::size_t>(event.kind)];
   const double more = static_cast<double>(now_us - allowance.at_us) * 1e-6 * kPerS;
-  allowance.events = std::min<double>(kBurst, allowance.events + more);
+  allowance.events = std::min<double>(kEventBurst, allowance.events + more);
   allowance.at_us = now_us;
   if (allowance.events < 1) {
     ++dropped_;

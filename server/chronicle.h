@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +26,7 @@ class Chronicle {
       : room_(room), replica_(replica), sessions_(sessions), broadcast_(broadcast) {}
 
   /// Publishes an event with time and tick, on the bus only, and returns it. Of each kind kPerS a
-  /// second are published, and kBurst at once; more are only counted.
+  /// second are published, and kEventBurst at once; more are only counted.
   Event Say(std::int64_t now_us, Event event);
   /// To be called before an edit is applied: counts it, says broken joints and seats.
   void NoteEdit(std::int64_t now_us, const Edit& edit);
@@ -51,7 +52,7 @@ class Chronicle {
   void Publish(std::int64_t now_us, const Summary& summary);
   /// Completes the last sum of the session that was killed, by the world that is resumed, and
   /// publishes it. `present`: the players that were in the room.
-  void SumKilled(std::int64_t now_us, Summary last, const std::vector<int>& present,
+  void SumKilled(std::int64_t now_us, Summary last, const std::map<int, bool>& present,
                  const Rules* rules);
 
   /// Keeps events for TakeEvents.
@@ -61,13 +62,13 @@ class Chronicle {
   std::vector<Summary> TakeEnded() { return std::exchange(ended_, {}); }
 
   /// More than people read; a script in a loop, or a falling wall, says thousands.
-  static constexpr int kPerS = 20, kBurst = 60;
+  static constexpr int kPerS = 20, kEventBurst = 60;
   static constexpr std::int64_t kSumUs = 10000000, kSumSoonUs = 100000;
 
  private:
   /// Events that a kind may still say.
   struct Allowance {
-    double events = kBurst;
+    double events = kEventBurst;
     std::int64_t at_us = 0;
   };
   std::string NameOf(int player) const;

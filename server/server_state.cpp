@@ -32,7 +32,9 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
   }
   if (commands_ != nullptr) commands_->TakeSaid();  // scripts have run their code once more
   if (tail != nullptr && tail->summary) {
-    chronicle_->SumKilled(now_us, *tail->summary, gone, rules_.get());
+    std::map<int, bool> present = tail->here;
+    for (const int player : gone) present.emplace(player, true);
+    chronicle_->SumKilled(now_us, *tail->summary, present, rules_.get());
   }
   Event event = MakeEvent(EventKind::kResumed,
                           "the room goes on after tick " + std::to_string(replica_.tick()));

@@ -307,10 +307,9 @@ bool Valid(const Summary& m) {
                       m.stale, m.right, m.implausible, m.budget, m.hand_overs_to, m.trust) &&
               AllWithin(m.peer, 0, kPeersMax - 1) && AllWithin(m.player, -1, kPlayersMax - 1) &&
               Finite(m.score) && AllWithin(m.trust, 0, kAuditStepMax);
-  for (const std::int64_t n :
-       {m.ticks, m.late_ticks, m.edits, m.hand_overs, m.events, m.events_dropped}) {
-    good = good && Counter(n);
-  }
+  const std::int64_t totals[] = {m.ticks,      m.late_ticks, m.edits,
+                                 m.hand_overs, m.events,     m.events_dropped};
+  good = good && std::all_of(std::begin(totals), std::end(totals), Counter);
   for (const auto* counts :
        {&m.present_ticks, &m.bytes_in, &m.bytes_out, &m.corrections, &m.malformed, &m.stale,
         &m.right, &m.implausible, &m.budget, &m.hand_overs_to}) {

@@ -30,6 +30,11 @@ void AddTick(TickMessages* of, LogTail* tail) {
         tail->ticks[tick].edits.push_back(std::move(*edit));
       } else if (auto* meta = std::get_if<Meta>(&any)) {
         tail->ticks[tick].values.push_back(std::move(*meta));
+      } else if (auto* event = std::get_if<Event>(&any)) {
+        const auto kind = static_cast<EventKind>(event->kind);
+        const bool came = kind == EventKind::kJoined || kind == EventKind::kRejoined;
+        if (came || kind == EventKind::kLeft) tail->here[event->player] = came;
+        for (int p = 0; kind == EventKind::kResumed && p < kPlayersMax; ++p) tail->here[p] = false;
       } else if (auto* room = std::get_if<Room>(&any)) {
         const bool another = tail->summary && tail->summary->session != room->session;
         if (another) tail->summary.reset();

@@ -28,6 +28,7 @@ struct LogTail {
   std::int64_t last_tick = -1;  ///< last one whose end is in the log; -1: none
   LogPlace end;                 ///< where the log is to go on
   std::optional<Summary> summary;  ///< the newest one of the session that wrote the log
+  std::map<int, bool> here;        ///< players that came (true) or left since, as of the end
   std::string damage;           ///< one line if more follows `end` than a tick that was cut off
 };
 

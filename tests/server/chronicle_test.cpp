@@ -49,7 +49,8 @@ position = [62.2, 3.8]
 density = 100
 [[joint]]
 kind = "glue"
-parts = ["post", "arm"]
+a = "post"
+b = "arm"
 strength = 300
 [[trigger]]
 name = "gate"
@@ -120,8 +121,9 @@ TEST_F(ChronicleOfAFair, EachEventSaysWhatItIsAboutInFields) {
 TEST_F(ChronicleOfAFair, AFloodOfOneKindIsBoundedAndCounted) {
   cluster_.RunToTick(300);  // the script says 590 lines within a second
   auto kinds = ByKind(cluster_.recording());
-  EXPECT_GE(kinds["script"].size(), static_cast<std::size_t>(Chronicle::kBurst));
-  EXPECT_LE(kinds["script"].size(), static_cast<std::size_t>(Chronicle::kBurst + Chronicle::kPerS));
+  EXPECT_GE(kinds["script"].size(), static_cast<std::size_t>(Chronicle::kEventBurst));
+  EXPECT_LE(kinds["script"].size(),
+            static_cast<std::size_t>(Chronicle::kEventBurst + Chronicle::kPerS));
   const Summary sum = cluster_.server().Sum(cluster_.now_us());
   EXPECT_EQ(static_cast<std::size_t>(sum.events), cluster_.recording().events.size());
   EXPECT_EQ(sum.events_dropped + static_cast<std::int64_t>(kinds["script"].size()), 590);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/record/recording.h"
+#include "common/scene/scene.h"
 #include "tests/support/lab_workspace.h"
 #include "tests/support/program.h"
 #include "tests/support/source_tree.h"

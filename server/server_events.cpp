@@ -1,0 +1,43 @@
+/// Server: what it tells of its clock, its bounds and its end, and the sum of the session.
+
+#include "server/chronicle.h"
+#include "server/server.h"
+
+namespace seam {
+
+void Server::WatchClock(std::int64_t now_us) {
+  if (!clock_.Note(now_us, replica_.tick())) return;
+  const std::string percent = std::to_string(clock_.speed_ppm() / 10000);
+  Event event = MakeEvent(EventKind::kSpeed, clock_.speed_ppm() == kFullSpeedPpm
+                                                 ? "the room runs at full speed again"
+                                                 : "the server cannot keep up: the room runs at " +
+                                                       percent + " % of its speed");
+  event.value_milli = clock_.speed_ppm() / 1000;
+  chronicle_->Say(now_us, event);
+}
+
+Summary Server::Sum(std::int64_t now_us, Ended ended) const {
+  return chronicle_->Sum(now_us, ended, ladder_, rules_.get());
+}
+
+void Server::RemoveOutside(std::int64_t now_us) {
+  const std::vector<Edit> edits = bounds_.Next(filter_.TakeOutside());
+  for (const Edit& edit : edits) edits_->Add(edit);
+  if (edits.empty()) return;
+  const PartId first = edits.front().As<RemoveEdit>()->part;
+  std::string what = replica_.world().scene().parts[static_cast<std::size_t>(first)].name;
+  if (edits.size() > 1) what += " and " + std::to_string(edits.size() - 1) + " more";
+  Event event = MakeEvent(EventKind::kOutOfBounds, "out of bounds: " + what);
+  event.body = first;
+  event.value_milli = 1000 * static_cast<std::int64_t>(edits.size());
+  chronicle_->Say(now_us, event);
+}
+
+void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
+  chronicle_->Say(now_us, MakeEvent(EventKind::kEnded, "the room ends: " + reason));
+  if (started()) chronicle_->Publish(now_us, Sum(now_us, Ended::kEnded));
+  broadcast_.EndTick(now_us, false, true);
+  sessions_.Close(now_us, reason, &stats_.counters);
+}
+
+}  // namespace seam
