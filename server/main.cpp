@@ -27,16 +27,17 @@
 
 namespace {
 
-std::shared_ptr<const Secret> KeyOfLogs(const Flags& f) {
-  if (f.log_key.empty()) return nullptr;
-  return std::make_shared<const Secret>(ReadSecretFile("--log-key", f.log_key));
-}
-
 using namespace seam;
 using Flags = ServerFlags;
 
 /// Time between two polls for requests of the metrics page, us.
 constexpr std::int64_t kPageUs = 5000;
+
+/// Returns the key with which logs are sealed; nullptr: none.
+std::shared_ptr<const Secret> KeyOfLogs(const Flags& f) {
+  if (f.log_key.empty()) return nullptr;
+  return std::make_shared<const Secret>(ReadSecretFile("--log-key", f.log_key));
+}
 
 void CheckRoomName(const std::string& room, int rooms) {
   const bool good = IsName(RoomName(room, rooms - 1, rooms)) && IsName(room);

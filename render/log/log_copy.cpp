@@ -38,6 +38,7 @@ std::optional<LogSeal> SealOf(const AnyMessage& message) {
     return std::nullopt;
   }
   seal.log_events = seal.log_crc = 0;
+  seal.log_keyed.clear();
   return seal;
 }
 
@@ -74,7 +75,6 @@ void LogCopy::Add(const LogEvent& event, std::int64_t timestamp_us, const AnyMes
     log_->Publish(event.channel, timestamp_us, event.data);
     unsealed_bytes_ += event.data.size();
   }
-  ++events_;
   if (unsealed_bytes_ < kUnsealedBytesMax) return;
   log_->Flush();
   unsealed_bytes_ = 0;
@@ -82,6 +82,7 @@ void LogCopy::Add(const LogEvent& event, std::int64_t timestamp_us, const AnyMes
 
 void LogCopy::Finish() {
   log_->Flush();
+  events_ = log_->Pin().number;
   if (!log_->trouble().ok()) throw OperatorError(log_->trouble().why());
   if (std::rename(unfinished_.c_str(), path_.c_str()) != 0) {
     throw OperatorError(path_ + ": cannot be written: " + std::strerror(errno));

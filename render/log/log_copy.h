@@ -30,6 +30,7 @@ class LogCopy {
   void Add(const LogEvent& event, std::int64_t timestamp_us, const AnyMessage& message);
   /// Ends the log and gives it its name. Throws OperatorError if it could not be written.
   void Finish();
+  /// Events of the finished log, with its seals.
   std::int64_t events() const { return events_; }
 
  private:

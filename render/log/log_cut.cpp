@@ -87,6 +87,13 @@ struct Source {
   bool there = false;
   std::int64_t ahead_us = 0;
   std::int64_t at_us = std::numeric_limits<std::int64_t>::min();  // never runs backwards
+  /// Returns a key of the event: another one for a message that this log has again.
+  std::uint64_t Key() {
+    const std::uint64_t key = KeyOf(event, message);
+    const int before = times[key]++;
+    return Fnv1a(&before, sizeof before, key);
+  }
+  std::unordered_map<std::uint64_t, int> times;
 };
 
 /// Returns by how much the clock of the log is ahead: the median over the messages that both have.
@@ -159,7 +166,7 @@ int RunLogMerge(const LogMergeCommand& command) {
       if (source->there && (next == nullptr || source->at_us < next->at_us)) next = source.get();
     }
     if (next == nullptr) break;
-    if (written.insert(KeyOf(next->event, next->message)).second) {
+    if (written.insert(next->Key()).second) {
       copy.Add(next->event, next->at_us, next->message);
     } else {
       ++twice;

@@ -127,6 +127,32 @@ TEST_F(LogProgram, ACutHasTheTicksAndReadersTakeIt) {
   for (const std::string& name : files_->Names()) EXPECT_EQ(name.find("no.lcm"), std::string::npos);
 }
 
+std::int64_t EventsOf(const std::string& path) {
+  std::int64_t events = 0;
+  LogReader reader(path);
+  for (LogEvent event; reader.Next(&event);) ++events;
+  return events;
+}
+
+TEST_F(LogProgram, ItCountsTheEventsThatItWrites) {
+  const std::string cut =
+      Run({"cut", At("run.lcm"), "--from", "0", "--to", "1", "-o", At("counted.lcm")});
+  EXPECT_NE(cut.find(": " + std::to_string(EventsOf(At("counted.lcm"))) + " events"),
+            std::string::npos)
+      << cut;
+  // A merge with itself has each event once; one that the log itself has twice stays so.
+  const std::string all = std::to_string(EventsOf(At("run.lcm")));
+  const std::string merged = Run({"merge", At("run.lcm"), At("run.lcm"), "-o", At("twice.lcm")});
+  EXPECT_NE(merged.find(all + " events, " + all + " that came twice"), std::string::npos) << merged;
+}
+
+TEST_F(LogProgram, RangesAreNumbers) {
+  for (const std::string flag : {"--from", "--to"}) {
+    const std::string why = Run({"cut", At("run.lcm"), flag, "nan", "-o", At("nan.lcm")}, 2, true);
+    EXPECT_NE(why.find("nan is not a number"), std::string::npos) << why;
+  }
+}
+
 TEST_F(LogProgram, DamageIsNotCopiedUnderNewChecksums) {
   std::string bytes = files_->Read("run.lcm");
   bytes[bytes.size() / 2] ^= 1;

@@ -1,6 +1,7 @@
 #include "common/base/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "common/base/command/mistake.h"
@@ -9,6 +10,16 @@
 #include "common/base/version.h"
 
 namespace seam {
+namespace {
+
+/// Returns a line for the word that compares with nothing, and so passes every range; else "".
+std::string ANumber(const std::string& text) {
+  double value = 0;
+  const bool nan = CLI::detail::lexical_cast(text, value) && std::isnan(value);
+  return nan ? text + " is not a number" : "";
+}
+
+}  // namespace
 
 Flag& Flag::Range(int low, int high) { return option_->check(CLI::Range(low, high)), *this; }
 Flag& Flag::Range(float low, float high) { return option_->check(CLI::Range(low, high)), *this; }
@@ -38,10 +49,10 @@ Flag Command::Option(const std::string& names, std::int64_t& value, const std::s
   return Flag(app_->add_option(names, value, about));
 }
 Flag Command::Option(const std::string& names, float& value, const std::string& about) {
-  return Flag(app_->add_option(names, value, about));
+  return Flag(app_->add_option(names, value, about)->check(ANumber));
 }
 Flag Command::Option(const std::string& names, double& value, const std::string& about) {
-  return Flag(app_->add_option(names, value, about));
+  return Flag(app_->add_option(names, value, about)->check(ANumber));
 }
 Flag Command::Option(const std::string& names, std::optional<int>& value,
                      const std::string& about) {
@@ -49,7 +60,7 @@ Flag Command::Option(const std::string& names, std::optional<int>& value,
 }
 Flag Command::Option(const std::string& names, std::optional<double>& value,
                      const std::string& about) {
-  return Flag(app_->add_option(names, value, about));
+  return Flag(app_->add_option(names, value, about)->check(ANumber));
 }
 Flag Command::Option(const std::string& names, std::vector<std::string>& values,
                      const std::string& about) {

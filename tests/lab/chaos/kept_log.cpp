@@ -66,7 +66,7 @@ bool KeptLog::Restart(Cluster& cluster, std::int64_t down_us, std::vector<std::s
   const std::string path = folder_ + "/" + std::to_string(++files_) + ".lcm";
   fs::copy_file(path_, path);
   LogTail tail;
-  Status status = ReadLogTail(path, cluster.server().room().room, place_, &tail);
+  Status status = ReadLogTail(path, cluster.server().room().room, place_, nullptr, &tail);
   if (status.ok() && !tail.damage.empty()) status = Status::Error(tail.damage);
   std::unique_ptr<const SavedRoom> saved;
   if (status.ok()) saved = SavedRoom::Read(snapshot_, &status);
