@@ -316,10 +316,8 @@ bool Valid(const Summary& m) {
     good = good && std::all_of(counts->begin(), counts->end(), Counter);
   }
   for (const auto* counts : {&m.joins, &m.rejoins}) good = good && AllWithin(*counts, 0, INT32_MAX);
-  for (const auto* values : {&m.rtt_us, &m.rtt_worst_us, &m.loss_ppm}) {
-    good = good && AllWithin(*values, -1, INT32_MAX);
-  }
-  return good;
+  return good && AllWithin(m.rtt_us, -1, INT32_MAX) && AllWithin(m.rtt_worst_us, -1, INT32_MAX) &&
+         AllWithin(m.loss_ppm, -1, INT32_MAX);
 }
 
 bool Valid(const TickChain& m) {
@@ -328,9 +326,9 @@ bool Valid(const TickChain& m) {
 }
 
 bool Valid(const LogSeal& m) {
-  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Peer(m.peer) &&
-         TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0 &&
-         (m.log_keyed.empty() || m.log_keyed.size() == kLogKeyedBytes) && TicksOf(m);
+  const bool keyed = m.log_keyed.empty() || m.log_keyed.size() == kLogKeyedBytes;
+  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Peer(m.peer) && keyed &&
+         TickOrBefore(m.tick) && m.messages >= -1 && m.log_events >= 0 && TicksOf(m);
 }
 
 bool Valid(const Accepted& m) {

@@ -12,7 +12,7 @@
 
 #include "common/base/bytes.h"
 #include "common/codec/codec.h"
-#include "common/net/keyed_chain.h"
+#include "common/record/keyed_chain.h"
 #include "common/record/log_place.h"
 
 namespace seam {

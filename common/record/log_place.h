@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/net/keyed_chain.h"
+#include "common/record/keyed_chain.h"
 
 namespace seam {
 

@@ -21,7 +21,7 @@
 
 #include "common/base/bytes.h"
 #include "common/base/status.h"
-#include "common/net/keyed_chain.h"
+#include "common/record/keyed_chain.h"
 #include "common/record/log_place.h"
 #include "common/record/recorder.h"
 

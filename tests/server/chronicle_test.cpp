@@ -48,6 +48,7 @@ box = [4, 0.4]
 position = [62.2, 3.8]
 density = 100
 [[joint]]
+name = "hold"
 kind = "glue"
 a = "post"
 b = "arm"

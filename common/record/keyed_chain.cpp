@@ -1,4 +1,4 @@
-#include "common/net/keyed_chain.h"
+#include "common/record/keyed_chain.h"
 
 #include <sodium.h>
 
