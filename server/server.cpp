@@ -204,6 +204,7 @@ void Server::StepOnce(std::int64_t now_us) {
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;
     broadcast_.Relay(now_us, states, 0);
+    states.peer = 0;  // the server's words, also those about the bodies of a silent holder
     broadcast_.Publish(states);
   }
   TellRest(now_us);

@@ -50,6 +50,27 @@ TEST(ReplayCluster, EachTickHasTheRecordedHash) {
   }
 }
 
+TEST(ReplayCluster, TheServersWordsForSilentHoldersAreNotTakenForTheirs) {
+  int seeds = 0;
+  for (const char* scene : {"crossing", "derby", "wall"}) {
+    for (const int seed : {11, 12, 13}) {
+      TemporaryFile file;
+      ClusterConfig config;
+      config.scene = scene;
+      config.mode = "buffer";
+      config.drive = Drive::kBot;
+      config.impair = "delay=200ms,jitter=100ms,loss=20%";
+      config.seed = seed;
+      config.duration_s = 2;
+      Play(config, file.path());
+      std::size_t ticks = 0;
+      EXPECT_EQ(FirstOther(file.path(), &ticks), -1) << scene << " " << seed;
+      seeds += ticks > 0;
+    }
+  }
+  EXPECT_EQ(seeds, 9);
+}
+
 TEST(ReplayCluster, RulesScriptsAndEditsAreDoneAgain) {
   for (const char* mode : {"buffer", "central"}) {
     TemporaryFile file;

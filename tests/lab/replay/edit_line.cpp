@@ -1,6 +1,7 @@
 #include "tests/lab/replay/edit_line.h"
 
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -39,9 +40,8 @@ class Words {
     Fail("no part " + name + " (" + Suggestion(name, names) + ")");
   }
   std::string Rest() {
-    std::string rest;
-    std::getline(in_ >> std::ws, rest);
-    return rest;
+    in_ >> std::ws;
+    return {std::istreambuf_iterator<char>(in_), {}};
   }
   void End() {
     std::string more;
