@@ -112,14 +112,16 @@ TEST(Log, WritesTheExampleOfTheDocumentation) {
   EXPECT_EQ(hex,
             "eda1da010000000000000000"
             "0000000000000005"
-            "0000000e00000033"
+            "0000000e00000050"
             "5345414d2e722e6576656e742e32"
-            "71e7d8d436202ff5"
+            "08d79625822525c8"
             "0000000000000005"
             "1122334455667788"
             "000000000000000100000002"
             "0000000000000003"
-            "00000003686900");
+            "0000000368690000"
+            "ffffffffffffffffffffffffffffffffffffffff"
+            "0000000000000000");
 }
 
 TEST(Log, RefusesToOverwriteUnlessForced) {

@@ -12,7 +12,10 @@ namespace seam {
 class DisjointSets {
  public:
   /// Creates the sets {0} to {count - 1}.
-  explicit DisjointSets(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0); }
+  explicit DisjointSets(std::size_t count) : up_(count) { Separate(); }
+
+  /// Makes each number a set of its own again.
+  void Separate() { std::iota(up_.begin(), up_.end(), 0); }
 
   /// Returns the lowest member of the set of `of`.
   int Find(int of) {

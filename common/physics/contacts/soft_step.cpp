@@ -32,7 +32,7 @@ SoftStep::SoftStep(const Solver& solver, b2World* world, const BuiltScene& built
       joints_.push_back(other);
     }
   }
-  root_.resize(all_.size());
+  sets_ = DisjointSets(all_.size());
   islands_.resize(all_.size());
   index_.resize(all_.size());
 }
@@ -41,25 +41,10 @@ int SoftStep::PlaceOf(b2Body* body) const {
   return place_[static_cast<std::size_t>(IndexOf(body))];
 }
 
-int SoftStep::Root(int body) {
-  while (root_[static_cast<std::size_t>(body)] != body) {
-    int& next = root_[static_cast<std::size_t>(body)];
-    next = root_[static_cast<std::size_t>(next)];
-    body = next;
-  }
-  return body;
-}
-
-void SoftStep::Join(int a, int b) {
-  a = Root(a);
-  b = Root(b);
-  root_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-}
-
 void SoftStep::FindIslands() {
-  for (std::size_t i = 0; i < all_.size(); ++i) root_[i] = static_cast<int>(i);
+  sets_.Separate();
   std::fill(islands_.begin(), islands_.end(), Island{});
-  for (std::size_t i = 0; i < joints_.size(); i += 2) Join(joints_[i], joints_[i + 1]);
+  for (std::size_t i = 0; i < joints_.size(); i += 2) sets_.Unite(joints_[i], joints_[i + 1]);
   pairs_.clear();
   for (b2Contact* c = world_->GetContactList(); c != nullptr; c = c->GetNext()) {
     if (!Pushes(c)) continue;
@@ -68,23 +53,22 @@ void SoftStep::FindIslands() {
     b2Body* const b = c->GetFixtureB()->GetBody();
     if (Moves(a)) pair.a = PlaceOf(a);
     if (Moves(b)) pair.b = PlaceOf(b);
-    if (pair.a >= 0 && pair.b >= 0) Join(pair.a, pair.b);
+    if (pair.a >= 0 && pair.b >= 0) sets_.Unite(pair.a, pair.b);
     pairs_.push_back(pair);
   }
   for (std::size_t i = 0; i < all_.size(); ++i) {
-    Island& island = islands_[static_cast<std::size_t>(Root(static_cast<int>(i)))];
+    Island& island = IslandOf(static_cast<int>(i));
     island.awake = island.awake || all_[i]->IsAwake();
     island.jointed = island.jointed || jointed_[i] != 0;
     island.quiet = b2_maxFloat;
   }
   for (const Pair& pair : pairs_) {
-    islands_[static_cast<std::size_t>(Root(std::max(pair.a, pair.b)))].points +=
-        pair.made->GetManifold()->pointCount;
+    IslandOf(std::max(pair.a, pair.b)).points += pair.made->GetManifold()->pointCount;
     if (pair.a >= 0 && pair.b >= 0) continue;
     b2Fixture* const fixed = pair.a >= 0 ? pair.made->GetFixtureB() : pair.made->GetFixtureA();
     const b2Body* const body = fixed->GetBody();
     if (body->GetType() != b2_kinematicBody) continue;
-    Island& island = islands_[static_cast<std::size_t>(Root(std::max(pair.a, pair.b)))];
+    Island& island = IslandOf(std::max(pair.a, pair.b));
     island.awake = island.awake || body->IsAwake();
     island.driven = island.driven || body->GetLinearVelocity().LengthSquared() > 0 ||
                     body->GetAngularVelocity() != 0;
@@ -99,7 +83,7 @@ bool SoftStep::FindOurs() {
     b2Body* const body = all_[i];
     index_[i] = -1;
     if (!body->IsEnabled()) continue;
-    const Island& island = islands_[static_cast<std::size_t>(Root(static_cast<int>(i)))];
+    const Island& island = IslandOf(static_cast<int>(i));
     if (!island.awake) continue;
     left = left || island.jointed;
     if (island.jointed) continue;
@@ -161,8 +145,7 @@ void SoftStep::LoadContacts() {
                            : index_[static_cast<std::size_t>(pair.a)];
     contact.b = pair.b < 0 ? Fixed(pair.made->GetFixtureB()->GetBody())
                            : index_[static_cast<std::size_t>(pair.b)];
-    contact.small =
-        islands_[static_cast<std::size_t>(Root(std::max(pair.a, pair.b)))].points <= kPointsOfSmall;
+    contact.small = IslandOf(std::max(pair.a, pair.b)).points <= kPointsOfSmall;
     ReadSoftContact(soft_.bodies, &contact);
     soft_.contacts.push_back(contact);
   }
@@ -189,12 +172,12 @@ void SoftStep::Save(float h) {
         q.vx * q.vx + q.vy * q.vy <= b2_linearSleepTolerance * b2_linearSleepTolerance;
     float& slept = body->*Member(BodySleepTime());
     slept = slow && (body->*Member(BodyFlags()) & kBodyAutoSleep) != 0 ? slept + h : 0;
-    Island& island = islands_[static_cast<std::size_t>(Root(ours_[k]))];
+    Island& island = IslandOf(ours_[k]);
     island.quiet = island.driven ? 0 : std::min(island.quiet, slept);
   }
   if (!world_->GetAllowSleeping()) return;
   for (const int i : ours_) {
-    const Island& island = islands_[static_cast<std::size_t>(Root(i))];
+    const Island& island = IslandOf(i);
     if (island.quiet >= b2_timeToSleep) all_[static_cast<std::size_t>(i)]->SetAwake(false);
   }
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "common/base/spatial/disjoint_sets.h"
 #include "common/physics/contacts/soft_solve.h"
 #include "common/physics/world_build.h"
 
@@ -31,7 +32,7 @@ class SoftStep {
   void Fall();
 
  private:
-  struct Island {  // at the index of its root in `islands_`
+  struct Island {  // in `islands_` at the index of its lowest body
     bool awake = false, jointed = false, driven = false;
     int points = 0;   // of its contacts
     float quiet = 0;  // s for which all its bodies have been slow
@@ -41,8 +42,7 @@ class SoftStep {
     int a = -1, b = -1;
   };
 
-  int Root(int body);
-  void Join(int a, int b);
+  Island& IslandOf(int body) { return islands_[static_cast<std::size_t>(sets_.Find(body))]; }
   int PlaceOf(b2Body* body) const;
   void FindIslands();
   bool FindOurs();
@@ -58,7 +58,7 @@ class SoftStep {
   std::vector<b2Body*> all_;   // the moving bodies in the world
   std::vector<int> joints_;    // pairs of indices into all_ that a joint connects
   std::vector<char> jointed_;  // by index into all_
-  std::vector<int> root_;      // likewise: towards the root of its island
+  DisjointSets sets_{0};       // of indices into all_: the islands
   std::vector<Island> islands_;
   std::vector<Pair> pairs_;
   std::vector<int> ours_;       // indices into all_, in the order of soft_.bodies
