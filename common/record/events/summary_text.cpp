@@ -92,20 +92,17 @@ std::string SummaryTable(const Summary& s, int tick_hz) {
   if (s.peer.empty()) return table;
   const auto line = [](const auto&... cells) {
     return fmt::format(
-        "  {:<16} {:>4} {:>5} {:>7} {:>8} {:>7} {:>7} {:>8} {:>7} {:>9} {:>9} {:>9} {:>6} "
-        "{:>12} {:>6}\n",
-        cells...);
+        "  {:<16} {:>4} {:>5} {:>7} {:>5} {:>6} {:>7} {:>6} {:>8} {:>8} {:>9} {:>5}\n", cells...);
   };
-  table += line("client", "peer", "joins", "rejoins", "time", "score", "rtt", "worst", "loss", "in",
-                "out", "corrected", "given", "trust", "drops");
+  table += line("client", "peer", "joins", "time", "score", "rtt", "worst", "loss", "in", "out",
+                "corrected", "drops");
   const std::vector<std::string> names = NamesOf(s);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    table +=
-        line(names[i] + (s.player[i] < 0 ? " (guest)" : ""), s.peer[i], s.joins[i], s.rejoins[i],
-             fmt::format("{:.1f} s", Seconds(s.present_ticks[i], tick_hz)),
-             fmt::format("{:g}", s.score[i]), RoundTrip(s.rtt_us[i]), RoundTrip(s.rtt_worst_us[i]),
-             Loss(s.loss_ppm[i]), Amount(s.bytes_in[i]), Amount(s.bytes_out[i]), s.corrections[i],
-             s.hand_overs_to[i], TrustStepName(s.trust[i]), Drops(s, i));
+    table += line(names[i] + (s.player[i] < 0 ? " (guest)" : ""), s.peer[i], s.joins[i],
+                  fmt::format("{:.1f} s", Seconds(s.present_ticks[i], tick_hz)),
+                  fmt::format("{:g}", s.score[i]), RoundTrip(s.rtt_us[i]),
+                  RoundTrip(s.rtt_worst_us[i]), Loss(s.loss_ppm[i]), Amount(s.bytes_in[i]),
+                  Amount(s.bytes_out[i]), s.corrections[i], Drops(s, i));
   }
   const std::size_t more = static_cast<std::size_t>(s.clients) - names.size();
   return more == 0 ? table : table + fmt::format("  and {} more\n", more);
