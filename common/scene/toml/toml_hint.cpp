@@ -1,8 +1,12 @@
 #include "common/scene/toml/toml_hint.h"
 
-#include <cstddef>
-#include <regex>
+#include <regex.h>
 
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "common/base/check.h"
 #include "common/scene/toml/scene_text.h"
 
 namespace seam {
@@ -23,37 +27,74 @@ std::string LineOfText(const std::string& text, int line) {
   return first == std::string::npos ? "" : found.substr(first);
 }
 
-/// A slip: the form of a line, and its remedy, in which $1 is a part of the line.
+/// A slip: the form of a line, a POSIX extended regular expression with GNU's \w, \s and \b, and
+/// its remedy, in which $1 is a part of the line.
 struct Slip {
   const char* form;
   const char* remedy;
+  const char* unless = nullptr;  ///< a form that is no such slip
 };
 
 /// Ordered: the first form that is in the line counts.
 constexpr Slip kSlips[] = {
-    {"\xe2\x80[\x9c\x9d\x9e\x98\x99]", "quotes are plain ones: \" or '"},
-    {"^\\[\\[[\\w.-]+\\]?$", "a table of a list ends with two brackets: [[part]]"},
-    {"^\\[[\\w.-]+$", "a table's name ends with a bracket: [solver]"},
-    {"^([\\w-]+)\\s*:", "write $1 = ..., with = and not :"},
-    {"^([\\w-]+)\\s+[\\[\"'0-9-]", "there is no = behind $1"},
-    {"=\\s*(-?\\d+),(\\d+)\\s*(#.*)?$", "a decimal point, not a comma: $1.$2"},
+    {"\xe2\x80(\x9c|\x9d|\x9e|\x98|\x99)", "quotes are plain ones: \" or '"},
+    {"^\\[\\[[[:alnum:]_.-]+\\]?$", "a table of a list ends with two brackets: [[part]]"},
+    {"^\\[[[:alnum:]_.-]+$", "a table's name ends with a bracket: [solver]"},
+    {"^([[:alnum:]_-]+)\\s*:", "write $1 = ..., with = and not :"},
+    {"^([[:alnum:]_-]+)\\s+[[\"'0-9-]", "there is no = behind $1"},
+    {"=\\s*(-?[0-9]+),([0-9]+)\\s*(#.*)?$", "a decimal point, not a comma: $1.$2"},
     {"=\\s*\\(([^()]*)\\)", "square brackets: [$1]"},
-    {"\\[[^\\]]*;", "a comma between numbers, not a semicolon"},
-    {"[\\[,=]\\s*(-?\\d+(\\.\\d+)?)\\s*(\xc2\xb0|deg|degrees)",
+    {"\\[[^]]*;", "a comma between numbers, not a semicolon"},
+    {"[[,=]\\s*(-?[0-9]+(\\.[0-9]+)?)\\s*(\xc2\xb0|deg|degrees)",
      "angles are in radians and have no unit: 180 degrees are 3.1416"},
-    {"[\\[,=]\\s*(-?\\d+(\\.\\d+)?)\\s*[A-Za-z%]+", "numbers have no unit: $1"},
+    {"[[,=]\\s*(-?[0-9]+(\\.[0-9]+)?)\\s*[A-Za-z%]+", "numbers have no unit: $1"},
     {"=\\s*(True|False|TRUE|FALSE|yes|no|on|off|Yes|No|On|Off)\\s*(#.*)?$",
      "say true or false, in small letters"},
-    {"[\\[,=]\\s*(-?)(\\.\\d+)", "a digit before the point: $010$2"},
-    {"[\\[,=]\\s*(-?\\d+)\\.(?!\\d)", "a digit behind the point: $1.0"},
-    {"[\\[,=]\\s*(-?)0+([1-9]\\d*)\\s*([\\],}#]|$)", "no zeros before a number: $1$2"},
-    {"\\[\\s*-?\\d+(\\.\\d+)?(,\\d+)?\\s+-?\\d", "a comma between numbers, and a decimal point"},
-    {"=\\s*(?!(true|false|inf|nan)\\b)([A-Za-z_][\\w-]*)\\s*(#.*)?$",
-     "text stands in quotes: \"$2\""},
-    {"=\\s*(\"[^\"]*\"|'[^']*'|[\\w.+-]+|\\[[^\\[\\]]*\\])\\s+[^\\s#]",
+    {"[[,=]\\s*(-?)(\\.[0-9]+)", "a digit before the point: $10$2"},
+    {"[[,=]\\s*(-?[0-9]+)\\.([^0-9]|$)", "a digit behind the point: $1.0"},
+    {"[[,=]\\s*(-?)0+([1-9][0-9]*)\\s*([],}#]|$)", "no zeros before a number: $1$2"},
+    {"\\[\\s*-?[0-9]+(\\.[0-9]+)?(,[0-9]+)?\\s+-?[0-9]",
+     "a comma between numbers, and a decimal point"},
+    {"=\\s*([A-Za-z_][[:alnum:]_-]*)\\s*(#.*)?$", "text stands in quotes: \"$1\"",
+     "=\\s*(true|false|inf|nan)\\b"},
+    {"=\\s*(\"[^\"]*\"|'[^']*'|[[:alnum:]_.+-]+|\\[[^][]*\\])\\s+[^[:space:]#]",
      "one value, and nothing behind it on its line"},
     {"=\\s*(#.*)?$", "there is no value behind ="},
 };
+
+/// The whole and the parts $1 to $9 of what has the form.
+constexpr std::size_t kMatchParts = 10;
+struct Match {
+  std::string parts[kMatchParts];
+};
+
+std::optional<Match> Find(const char* form, const std::string& line) {
+  regex_t compiled;
+  SEAM_ASSERT(regcomp(&compiled, form, REG_EXTENDED) == 0);
+  regmatch_t places[kMatchParts];
+  const bool found = regexec(&compiled, line.c_str(), kMatchParts, places, 0) == 0;
+  regfree(&compiled);
+  if (!found) return std::nullopt;
+  Match match;
+  for (std::size_t i = 0; i < kMatchParts; ++i) {
+    if (places[i].rm_so < 0) continue;
+    match.parts[i].assign(line, static_cast<std::size_t>(places[i].rm_so),
+                          static_cast<std::size_t>(places[i].rm_eo - places[i].rm_so));
+  }
+  return match;
+}
+
+std::string Filled(const char* remedy, const Match& match) {
+  std::string text;
+  for (const char* c = remedy; *c != '\0'; ++c) {
+    if (*c == '$') {
+      text += match.parts[*++c - '0'];
+    } else {
+      text += *c;
+    }
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -61,11 +102,11 @@ std::string TomlHint(const std::string& text, int line) {
   const std::string found = LineOfText(text, line);
   if (found.empty()) return "";
   for (const Slip& slip : kSlips) {
-    std::smatch match;
-    if (!std::regex_search(found, match, std::regex(slip.form))) continue;
+    const std::optional<Match> match = Find(slip.form, found);
+    if (!match || (slip.unless != nullptr && Find(slip.unless, found))) continue;
     std::string shown = found.substr(0, found.find(" #"));
     shown.erase(shown.find_last_not_of(" \t") + 1);
-    return Printable(shown) + ": " + match.format(slip.remedy);
+    return Printable(shown) + ": " + Filled(slip.remedy, *match);
   }
   return "";
 }
