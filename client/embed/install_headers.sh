@@ -11,6 +11,8 @@ put() {  # FILE AS
   chmod 644 "$to/$2"
 }
 for header in client/embed/seam2d/*.h; do put "$header" "${header##*/}"; done
-"${CXX:-g++}" -std=c++17 -I. -isystem "${EIGEN:-/usr/include/eigen3}" -MM client/embed/seam2d/*.h | tr -s ' \\' '\n' |
+# CXX may be several words.
+needed=$(${CXX:-g++} -std=c++17 -I. -isystem "${EIGEN:-/usr/include/eigen3}" -MM client/embed/seam2d/*.h)
+echo "$needed" | tr -s ' \\' '\n' |
   grep -E '^(common|server|client)/.*\.h$' | grep -v '^client/embed/seam2d/' | sort -u |
   while read -r header; do put "$header" "detail/$header"; done
