@@ -36,6 +36,11 @@ Event Chronicle::Say(std::int64_t now_us, Event event) {
   return event;
 }
 
+void Chronicle::SayResumed(std::int64_t now_us) {
+  Say(now_us, MakeEvent(EventKind::kResumed,
+                        "the room goes on after tick " + std::to_string(replica_.tick())));
+}
+
 std::string Chronicle::NameOf(int player) const {
   return replica_.world().scene().players[static_cast<std::size_t>(player)].name;
 }

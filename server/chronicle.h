@@ -28,6 +28,7 @@ class Chronicle {
   /// Publishes an event with time and tick, on the bus only, and returns it. Of each kind kPerS a
   /// second are published, and kEventBurst at once; more are only counted.
   Event Say(std::int64_t now_us, Event event);
+  void SayResumed(std::int64_t now_us);
   /// To be called before an edit is applied: counts it, says broken joints and seats.
   void NoteEdit(std::int64_t now_us, const Edit& edit);
   /// Says changed scores.

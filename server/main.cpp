@@ -122,8 +122,9 @@ void CheckResume(const Flags& f) {
   }
 }
 
-RoomPlan PlanOfResumed(const Flags& f, const std::string& name, int index, int rooms) {
-  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, KeyOfLogs(f).get()));
+RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string& name, int index,
+                       int rooms) {
+  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, log_key));
   const Room& room = resumed->saved->room();
   RoomPlan plan;
   plan.scene = resumed->saved->scene();
@@ -171,14 +172,14 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   return plan;
 }
 
-std::vector<RoomPlan> MakePlans(const Flags& f) {
+std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key) {
   std::vector<RoomPlan> plans;
   if (!f.resume.empty()) {
     CheckResume(f);
     const std::vector<std::string> names = RoomsIn(f.resume);
     const int rooms = static_cast<int>(names.size());
     for (int r = 0; r < rooms; ++r) {
-      plans.push_back(PlanOfResumed(f, names[static_cast<std::size_t>(r)], r, rooms));
+      plans.push_back(PlanOfResumed(f, log_key, names[static_cast<std::size_t>(r)], r, rooms));
     }
     return plans;
   }
@@ -204,16 +205,15 @@ void SetKeys(const Flags& f, std::vector<RoomPlan>* plans) {
   if (!f.token_key.empty()) {
     token_key = std::make_shared<const Secret>(ReadSecretFile("--token-key", f.token_key));
   }
-  const auto log_key = KeyOfLogs(f);
   for (RoomPlan& plan : *plans) {
-    plan.log_key = log_key;
     plan.config.identity = identity;
     plan.config.token_key = token_key;
   }
 }
 
 int Serve(const Flags& f) {
-  std::vector<RoomPlan> plans = MakePlans(f);
+  const std::shared_ptr<const Secret> log_key = KeyOfLogs(f);
+  std::vector<RoomPlan> plans = MakePlans(f, log_key.get());
   if (!f.summary.empty()) RequireOutput(f.summary, f.force, f.scenes);
   SetKeys(f, &plans);
   std::shared_ptr<StoreWriter> store;
@@ -221,7 +221,10 @@ int Serve(const Flags& f) {
     RequirePlainFile(f.store);
     store = std::make_shared<StoreWriter>(f.store);
   }
-  for (RoomPlan& plan : plans) plan.store = store;
+  for (RoomPlan& plan : plans) {
+    plan.log_key = log_key;
+    plan.store = store;
+  }
   const int rooms = static_cast<int>(plans.size());
   if (f.workers > 0 && rooms == 1) throw OperatorError("--workers: one room has one thread");
   UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));

@@ -160,8 +160,7 @@ void Server::GoOn(std::int64_t now_us) {
   broadcast_.Mute(false);
   clock_.GoOn(now_us, replica_.tick());
   TakeAllBack(now_us);
-  chronicle_->Say(now_us, MakeEvent(EventKind::kResumed, "the room goes on after tick " +
-                                                             std::to_string(replica_.tick())));
+  chronicle_->SayResumed(now_us);
 }
 
 void Server::TakeInputs(std::int64_t now_us, const Inputs& inputs) {

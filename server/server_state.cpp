@@ -36,9 +36,7 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
     for (const int player : gone) present.emplace(player, true);
     chronicle_->SumKilled(now_us, *tail->summary, present, rules_.get());
   }
-  Event event = MakeEvent(EventKind::kResumed,
-                          "the room goes on after tick " + std::to_string(replica_.tick()));
-  chronicle_->Say(now_us, event);
+  chronicle_->SayResumed(now_us);
   TakeAllBack(now_us);
   for (const int player : gone) {
     if (rules_ != nullptr) rules_->OnLeave(player);

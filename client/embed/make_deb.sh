@@ -5,8 +5,8 @@ set -eu
 PYTHON3=${PYTHON3:-/usr/bin/python3}
 folder=$1
 rm -rf "$folder"
-mkdir -p "$folder/work/debian"
-work=$(cd "$folder/work" && pwd)
+mkdir -p "$folder/stage/debian"
+work=$(cd "$folder/stage" && pwd)
 env -u MAKEFLAGS -u MAKELEVEL "${MAKE:-make}" --no-print-directory install-built BUILD="$BUILD" \
   DESTDIR="$work/all" PREFIX=/usr > "$folder/install.log"
 architecture=$(dpkg --print-architecture)

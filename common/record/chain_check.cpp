@@ -6,13 +6,11 @@
 #include <variant>
 
 #include "common/net/crc32c.h"
+#include "common/record/log_bytes.h"
 #include "common/record/log_file.h"
 
 namespace seam {
 namespace {
-
-/// Bytes of log_crc, the last of a seal, and of these with log_keyed before them.
-constexpr std::size_t kCrcBytes = 4, kKeyedBytes = kCrcBytes + kLogKeyedBytes;
 
 /// Adds a range; one that goes on where the last one ends becomes part of it.
 void AddRange(std::int64_t after_tick, std::int64_t tick, bool forged,
@@ -104,7 +102,7 @@ bool ChainCheck::KeyedAsWritten(ByteView header, const LogEvent& event, const Se
   const bool there = seal.keyed.size() == told.size();
   if (there) {
     std::memcpy(told.data(), seal.keyed.data(), told.size());
-    AddEvent(header, event, kKeyedBytes, &*keyed_);
+    AddEvent(header, event, kSealKeyedBytes, &*keyed_);
   }
   const bool same = there && keyed_->Is(told);
   keyed_.emplace(*key_, told);
@@ -112,7 +110,7 @@ bool ChainCheck::KeyedAsWritten(ByteView header, const LogEvent& event, const Se
 }
 
 void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& seal) {
-  const ByteView data(event.data.data(), event.data.size() - kCrcBytes);
+  const ByteView data(event.data.data(), event.data.size() - kSealCrcBytes);
   const auto with = [&](std::uint32_t crc) {
     return Crc32c(data, Crc32c(TextBytes(event.channel), Crc32c(header, crc)));
   };

@@ -5,8 +5,12 @@
 #include <string>
 
 #include "common/base/bytes.h"
+#include "common/codec/log_seal.h"
 
 namespace seam {
+
+/// The end of an encoded LogSeal, and so of its event: log_crc, and with a key log_keyed before it.
+constexpr std::size_t kSealCrcBytes = 4, kSealKeyedBytes = kLogKeyedBytes + kSealCrcBytes;
 
 /// Appends an event to `log`.
 void AppendEvent(Bytes* log, std::int64_t number, std::int64_t utime, const std::string& channel,

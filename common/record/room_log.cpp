@@ -18,14 +18,8 @@
 #include "common/record/log_file.h"
 
 namespace seam {
-namespace {
 
-/// Bytes of LogSeal::log_crc, the last ones of an encoded LogSeal and so of its event.
-constexpr std::size_t kSealCrcBytes = 4;
-constexpr std::size_t kSealKeyedAt = kLogKeyedBytes + kSealCrcBytes;  // from its end
 static_assert(kLogKeyedBytes == std::tuple_size<KeyedChain::Hash>::value);
-
-}  // namespace
 
 RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key)
     : path_(path), disk_(disk), file_(std::make_shared<File>(LogWriter::Open(path, force))) {
@@ -151,7 +145,7 @@ void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
 
 /// Fills in the keyed hash of the events and the seal in buffer_.
 void RoomLog::AddKeyed(std::size_t seal_at) {
-  const std::size_t keyed_at = buffer_.size() - kSealKeyedAt;
+  const std::size_t keyed_at = buffer_.size() - kSealKeyedBytes;
   keyed_->Add({buffer_.data(), seal_at});
   KeyedChain with_seal = *keyed_;
   with_seal.Add({buffer_.data() + seal_at, keyed_at - seal_at});

@@ -20,7 +20,7 @@ std::string LineOfText(const std::string& text, int line) {
   }
   if (begin == std::string::npos || begin > text.size()) return "";
   std::string found = text.substr(begin, text.find('\n', begin) - begin);
-  constexpr std::size_t kLongestLooked = 400;  // a regular expression recurses
+  constexpr std::size_t kLongestLooked = 400;  // no people write longer ones
   if (found.size() > kLongestLooked) return "";
   if (!found.empty() && found.back() == '\r') found.pop_back();
   const std::size_t first = found.find_first_not_of(" \t");
