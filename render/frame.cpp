@@ -95,11 +95,23 @@ Rect WorldArea(const Panel& panel, const Rect& area, float scale) {
   return {area.x, area.y, area.width, area.height - RegionLinesHeight(*panel.playback, scale)};
 }
 
+/// Returns the texts in the corners of a panel: caption, error or distance, note.
+CornerTexts CornersOf(const Page& page, const Panel& panel, double now_s) {
+  const std::string error = page.panels.size() > 1 ? ErrorText(panel, now_s) : "";
+  std::string right = error.empty() ? "" : "error " + error;
+  if (panel.over != nullptr) {
+    const double apart = ApartOf(*panel.playback, *panel.over, panel.peer, now_s);
+    right = apart < 0 ? "" : "apart " + FormatLength(apart) + " RMS";
+  }
+  return {panel.caption, right, panel.swatch, TextOf(NoteOf(panel, now_s))};
+}
+
 void DrawPanelWorld(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
                     double now_s) {
   const Rect world = WorldArea(panel, area, list.font().scale());
   const Viewport viewport = ViewportOf(page, panel, world, now_s);
   WorldLook look = page.look;
+  look.texts = CornerAreas(list, world, CornersOf(page, panel, now_s));
   look.peer = panel.peer;
   look.tick = panel.playback->TickAt(now_s);
   DrawWorld(list, viewport, *panel.playback, look);
@@ -114,14 +126,7 @@ void DrawPanelFrame(DrawList& list, const Page& page, const Panel& panel, const 
   const Rect world = WorldArea(panel, area, list.font().scale());
   const Viewport viewport = ViewportOf(page, panel, world, now_s);
   DrawRegionLines(list, viewport, *panel.playback, world.bottom());
-  const std::string error = page.panels.size() > 1 ? ErrorText(panel, now_s) : "";
-  std::string corner = error.empty() ? "" : "error " + error;
-  if (panel.over != nullptr) {
-    const double apart = ApartOf(*panel.playback, *panel.over, panel.peer, now_s);
-    corner = apart < 0 ? "" : "apart " + FormatLength(apart) + " RMS";
-  }
-  DrawCaption(list, world, panel.caption, corner, panel.swatch);
-  DrawNote(list, world, TextOf(NoteOf(panel, now_s)));
+  DrawCorners(list, world, CornersOf(page, panel, now_s));
   const Rect frame{world.x + 0.5f, world.y + 0.5f, world.width - 1, world.height - 1};
   list.StrokeRect(frame, {1, kFrame, 0});
 }
@@ -161,11 +166,15 @@ void DrawPanels(DrawList& list, const Page& page, const Areas& areas, double now
     DrawPanelFrame(list, page, page.panels[i], areas.panels[i], now_s);
 }
 
+void DrawPageLegend(DrawList& list, const Rect& area, const Page& page) {
+  const Playback& first = *page.panels.front().playback;
+  DrawLegend(list, area, first, page.look, !first.recording().impacts.empty());
+}
+
 void DrawStillAround(DrawList& list, const Page& page, const Areas& areas) {
   // Room for the greatest number of figures, so that the title keeps its length.
   DrawHeader(list, areas.header, page.title, page.subtitle, Figures(page, page.to_s).size());
-  const Playback& first = *page.panels.front().playback;
-  DrawLegend(list, areas.legend, first, page.look, !first.recording().impacts.empty());
+  DrawPageLegend(list, areas.legend, page);
   DrawStrip(list, areas.strip, page.curves, {page.strip_from_s, page.strip_to_s, page.to_s});
 }
 
@@ -283,23 +292,28 @@ void DrawPage(DrawList& list, const Page& page, double now_s) {
 void DrawSheet(DrawList& list, const Page& page, int moments) {
   list.Begin(page.width_px, page.height_px);
   const float scale = list.font().scale(), margin = 18 * scale, header = 58 * scale;
+  const float legend = 26 * scale;
   const float width = static_cast<float>(page.width_px) - 2 * margin;
-  const std::string span = FormatTime(page.from_s) + " to " + FormatTime(page.to_s);
-  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle + "  ·  " + span,
-             0);
-  const Rect area{margin, header, width, static_cast<float>(page.height_px) - header - margin};
-  const int count = moments * static_cast<int>(page.panels.size());
-  const std::vector<Rect> cells = Tile(area, count, Aspect(page), 6 * scale,
-                                       RegionLinesHeight(*page.panels.front().playback, scale));
-  for (int i = 0; i < count; ++i) {
-    const auto of = static_cast<std::size_t>(i) % page.panels.size();
-    const int moment = i / static_cast<int>(page.panels.size());
+  std::string text =
+      page.subtitle + "  ·  " + FormatTime(page.from_s) + " to " + FormatTime(page.to_s);
+  if (page.panels.size() == 1) text = page.panels.front().caption + "  ·  " + text;
+  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, text, 0);
+  const Rect area{margin, header, width, static_cast<float>(page.height_px) - header - legend};
+  DrawPageLegend(list, {margin, area.bottom(), width, legend}, page);
+  const float lines = RegionLinesHeight(*page.panels.front().playback, scale), gap = 6 * scale;
+  const int runs = static_cast<int>(page.panels.size());
+  const float aspect = Aspect(page);
+  int moment = 0;
+  for (const Rect& cell : Tile(area, moments, aspect * static_cast<float>(runs), gap, lines)) {
     const double now_s =
-        page.from_s + (page.to_s - page.from_s) * moment / std::max(1, moments - 1);
-    Panel panel = page.panels[of];
-    panel.caption = FormatTime(now_s) + (page.panels.size() > 1 ? "  " + panel.caption : "");
-    DrawPanelWorld(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
-    DrawPanelFrame(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
+        page.from_s + (page.to_s - page.from_s) * moment++ / std::max(1, moments - 1);
+    std::size_t of = 0;
+    for (const Rect& place : Tile(cell, runs, aspect, gap, lines)) {
+      Panel panel = page.panels[of++];
+      panel.caption = FormatTime(now_s) + (runs > 1 ? "  " + panel.caption : "");
+      DrawPanelWorld(list, page, panel, place, now_s);
+      DrawPanelFrame(list, page, panel, place, now_s);
+    }
   }
 }
 

@@ -128,6 +128,24 @@ std::vector<std::array<Vec2, 2>> RimOf(const std::vector<Outline>& outlines) {
   return rim;
 }
 
+/// Returns, by mechanism, the index of its heaviest assembly.
+std::vector<int> LeadersOf(const Scene& scene, const Composition& composition) {
+  std::vector<int> leaders;
+  for (const Mechanism& mechanism : composition.mechanisms) {
+    float greatest = -1;
+    leaders.push_back(-1);
+    for (const int index : mechanism.assemblies) {
+      float mass = 0;
+      for (const PartId id : composition.assemblies[static_cast<std::size_t>(index)].parts)
+        mass += PartMass(PartOf(scene, id));
+      if (mass <= greatest) continue;
+      greatest = mass;
+      leaders.back() = index;
+    }
+  }
+  return leaders;
+}
+
 }  // namespace
 
 Frame2::Frame2(const Pose& pose)
@@ -137,11 +155,16 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
                                  bool anchored) {
   std::vector<BodyShapes> bodies;
   const std::map<PartId, FigurePart> figures = FiguresOf(scene);
+  const std::vector<int> leaders = LeadersOf(scene, composition);
   int moved = 0;
-  for (const Assembly& assembly : composition.assemblies) {
+  for (std::size_t index = 0; index < composition.assemblies.size(); ++index) {
+    const Assembly& assembly = composition.assemblies[index];
     if (assembly.anchored != anchored) continue;
     BodyShapes body;
     body.id = assembly.id;
+    if (assembly.mechanism >= 0) {
+      body.leads = leaders[static_cast<std::size_t>(assembly.mechanism)] == static_cast<int>(index);
+    }
     body.parts = assembly.parts;
     body.start = PoseOf(PartOf(scene, assembly.id));
     if (assembly.kinematic >= 0) body.imposed = moved++;

@@ -64,6 +64,7 @@ struct BodyShapes {
   Pose start;             ///< pose of the root part at tick 0
   int imposed = -1;       ///< kinematic: index into the scene's ImposedMotions; -1: not
   int owner_player = -1;  ///< the player with a part of this body as vehicle, -1: none
+  bool leads = true;      ///< moving: the heaviest body of its mechanism (ties: the lowest id)
 };
 
 /// A drawn joint; anchors in the frames of the two bodies.

@@ -113,34 +113,45 @@ void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, cons
   }
 }
 
-void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
-                 const std::string& right, Colour swatch) {
+std::vector<Rect> CornerAreas(const DrawList& list, const Rect& panel, const CornerTexts& corners) {
   const float scale = list.font().scale();
-  const float base = panel.y + 17 * scale;
-  float x = panel.x + 10 * scale;
-  const float from = x - 5 * scale;
-  const float mark = swatch.a > 0 ? 22 * scale : 0;
-  const float width = list.font().Width(TextStyle::kStrong, left) + mark + 10 * scale;
-  list.FillRect({from, panel.y + 4 * scale, width, 18 * scale}, Faded(kPanel, 0.8f));
-  if (swatch.a > 0) list.FillRect({x, base - 7 * scale, 16 * scale, 4 * scale}, swatch);
-  list.Text(x + mark, base, TextStyle::kStrong, left, kInk);
-  if (right.empty()) return;
-  const float end = panel.right() - 10 * scale;
-  const float right_width = list.font().Width(TextStyle::kStrong, right);
-  list.FillRect(
-      {end - right_width - 5 * scale, panel.y + 4 * scale, right_width + 10 * scale, 18 * scale},
-      Faded(kPanel, 0.8f));
-  list.Text(end, base, TextStyle::kStrong, right, kInk, Align::kRight);
+  const auto width = [&](TextStyle style, const std::string& text) {
+    return list.font().Width(style, text) + 10 * scale;
+  };
+  std::vector<Rect> areas(3);  // upper left, upper right, lower left
+  const float mark = corners.swatch.a > 0 ? 22 * scale : 0, top = panel.y + 4 * scale;
+  areas[0] = {panel.x + 5 * scale, top, width(TextStyle::kStrong, corners.upper_left) + mark,
+              18 * scale};
+  const float right = width(TextStyle::kStrong, corners.upper_right);
+  if (!corners.upper_right.empty()) {
+    const bool beside = areas[0].width + right + 15 * scale <= panel.width;
+    areas[1] = {panel.right() - 5 * scale - right, beside ? top : areas[0].bottom(), right,
+                18 * scale};
+  }
+  const float note = width(TextStyle::kSmall, corners.lower_left);
+  if (!corners.lower_left.empty() && note - 10 * scale <= 0.6f * panel.width)
+    areas[2] = {panel.x + 5 * scale, panel.bottom() - 20 * scale, note, 15 * scale};
+  return areas;
 }
 
-void DrawNote(DrawList& list, const Rect& panel, const std::string& text) {
-  const float scale = list.font().scale();
-  const float width = list.font().Width(TextStyle::kSmall, text);
-  if (text.empty() || width > 0.6f * panel.width) return;
-  const float x = panel.x + 10 * scale, base = panel.bottom() - 9 * scale;
-  list.FillRect({x - 5 * scale, base - 11 * scale, width + 10 * scale, 15 * scale},
-                Faded(kPanel, 0.8f));
-  list.Text(x, base, TextStyle::kSmall, text, kInk);
+void DrawCorners(DrawList& list, const Rect& panel, const CornerTexts& corners) {
+  const float scale = list.font().scale(), inset = 5 * scale;
+  const std::vector<Rect> areas = CornerAreas(list, panel, corners);
+  const float base = panel.y + 17 * scale;
+  for (const Rect& area : areas)
+    if (area.width > 0) list.FillRect(area, Faded(kPanel, 0.8f));
+  float x = areas[0].x + inset;
+  if (corners.swatch.a > 0) {
+    list.FillRect({x, base - 7 * scale, 16 * scale, 4 * scale}, corners.swatch);
+    x += 22 * scale;
+  }
+  list.Text(x, base, TextStyle::kStrong, corners.upper_left, kInk);
+  if (areas[1].width > 0)
+    list.Text(areas[1].x + inset, areas[1].y + 13 * scale, TextStyle::kStrong, corners.upper_right,
+              kInk);
+  if (areas[2].width > 0)
+    list.Text(areas[2].x + inset, areas[2].y + 11 * scale, TextStyle::kSmall, corners.lower_left,
+              kInk);
 }
 
 std::string RunDescription(const Playback& playback) {

@@ -24,13 +24,16 @@ void DrawFigures(DrawList& list, const Rect& area, const std::vector<Figure>& fi
 void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, const WorldLook& look,
                 bool impacts);
 
-/// Draws texts in a panel's upper corners. `swatch`: colour of the panel's curve in a comparison
-/// (alpha 0: none).
-void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
-                 const std::string& right, Colour swatch);
+/// The texts in a panel's corners.
+struct CornerTexts {
+  std::string upper_left, upper_right;
+  Colour swatch{0, 0, 0, 0};  ///< colour of the panel's curve in a comparison; alpha 0: none
+  std::string lower_left;     ///< drawn if there is room beside the scale bar
+};
 
-/// Draws a text in a panel's lower left corner, if there is room beside the scale bar.
-void DrawNote(DrawList& list, const Rect& panel, const std::string& text);
+/// Returns the areas that DrawCorners draws into.
+std::vector<Rect> CornerAreas(const DrawList& list, const Rect& panel, const CornerTexts& corners);
+void DrawCorners(DrawList& list, const Rect& panel, const CornerTexts& corners);
 
 /// Returns the settings of a recording's run: mode, reconciler, network, seed, rate.
 std::string RunDescription(const Playback& playback);

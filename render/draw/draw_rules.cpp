@@ -48,8 +48,8 @@ std::string LabelOf(const Trigger& trigger) {
 
 }  // namespace
 
-void DrawTriggers(DrawList& list, const Viewport& viewport, const Playback& playback,
-                  const Moment& moment, double tick) {
+void DrawTriggers(DrawList& list, TextPlaces& places, const Viewport& viewport,
+                  const Playback& playback, const Moment& moment, double tick) {
   const auto& triggers = playback.scene().triggers;
   if (triggers.empty()) return;
   const Known known = KnownAt(playback.recording(), tick);
@@ -70,9 +70,12 @@ void DrawTriggers(DrawList& list, const Viewport& viewport, const Playback& play
     list.FillRect(box, Faded(colour, 0.07f));
     list.StrokeRect(box, {1.2f * scale, Faded(colour, 0.8f), 6 * scale});
     const std::string label = LabelOf(trigger);
-    if (list.font().Width(TextStyle::kSmall, label) < box.width + 30 * scale)
-      list.Text(box.x + box.width / 2, box.y - 3 * scale, TextStyle::kSmall, label, colour,
-                Align::kCentre);
+    const float width = list.font().Width(TextStyle::kSmall, label);
+    if (label.empty() || width >= box.width + 30 * scale) continue;
+    const auto area =
+        places.Place({box.x + (box.width - width) / 2, box.y - 15 * scale, width, 15 * scale});
+    if (!area) continue;
+    list.Text(area->x, area->y + 12 * scale, TextStyle::kSmall, label, colour);
   }
 }
 
@@ -99,8 +102,8 @@ void DrawHealth(DrawList& list, const Viewport& viewport, const Playback& playba
   }
 }
 
-void DrawScores(DrawList& list, const Rect& panel, const Playback& playback, double tick) {
-  if (playback.recording().meta.empty()) return;
+ScoreLine ScoresAt(const DrawList& list, const Rect& panel, const Playback& playback, double tick) {
+  if (playback.recording().meta.empty()) return {};
   const Known known = KnownAt(playback.recording(), tick);
   const float scale = list.font().scale();
   const auto& players = playback.scene().players;
@@ -114,12 +117,17 @@ void DrawScores(DrawList& list, const Rect& panel, const Playback& playback, dou
       own += " at " + FormatNumber(static_cast<double>(get(kMetaCheckpoint)), 0);
     if (!own.empty()) text += (text.empty() ? "" : "   ") + players[p].name + own;
   }
-  if (text.empty()) return;
-  const float x = panel.x + 10 * scale, y = panel.y + 36 * scale;
-  const float width = list.font().Width(TextStyle::kStrong, text);
-  list.FillRect({x - 5 * scale, y - 13 * scale, width + 10 * scale, 18 * scale},
-                Faded(kPanel, 0.8f));
-  list.Text(x, y, TextStyle::kStrong, text, kInk);
+  if (text.empty()) return {};
+  const float width = list.font().Width(TextStyle::kStrong, text) + 10 * scale;
+  return {text, {panel.x + 5 * scale, panel.y + 23 * scale, width, 18 * scale}};
+}
+
+void DrawScores(DrawList& list, const ScoreLine& scores) {
+  const float scale = list.font().scale();
+  if (scores.text.empty()) return;
+  list.FillRect(scores.area, Faded(kPanel, 0.8f));
+  list.Text(scores.area.x + 5 * scale, scores.area.y + 13 * scale, TextStyle::kStrong, scores.text,
+            kInk);
 }
 
 }  // namespace seam

@@ -200,12 +200,19 @@ void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playba
   if (revision.bricks != nullptr) DrawBricks(list, viewport, *revision.bricks);
 }
 
+Rect ScaleBarArea(const DrawList& list, const Viewport& viewport) {
+  const float scale = list.font().scale();
+  const float width = std::round(RoundUp(60 * scale / viewport.px_per_m) * viewport.px_per_m);
+  const float right = std::round(viewport.panel.right() - 14 * scale) + 0.5f;
+  const float bottom = std::round(viewport.panel.bottom() - 8 * scale) + 0.5f;
+  return {right - width, bottom - 14 * scale, width, 14 * scale};
+}
+
 void DrawScaleBar(DrawList& list, const Viewport& viewport) {
   const float scale = list.font().scale();
   const float metres = RoundUp(60 * scale / viewport.px_per_m);
-  const float right = std::round(viewport.panel.right() - 14 * scale) + 0.5f;
-  const float left = right - std::round(metres * viewport.px_per_m);
-  const float y = std::round(viewport.panel.bottom() - 8 * scale) + 0.5f;
+  const Rect area = ScaleBarArea(list, viewport);
+  const float left = area.x, right = area.right(), y = area.bottom();
   const float tick = 3 * scale;
   const Line line{1.2f * scale, kFaintInk, 0};
   list.Stroke({{left, y}, {right, y}}, false, line);

@@ -23,6 +23,8 @@ void DrawRegionLines(DrawList& list, const Viewport& viewport, const Playback& p
 void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const DrawnRevision& revision, double tick, bool cull);
 
+/// Returns the area that DrawScaleBar draws into.
+Rect ScaleBarArea(const DrawList& list, const Viewport& viewport);
 /// Draws a bar of a round number of metres in the lower right corner.
 void DrawScaleBar(DrawList& list, const Viewport& viewport);
 

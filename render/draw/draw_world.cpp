@@ -17,6 +17,7 @@
 #include "render/draw/draw_rules.h"
 #include "render/draw/draw_scene.h"
 #include "render/draw/draw_strands.h"
+#include "render/draw/text_places.h"
 #include "render/playback/camera.h"
 #include "render/playback/marks.h"
 #include "render/playback/peer_colour.h"
@@ -77,6 +78,7 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
   for (double tick = std::ceil(first); tick <= last; ++tick)
     past.push_back(playback.MomentAt(look.peer, tick));
   for (const BodyShapes& body : revision.moving) {
+    if (!body.leads && !look.parts) continue;
     Vec2 before(1e9f, 1e9f);
     for (const Moment& moment : past) {
       if (moment.before == nullptr || moment.blend != 0) continue;  // a tick without a view
@@ -177,13 +179,22 @@ void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playb
   }
 }
 
-void DrawName(DrawList& list, float left, float base, const std::string& name, Colour colour) {
+/// Draws a name with its middle at (middle, base) or the nearest free place; not at all where no
+/// place is free.
+void DrawName(DrawList& list, TextPlaces& places, const Vec2& at, TextStyle style,
+              const std::string& name, Colour colour) {
   const float scale = list.font().scale();
-  const float width = list.font().Width(TextStyle::kStrong, name);
-  list.FillRect(
-      {std::round(left - 4 * scale), std::round(base - 12 * scale), width + 8 * scale, 16 * scale},
-      Faded(kPanel, 0.75f));
-  list.Text(left + width / 2, base, TextStyle::kStrong, name, Darker(colour), Align::kCentre);
+  const float width = list.font().Width(style, name) + 8 * scale;
+  const auto area = places.Place(
+      {std::round(at.x() - width / 2), std::round(at.y() - 12 * scale), width, 16 * scale});
+  if (!area) return;
+  list.FillRect(*area, Faded(kPanel, 0.75f));
+  list.Text(area->x + width / 2, area->y + 12 * scale, style, name, Darker(colour), Align::kCentre);
+}
+
+/// Returns a name, with the peer's number where colours repeat.
+std::string Named(const std::string& name, int peer) {
+  return peer > kPeerHues ? name + " (" + std::to_string(peer) + ")" : name;
 }
 
 /// Returns the x of a character's torso on the panel; `otherwise` when it is not seen.
@@ -198,8 +209,8 @@ float TorsoX(const Viewport& viewport, const std::vector<Seen>& seen, int charac
 }
 
 /// Draws the characters' names beside their heads, on the side away from the torso.
-void DrawCharacterNames(DrawList& list, const Viewport& viewport, const Playback& playback,
-                        const std::vector<Seen>& seen) {
+void DrawCharacterNames(DrawList& list, TextPlaces& places, const Viewport& viewport,
+                        const Playback& playback, const std::vector<Seen>& seen) {
   const float scale = list.font().scale();
   for (const Seen& one : seen) {
     const FigurePart& figure = one.body->outlines[0].figure;
@@ -207,44 +218,45 @@ void DrawCharacterNames(DrawList& list, const Viewport& viewport, const Playback
     const auto character = static_cast<std::size_t>(figure.character);
     const Vec2 head = viewport.ToPx(one.shown.pose.position);
     const float beside = one.body->reach * viewport.px_per_m + 7 * scale;
-    std::string name = playback.scene().characters[character].name;
-    if (one.shown.authority > kPeerHues) name += " (" + std::to_string(one.shown.authority) + ")";
+    const std::string name =
+        Named(playback.scene().characters[character].name, one.shown.authority);
     const float torso = TorsoX(viewport, seen, figure.character, head.x());
     const bool left = torso > head.x() + 0.5f * beside;
-    const float from = left ? -beside - list.font().Width(TextStyle::kStrong, name) : beside;
-    DrawName(list, head.x() + from, head.y() + 4 * scale, name,
-             ColourOf(playback, one.shown.authority));
+    const float away = beside + list.font().Width(TextStyle::kStrong, name) / 2;
+    DrawName(list, places, {head.x() + (left ? -away : away), head.y() + 4 * scale},
+             TextStyle::kStrong, name, ColourOf(playback, one.shown.authority));
   }
 }
 
-/// Draws the players' names over their vehicles, with `all` also the names of all bodies, and the
-/// characters' names.
-void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playback,
-               const std::vector<Seen>& seen, bool all) {
+bool IsVehicle(const Seen& one) { return one.body->owner_player >= 0 && CharacterOf(one) < 0; }
+
+/// Draws the names of the players' vehicles, or of all other bodies, over them.
+void DrawBodyNames(DrawList& list, TextPlaces& places, const Viewport& viewport,
+                   const Playback& playback, const std::vector<Seen>& seen, bool vehicles) {
   const float scale = list.font().scale();
   for (const Seen& one : seen) {
-    const bool vehicle = one.body->owner_player >= 0 && CharacterOf(one) < 0;
-    if (!vehicle && !all) continue;
-    std::string name =
-        vehicle ? playback.scene().players[static_cast<std::size_t>(one.body->owner_player)].name
-                : playback.PartName(one.body->id);
-    if (one.shown.authority > kPeerHues) name += " (" + std::to_string(one.shown.authority) + ")";
+    if (IsVehicle(one) != vehicles) continue;
+    const std::string& name =
+        vehicles ? playback.scene().players[static_cast<std::size_t>(one.body->owner_player)].name
+                 : playback.PartName(one.body->id);
     float top = 1e9f;
     const Frame2 frame(one.shown.pose);
     for (const Outline& outline : one.body->outlines)
       for (const Vec2& p : outline.points)
         top = std::min(top, viewport.ToPx(frame(p)).y() - outline.radius * viewport.px_per_m);
     const float x = viewport.ToPx(one.shown.pose.position).x();
-    const TextStyle style = vehicle ? TextStyle::kStrong : TextStyle::kSmall;
-    const float width = list.font().Width(style, name);
-    const float highest = viewport.panel.y + 14 * scale;
-    const float y = std::max(top - (vehicle ? 9 : 4) * scale, highest);
-    list.FillRect({std::round(x - width / 2 - 4 * scale), std::round(y - 12 * scale),
-                   width + 8 * scale, 16 * scale},
-                  Faded(kPanel, 0.75f));
-    list.Text(x, y, style, name, Darker(ColourOf(playback, one.shown.authority)), Align::kCentre);
+    const float y = std::max(top - (vehicles ? 9 : 4) * scale, viewport.panel.y + 14 * scale);
+    DrawName(list, places, {x, y}, vehicles ? TextStyle::kStrong : TextStyle::kSmall,
+             Named(name, one.shown.authority), ColourOf(playback, one.shown.authority));
   }
-  DrawCharacterNames(list, viewport, playback, seen);
+}
+
+/// Draws the names of vehicles and characters, and then, with `all`, those of all other bodies.
+void DrawNames(DrawList& list, TextPlaces& places, const Viewport& viewport,
+               const Playback& playback, const std::vector<Seen>& seen, bool all) {
+  DrawBodyNames(list, places, viewport, playback, seen, true);
+  DrawCharacterNames(list, places, viewport, playback, seen);
+  if (all) DrawBodyNames(list, places, viewport, playback, seen, false);
 }
 
 }  // namespace
@@ -272,11 +284,15 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
                const WorldLook& look) {
   const Moment now = playback.MomentAt(look.peer, look.tick);
   const auto revision = playback.RevisionOf(now);
+  TextPlaces places(viewport.panel, look.texts);
+  places.Take(ScaleBarArea(list, viewport));
   list.Clip(viewport.panel);
   DrawRegions(list, viewport, playback, now);
   DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, *revision, look.tick, look.cull);
-  DrawTriggers(list, viewport, playback, now, look.tick);
+  const ScoreLine scores = ScoresAt(list, viewport.panel, playback, look.tick);
+  places.Take(scores.area);
+  DrawTriggers(list, places, viewport, playback, now, look.tick);
   DrawCharges(list, viewport, playback, now, look.tick);
   if (look.trails) DrawTrails(list, viewport, playback, *revision, look);
   DrawRods(list, viewport, playback, now, 1);
@@ -292,8 +308,8 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);
-  if (!look.pale) DrawNames(list, viewport, playback, seen, look.names);
-  DrawScores(list, viewport.panel, playback, look.tick);
+  if (!look.pale) DrawNames(list, places, viewport, playback, seen, look.names);
+  DrawScores(list, scores);
   DrawScaleBar(list, viewport);
   list.NoClip();
 }

@@ -9,11 +9,12 @@ function moved(track, tick, span, pixels, scale) {
   return now && then && Math.hypot(now[0] - then[0], now[1] - then[1]) * scale > pixels;
 }
 
-// Draws a body's trail: one dot for each tick.
+// Draws the trail of each mechanism's heaviest body: one dot for each tick.
 function drawDots(c, viewport, view, tick) {
   const span = Math.round(TRAIL_SECONDS * view.run.hz);
-  for (const track of view.tracks.bodies.values()) {
-    if (!moved(track, tick, span, 3, viewport.scale)) continue;
+  for (const body of view.worldAt(tick).moving) {
+    const track = body.leads && view.tracks.bodies.get(body.id);
+    if (!track || !moved(track, tick, span, 3, viewport.scale)) continue;
     for (let i = Math.max(0, Math.ceil(tick - span)); i <= tick; ++i) {
       if (!track.has[i]) continue;
       const owner = Math.floor(track.owner[i] / 3);

@@ -32,9 +32,10 @@ std::string BodyJson(const BodyShapes& body, const std::string& name) {
   for (const Outline& outline : body.outlines) outlines.push_back(OutlineJson(outline));
   for (const auto& edge : body.rim)
     rim.push_back("[" + Point(edge[0]) + "," + Point(edge[1]) + "]");
-  return fmt::format(R"({{"id":{},"name":{},"player":{},"reach":{},"shapes":{},"rim":{}}})",
-                     body.id, JsonText(name), body.owner_player, Thousandths(double{body.reach}),
-                     JsonList(outlines), JsonList(rim));
+  return fmt::format(
+      R"({{"id":{},"name":{},"player":{},"leads":{},"reach":{},"shapes":{},"rim":{}}})", body.id,
+      JsonText(name), body.owner_player, body.leads, Thousandths(double{body.reach}),
+      JsonList(outlines), JsonList(rim));
 }
 
 std::string JointJson(const DrawnJoint& joint) {

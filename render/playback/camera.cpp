@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/base/nearest.h"
@@ -13,7 +14,7 @@ namespace {
 constexpr double kSmooth_s = 0.12;  ///< standard deviation of the smoothing in time
 constexpr float kMargin = 0.06f;    ///< of the box, on each side
 constexpr float kLeast_m = 1.5f;    ///< the smallest height and width that are shown
-constexpr float kAlone = 3;         ///< box around a single body, in multiples of its size
+constexpr float kAlone = 3;         ///< box around a single mechanism, in multiples of its size
 /// A picture without [camera] is at most so many times as large as a typical mechanism, except for
 /// leading bodies. Larger: the mechanisms become specks; smaller: more of what moves is cut off.
 constexpr float kAreaPerMechanism = 40;
@@ -128,6 +129,27 @@ float TypicalMechanism(const CameraView& view, const std::set<PartId>& bodies, d
   return *middle;
 }
 
+/// Returns whole mechanisms: the bodies, and all that are jointed to them at a moment.
+std::vector<std::set<PartId>> MechanismsOf(const CameraView& view, const std::set<PartId>& bodies,
+                                           double s) {
+  const Playback& playback = *view.playback;
+  const Moment moment = playback.MomentAt(playback.PeerOr(view.peer), playback.TickAt(s));
+  const auto world = playback.WorldOf(moment);
+  const Composition& made = world->composition();
+  std::map<int, std::set<PartId>> whole;
+  for (const PartId body : bodies) {
+    const int index = world->AssemblyOf(body);
+    const int mechanism =
+        index < 0 ? -1 : made.assemblies[static_cast<std::size_t>(index)].mechanism;
+    if (mechanism < 0) continue;
+    for (const int member : made.mechanisms[static_cast<std::size_t>(mechanism)].assemblies)
+      whole[mechanism].insert(made.assemblies[static_cast<std::size_t>(member)].id);
+  }
+  std::vector<std::set<PartId>> mechanisms;
+  for (auto& [mechanism, members] : whole) mechanisms.push_back(std::move(members));
+  return mechanisms;
+}
+
 /// The bodies of a picture that fits what moves in a scene without [camera], and its limits.
 class FreeFit {
  public:
@@ -222,6 +244,8 @@ CameraPath::CameraPath(const std::vector<CameraView>& views, const CameraWish& w
     return;
   }
   std::set<PartId> bodies = wish.bodies;
+  const auto mechanisms = MechanismsOf(views.front(), bodies, (from_s + to_s) / 2);
+  for (const std::set<PartId>& whole : mechanisms) bodies.insert(whole.begin(), whole.end());
   if (bodies.empty() && !scene.camera.given) {
     const FreeFit fit(views, from_s, to_s);
     bodies = fit.bodies();
@@ -241,7 +265,8 @@ CameraPath::CameraPath(const std::vector<CameraView>& views, const CameraWish& w
   FillHoles(&boxes_, own);
   boxes_ = Smoothed(boxes_);
   for (WorldBox& box : boxes_) {
-    const float around = bodies.size() == 1 ? kAlone : 1 + 2 * kMargin;
+    const bool alone = bodies.size() == 1 || mechanisms.size() == 1;
+    const float around = alone ? kAlone : 1 + 2 * kMargin;
     const Vec2 wanted = (box.size() * around).cwiseMax(Vec2(kLeast_m, kLeast_m));
     const Vec2 centre = box.centre();
     box = {centre - wanted / 2, centre + wanted / 2};

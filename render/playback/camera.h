@@ -23,7 +23,7 @@ struct CameraWish {
   Vec2 centre{0, 0};  ///< kFixed, m
   float height = 0;   ///< kFixed, kFollow: visible height, m; 0: the scene's box
   float zoom = 1;     ///< magnification, for all kinds
-  /// kFit: bodies to fit (assembly ids); empty: all moving ones.
+  /// kFit: bodies to fit (assembly ids), with those jointed to them; empty: all moving ones.
   std::set<PartId> bodies;
 };
 

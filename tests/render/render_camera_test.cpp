@@ -141,6 +141,28 @@ TEST(CameraWishes, AFixedPlaceAFollowedPartAndAZoomAreObeyed) {
   EXPECT_THROW(SetCamera(follow, playbacks, &page), OperatorError);
 }
 
+TEST(CameraWishes, ABodyIsShownWithAllThatIsJointedToIt) {
+  const std::vector<Playback> playbacks = PlaybacksOf("crossing", "fade");
+  const Composition& made =
+      playbacks.front().WorldOf(playbacks.front().MomentAt(1, 60))->composition();
+  for (const Mechanism& mechanism : made.mechanisms) {
+    std::set<PartId> whole;
+    for (const int i : mechanism.assemblies)
+      whole.insert(made.assemblies[static_cast<std::size_t>(i)].id);
+    for (const PartId body : whole) {
+      Page page = MakePage(playbacks.front(), 1);
+      CameraWish wish;
+      wish.bodies = {body};
+      SetCamera(wish, playbacks, &page);
+      for (double s = 1; s < 4; s += 0.5) {
+        const WorldBox all = BoxOf({{&playbacks.front(), 1}}, whole, s), shown = page.camera->At(s);
+        EXPECT_TRUE((shown.min.array() <= all.min.array()).all()) << body << " at " << s;
+        EXPECT_TRUE((shown.max.array() >= all.max.array()).all()) << body << " at " << s;
+      }
+    }
+  }
+}
+
 TEST(CameraWishes, AHandOverAndTheWorstMomentAreFound) {
   const std::vector<Playback> playbacks = PlaybacksOf("relay", "snap");
   const auto change = HandOverMoment(playbacks);
