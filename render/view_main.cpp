@@ -31,6 +31,7 @@ struct Flags {
   int port = 8080;
   std::string lcm_url;
   std::string drive;
+  bool oracle = false;
   bool quiet = false;
 };
 
@@ -49,6 +50,8 @@ void Define(Command& app, Flags& f) {
       "--drive", f.drive,
       "let the page drive this player: a line DRIVE LIFT BUTTONS on standard output for each "
       "change, for seam-client --inputs -");
+  app.Switch("--oracle", f.oracle,
+             "simulate the session in one world beside it, and show each view's error against it");
   app.Switch("--quiet", f.quiet, "do not print the page's address");
 }
 
@@ -91,6 +94,7 @@ int Run(const Flags& f) {
     throw OperatorError("logs or the bus: --lcm-url does not go with a log");
   }
   LiveFeed feed(f.room, f.drive);
+  if (f.oracle) feed.MeasureErrors();
   std::unique_ptr<LogTails> tails;
   std::unique_ptr<Bus> bus;
   if (f.logs.empty()) {

@@ -155,8 +155,8 @@ class Session {
 
   void StartView() {
     std::vector<std::string> logs = logs_;
-    std::vector<std::string> words{"seam-view", "--port", std::to_string(options_.port), "--room",
-                                   room_};
+    std::vector<std::string> words{"seam-view", "--port", std::to_string(options_.port),
+                                   "--room",    room_,    "--oracle"};
     if (options_.drive) words.insert(words.end(), {"--drive", own_});
     if (!on_bus_) {
       logs.push_back(folder_ / (own_ + ".lcm"));

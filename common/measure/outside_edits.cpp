@@ -6,9 +6,16 @@
 
 namespace seam {
 
-OutsideEdits::OutsideEdits(const Recording& recording, const Scene& scene)
-    : recorded_(scene, recording), parts_(scene.parts.size()), joints_(scene.joints.size()) {
-  for (const auto& [number, order] : recording.edits) {
+OutsideEdits::OutsideEdits(const Scene& scene)
+    : scene_(scene), parts_(scene.parts.size()), joints_(scene.joints.size()) {}
+
+void OutsideEdits::Add(const Recording& recording) {
+  const auto fresh = recording.edits.lower_bound(next_);
+  if (fresh == recording.edits.end()) return;
+  recorded_ = std::make_unique<const RevisionHistory>(scene_, recording);
+  for (auto edit = fresh; edit != recording.edits.end(); ++edit) {
+    const auto& [number, order] = *edit;
+    next_ = number + 1;
     if (order.cause != static_cast<std::int8_t>(EditCause::kOutside)) continue;
     by_tick_[order.tick].push_back({number, ToEdit(order)});
   }
@@ -57,11 +64,11 @@ std::int32_t OutsideEdits::JointOf(const Scene& then, std::int32_t joint, const 
 void OutsideEdits::Translate(int number, const Scene& now, Edit* edit) const {
   const auto part = [&](PartId* id) {
     if (*id < 0 || static_cast<std::size_t>(*id) < parts_) return;
-    *id = PartOf(recorded_.At(number)->scene(), *id, now);
+    *id = PartOf(recorded_->At(number)->scene(), *id, now);
   };
   std::visit(Overloaded{[&](BreakEdit& e) {
                           if (e.joint < 0 || static_cast<std::size_t>(e.joint) < joints_) return;
-                          e.joint = JointOf(recorded_.At(number)->scene(), e.joint, now);
+                          e.joint = JointOf(recorded_->At(number)->scene(), e.joint, now);
                         },
                         [&](BondEdit& e) {
                           part(&e.a);

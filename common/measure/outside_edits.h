@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,11 @@ namespace seam {
 
 class OutsideEdits {
  public:
-  /// `scene`: without any edit.
-  OutsideEdits(const Recording& recording, const Scene& scene);
+  /// Without any edit. `scene`: without any edit; borrowed.
+  explicit OutsideEdits(const Scene& scene);
+
+  /// Adds the edits that `recording` has beyond those of the recording before.
+  void Add(const Recording& recording);
 
   /// Removes and returns the edits of all ticks up to this one. `now`: the world's current scene.
   std::vector<Edit> Take(std::int64_t tick, const Scene& now);
@@ -27,8 +31,10 @@ class OutsideEdits {
   std::int32_t JointOf(const Scene& then, std::int32_t joint, const Scene& now) const;
   void Translate(int number, const Scene& now, Edit* edit) const;
 
-  const RevisionHistory recorded_;
-  const std::size_t parts_, joints_;  // counts in the scene without edits
+  const Scene& scene_;
+  std::unique_ptr<const RevisionHistory> recorded_;  // with all edits that were added
+  const std::size_t parts_, joints_;                 // counts in the scene without edits
+  int next_ = 0;                                     // lowest number that was not added
   std::map<std::int64_t, std::vector<std::pair<int, Edit>>> by_tick_;
 };
 

@@ -4,7 +4,7 @@
 
 namespace seam {
 
-RecordedInputs::RecordedInputs(const Recording& recording, const Scene& scene) {
+void RecordedInputs::Add(const Recording& recording, const Scene& scene) {
   for (const auto& [player, pieces] : recording.inputs) {
     const bool known = player >= 0 && static_cast<std::size_t>(player) < scene.players.size();
     if (!known) continue;
@@ -15,6 +15,13 @@ RecordedInputs::RecordedInputs(const Recording& recording, const Scene& scene) {
                           Input{piece.drive[i], piece.lift[i], piece.buttons[i]});
       }
     }
+  }
+}
+
+void RecordedInputs::Forget(std::int64_t before_tick) {
+  for (auto& [player, ticks] : by_player_) {
+    const auto kept = ticks.lower_bound(before_tick);
+    if (kept != ticks.begin()) ticks.erase(ticks.begin(), std::prev(kept));
   }
 }
 

@@ -12,8 +12,14 @@ namespace seam {
 
 class RecordedInputs {
  public:
+  /// Without any input.
+  RecordedInputs() = default;
+  RecordedInputs(const Recording& recording, const Scene& scene) { Add(recording, scene); }
+
   /// Reads the inputs of the players of `scene`. Overlapping messages agree; the first one is kept.
-  RecordedInputs(const Recording& recording, const Scene& scene);
+  void Add(const Recording& recording, const Scene& scene);
+  /// Forgets the inputs before a tick, but the last one of each player.
+  void Forget(std::int64_t before_tick);
 
   /// Sets a player's axes for `tick`, if they were recorded, and triggers the actions of buttons
   /// that go down. To be called before the step that makes `tick`.

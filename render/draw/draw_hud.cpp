@@ -129,7 +129,7 @@ std::vector<Rect> CornerAreas(const DrawList& list, const Rect& panel, const Cor
                 18 * scale};
   }
   const float note = width(TextStyle::kSmall, corners.lower_left);
-  if (!corners.lower_left.empty() && note - 10 * scale <= 0.6f * panel.width)
+  if (!corners.lower_left.empty() && note <= panel.width - 180 * scale)  // the scale bar
     areas[2] = {panel.x + 5 * scale, panel.bottom() - 20 * scale, note, 15 * scale};
   return areas;
 }

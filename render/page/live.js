@@ -4,6 +4,7 @@
 const LAG_SECONDS = 0.15;  // the page shows ticks so long after they came, so that it is smooth
 const DRIVER_LAG_SECONDS = 0.05;
 const SILENT_SECONDS = 2;  // after that it says that nothing comes
+const ERROR_UNIT_M = 1e-4;  // of the errors against the oracle that are sent
 const TABLE_SECONDS = 10;  // of the past in tables and ranges
 
 class LivePlayer extends Player {
@@ -73,7 +74,8 @@ class LiveSource {
     this.bytes = 0;
     this.work = Promise.resolve();  // events are handled one after the other
     this.source = new EventSource('live');
-    for (const kind of ['waiting', 'start', 'worlds', 'peers', 'frames', 'marks', 'stats'])
+    for (const kind
+             of ['waiting', 'start', 'worlds', 'peers', 'frames', 'marks', 'stats', 'errors'])
       this.source.addEventListener(kind, (event) => this.queue(kind, event.data));
     this.source.onerror = () => sayLive('The view is gone; trying again.');
     requestAnimationFrame((now) => this.frame(now));
@@ -92,7 +94,7 @@ class LiveSource {
     sayLive(`Waiting for ${JSON.parse(data)}.`);
   }
   async start(data) {
-    const {player, data: packed} = JSON.parse(data);
+    const {player, oracle, data: packed} = JSON.parse(data);
     const {head, bytes} = splitData(await inflate(packed));
     const first = this.page === null;
     this.player = player;
@@ -104,6 +106,14 @@ class LiveSource {
       }
       delete MEASURES.path;
       delete MEASURES.stutter;
+      if (oracle === 'beside')
+        MEASURES.truth = {
+          name: 'Error against the oracle, at the tick shown',
+          unit: 'm',
+          log: true,
+          each: 'tick',
+        };
+      this.late = oracle === 'late';
       this.page = openPage(head, bytes);
       this.page.player = new LivePlayer(this.page);
       this.page.word = 'distance';
@@ -173,8 +183,16 @@ class LiveSource {
     for (const [peer, row] of JSON.parse(data)) {
       const view = this.page.runs[0].view(peer);
       if (view.peer === peer) view.stats.push(row);
-      view.curves = {error: view.apart};
+      view.renewCurves();
     }
+  }
+  errors(data) {
+    if (!this.page) return;
+    const {behind, rows} = JSON.parse(data);
+    this.behind_s = behind;
+    for (const [peer, tick, units] of rows)
+      this.page.tape.writeError(peer, tick, units * ERROR_UNIT_M);
+    this.page.changed();
   }
 
   renamed() {
@@ -200,7 +218,9 @@ class LiveSource {
     sayLive(
         silent_s > SILENT_SECONDS ? `Nothing has come for ${Math.floor(silent_s)} s: ` +
                 'the session is over or stands still.' :
-                                    '');
+            this.late         ? 'No errors against the oracle: the view began after the session.' :
+            this.behind_s > 2 ? `The oracle is ${Math.floor(this.behind_s)} s late.` :
+                                '');
   }
 }
 

@@ -23,6 +23,10 @@ class View {
     this.strands = head.strands ? readStrands(bytes, head.strands) : [];
     this.curves = {};
   }
+  // Live: curves of columns that grow, all others are made anew.
+  renewCurves() {
+    this.curves = {error: this.apart, truth: this.truth};
+  }
   label() {
     return this.run.page.runs.length > 1 ? `${this.run.name} · ${this.name}` : this.name;
   }

@@ -34,7 +34,8 @@ class Tape {
   // Gives a view a column of its distance from the server's view.
   adopt(view) {
     view.apart = new Float64Array(this.capacity).fill(NaN);
-    view.curves = {error: view.apart};
+    view.truth = new Float64Array(this.capacity).fill(NaN);
+    view.renewCurves();
   }
 
   // Returns the number of bodies in all views.
@@ -49,7 +50,8 @@ class Tape {
       view.tracks.world = grown(view.tracks.world, length, -1);
       view.tracks.count = length;
       view.apart = grown(view.apart, length, NaN);
-      view.curves = {error: view.apart};
+      view.truth = grown(view.truth, length, NaN);
+      view.renewCurves();
       for (const track of view.tracks.bodies.values()) {
         for (const name of ['has', 'x', 'y', 'a', 'owner', 'age'])
           track[name] = grown(track[name], length, 0);
@@ -67,7 +69,8 @@ class Tape {
     for (const view of this.run.views) {
       moved(view.tracks.world, -1);
       moved(view.apart, NaN);
-      view.curves = {error: view.apart};
+      moved(view.truth, NaN);
+      view.renewCurves();
       for (const track of view.tracks.bodies.values()) {
         for (const name of ['has', 'x', 'y', 'a', 'owner', 'age']) moved(track[name], 0);
         moved(track.error, -1);
@@ -234,6 +237,13 @@ class Tape {
   // Keeps a kinematic body where it was last known, until more is known.
   holdMotion(path, count) {
     while (path.length >= 3 && path.length < 3 * count) path.push(...path.slice(-3));
+  }
+
+  // Sets a view's error against the oracle at a tick.
+  writeError(peer, tick, metres) {
+    const view = this.run.views.find((one) => one.peer === peer);
+    const index = tick - this.run.first;
+    if (view && index >= 0 && index < this.capacity) view.truth[index] = metres;
   }
 
   // Compares views with the server's, tick by tick as both are known.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -18,6 +20,7 @@ constexpr std::int64_t kFlushUs = 33000;
 /// Poses kept for a watcher that comes: 0.1 s of work, or 1 to 20 s of the session.
 constexpr std::size_t kPosesKept = 150000;
 constexpr std::int64_t kKept_s = 20;
+constexpr double kLiveErrorUnit_m = 1e-4;  ///< of the errors that are sent
 constexpr std::size_t kEventsKept = 2000;
 /// Worlds after which the pages begin anew: a room that breaks for hours has very many.
 constexpr int kWorldsMax = 5000;
@@ -76,10 +79,27 @@ void LiveFeed::Restart() {
   stats_ticks_.clear();
   ticks_ = StrayTicks();
   impacts_tick_ = 0;
+  errors_.reset();
+  too_late_ = false;
   ring_.Clear();
 }
 
+void LiveFeed::HearForErrors() {
+  const Recording& recording = builder_.recording();
+  if (!measures_ || too_late_ || !builder_.has_scene() || recording.views.empty()) return;
+  if (errors_ == nullptr) {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    for (const auto& [peer, views] : recording.views)
+      if (!views.empty()) first = std::min(first, views.begin()->first);
+    too_late_ = first > std::max(1, recording.room.tick_hz) / 2;
+    if (too_late_) return;
+    errors_ = std::make_unique<LiveErrors>(recording);
+  }
+  errors_->Hear(recording);
+}
+
 void LiveFeed::Prune() {
+  HearForErrors();
   Recording& recording = builder_.recording();
   std::size_t bodies = 1;
   std::int64_t newest = -1;
@@ -91,7 +111,8 @@ void LiveFeed::Prune() {
   if (newest < 0) return;
   const int hz = std::max(1, recording.room.tick_hz);
   const auto ticks = static_cast<std::int64_t>(kPosesKept / bodies);
-  Forget(&recording, newest - std::clamp<std::int64_t>(ticks, hz, kKept_s * hz));
+  // The oracle is a second late, and measures what is still there.
+  Forget(&recording, newest - std::clamp<std::int64_t>(ticks, 2 * hz, kKept_s * hz));
 }
 
 bool LiveFeed::IsStray(std::int64_t tick) {
@@ -162,6 +183,7 @@ void LiveFeed::Flush(std::int64_t now_us) {
   if (!frames.empty()) ring_.Add("frames", Base64(frames));
   AddEvents();
   AddStats();
+  AddErrors();
   credit_ -= static_cast<double>(ring_.bytes() - before);
 }
 
@@ -264,6 +286,20 @@ void LiveFeed::AddStats() {
   if (!rows.empty()) ring_.Add("stats", JsonList(rows));
 }
 
+void LiveFeed::AddErrors() {
+  if (errors_ == nullptr) return;
+  std::vector<std::string> rows;
+  for (const LiveError& error : errors_->Advance(builder_.recording(), ticks_.newest())) {
+    if (std::isnan(error.error_m)) continue;
+    rows.push_back(fmt::format("[{},{},{}]", error.peer, error.tick,
+                               std::llround(error.error_m / kLiveErrorUnit_m)));
+  }
+  if (!rows.empty()) {
+    ring_.Add("errors", fmt::format(R"({{"behind":{:.1f},"rows":{}}})",
+                                    errors_->behind_s(ticks_.newest()), JsonList(rows)));
+  }
+}
+
 std::string LiveFeed::Start() {
   Recording& recording = builder_.recording();
   recording.first_tick = recording.last_tick;
@@ -277,7 +313,9 @@ std::string LiveFeed::Start() {
   // sent once more, which does no harm.
   for (auto& [peer, feed] : peers_) feed.alone = true;
   motions_.alone = true;
-  return EventText("start", fmt::format(R"({{"player":{},"data":"{}"}})", JsonText(player_), data));
+  const char* oracle = !measures_ ? "" : too_late_ ? "late" : "beside";
+  return EventText("start", fmt::format(R"({{"player":{},"oracle":"{}","data":"{}"}})",
+                                        JsonText(player_), oracle, data));
 }
 
 EventRing::Piece LiveFeed::Next(std::uint64_t* place) {

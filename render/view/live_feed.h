@@ -15,6 +15,7 @@
 #include "render/playback/playback.h"
 #include "render/playback/stray_ticks.h"
 #include "render/view/event_ring.h"
+#include "render/view/live_errors.h"
 #include "render/view/view_deltas.h"
 
 namespace seam {
@@ -26,6 +27,10 @@ class LiveFeed {
  public:
   /// `room` "": the room that is heard first. `player`: the one whom the pages may drive; "": none.
   LiveFeed(std::string room, std::string player, double bytes_per_s = kLiveBytesPerS);
+
+  /// Simulates each session that is heard from its begin in one world, beside it, and tells the
+  /// pages the error of each view. Costs as much as a peer that simulates everything.
+  void MeasureErrors() { measures_ = true; }
 
   /// Adds a message of the bus; returns false when it does not belong to the session. A Room of
   /// another session begins that session.
@@ -61,6 +66,8 @@ class LiveFeed {
   void PutViews(int peer, std::int64_t newest_tick, PageBytes* frames);
   void AddEvents();
   void AddStats();
+  void AddErrors();
+  void HearForErrors();
   void NoteHandOvers(const View& view);
 
   const std::string room_, player_;
@@ -76,6 +83,9 @@ class LiveFeed {
   std::int64_t impacts_tick_ = 0;            // impacts up to it are in events_
   std::map<int, int> owners_;                // by body, in the server's newest view
   std::map<int, std::int64_t> stats_ticks_;  // of the newest counters sent, by peer
+  bool measures_ = false;                    // errors are wanted
+  bool too_late_ = false;                    // this session's begin was not heard
+  std::unique_ptr<LiveErrors> errors_;       // nullptr: not wanted, too late or no session
   EventRing ring_;
   StrayTicks ticks_;
   std::int64_t flushed_us_ = 0;

@@ -192,7 +192,8 @@ TEST(LiveFeed, ASmallRoomIsShownTickByTick) {
   EXPECT_EQ(waiting.rfind("event: waiting\ndata: ", 0), 0u) << waiting;
   for (int tick = 0; tick < 120; ++tick) crowd.Tick(tick);
   const EventRing::Piece start = crowd.feed().Next(&place);
-  EXPECT_EQ(start->rfind("event: start\ndata: {\"player\":\"\",\"data\":\"H4s", 0), 0u);
+  EXPECT_EQ(start->rfind("event: start\ndata: {\"player\":\"\",\"oracle\":\"\",\"data\":\"H4s", 0),
+            0u);
   // All ticks after the begin, of both peers, the first of each by itself.
   for (int tick = 120; tick < 180; ++tick) crowd.Tick(tick);
   int frames = 0;

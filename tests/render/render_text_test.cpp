@@ -80,7 +80,7 @@ TEST(Trails, OneBodyOfEachMechanismLeads) {
   }
 }
 
-TEST(Trails, OfACarAreOneRowOfDotsUnlessAllPartsAreAskedFor) {
+TEST(Trails, TheCarHasOneRowOfDotsUnlessAllPartsAreAskedFor) {
   const Scene scene = LoadScene("scenes/crossing.toml");
   const Composition made = Compose(scene);
   const std::vector<BodyShapes> bodies = ShapesOf(scene, made, false);
@@ -113,7 +113,7 @@ TEST(Sheet, HasALegendBelowItsMoments) {
   EXPECT_GT(PixelsOf(image, PeerColour(2), legend), 50);
 }
 
-TEST(Sheet, OfSeveralRunsHasThemSideBySideAtEachMoment) {
+TEST(Sheet, SeveralRunsAreSideBySideAtEachMoment) {
   std::vector<Playback> playbacks;
   playbacks.push_back(MakePlayback(2));
   playbacks.push_back(MakePlayback(20));

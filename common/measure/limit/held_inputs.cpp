@@ -169,7 +169,8 @@ std::optional<double> HeldInputsError(const Recording& recording, int every) {
   scene.solver.tick_hz = recording.room.tick_hz;
   const KnownInputs known = FindKnownInputs(recording);
   if (known.empty()) return std::nullopt;
-  OutsideEdits outside(recording, scene);
+  OutsideEdits outside(scene);
+  outside.Add(recording);
   Guesser guesser(recording, scene, known, every);
   guesser.Apply(outside.Take(0, guesser.world().scene()));
   for (std::int64_t tick = 1; tick <= recording.last_tick; ++tick) {

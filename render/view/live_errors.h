@@ -1,0 +1,43 @@
+#pragma once
+/// The errors of a running session's views against an oracle that is simulated beside it.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/measure/growing_oracle.h"
+#include "common/record/recording.h"
+
+namespace seam {
+
+/// The error of one view at one tick.
+struct LiveError {
+  int peer = 0;
+  std::int64_t tick = 0;
+  double error_m = 0;  ///< RMS over the bodies, at the ticks that are shown; NaN: not known
+};
+
+class LiveErrors {
+ public:
+  /// Requires a recording with a scene. Throws OperatorError for a scene that does not parse.
+  explicit LiveErrors(const Recording& recording);
+
+  /// Takes over what is new in the recording; call it before anything of it is forgotten.
+  void Hear(const Recording& recording) { oracle_.Hear(recording); }
+  /// Simulates ticks up to a second before the newest, when their inputs are known, for at most
+  /// about a third of the time, and returns the errors at these ticks.
+  std::vector<LiveError> Advance(const Recording& recording, std::int64_t newest_tick);
+
+  /// Returns the seconds by which the oracle is later than it should be.
+  double behind_s(std::int64_t newest_tick) const;
+  const Oracle& oracle() const { return oracle_.oracle(); }
+
+ private:
+  void MeasureAt(const Recording& recording, std::vector<LiveError>* errors) const;
+
+  GrowingOracle oracle_;
+  const std::int64_t hz_;
+  std::size_t identified_ = 0;  // edits of the recording when parts were last matched
+};
+
+}  // namespace seam
