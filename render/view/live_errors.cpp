@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "common/base/process.h"
@@ -19,17 +18,21 @@ constexpr std::int64_t kOracleKept_s = 2;  ///< of the oracle: views show up to 
 LiveErrors::LiveErrors(const Recording& recording)
     : oracle_(recording.room, JudgeOf(recording.room)), hz_(std::max(1, recording.room.tick_hz)) {}
 
-std::vector<LiveError> LiveErrors::Advance(const Recording& recording, std::int64_t newest_tick) {
-  std::vector<LiveError> errors;
+void LiveErrors::Forget(std::int64_t before_tick) {
+  errors_.erase(errors_.begin(),
+                std::find_if(errors_.begin(), errors_.end(),
+                             [&](const LiveError& error) { return error.tick >= before_tick; }));
+}
+
+void LiveErrors::Advance(const Recording& recording, std::int64_t newest_tick) {
   const std::int64_t began_us = SteadyClockUs();
   if (recording.edits.size() != identified_) oracle_.Identify(recording);
   identified_ = recording.edits.size();
   while (oracle_.tick() + hz_ < newest_tick && SteadyClockUs() - began_us < kStepUs) {
     oracle_.Step();
-    MeasureAt(recording, &errors);
+    MeasureAt(recording);
   }
   oracle_.Forget(oracle_.tick() - kOracleKept_s * hz_);
-  return errors;
 }
 
 double LiveErrors::behind_s(std::int64_t newest_tick) const {
@@ -37,7 +40,7 @@ double LiveErrors::behind_s(std::int64_t newest_tick) const {
          static_cast<double>(hz_);
 }
 
-void LiveErrors::MeasureAt(const Recording& recording, std::vector<LiveError>* errors) const {
+void LiveErrors::MeasureAt(const Recording& recording) {
   const std::int64_t tick = oracle_.tick();
   for (const auto& [peer, views] : recording.views) {
     const auto view = views.find(tick);
@@ -46,8 +49,7 @@ void LiveErrors::MeasureAt(const Recording& recording, std::vector<LiveError>* e
     alone.first_tick = alone.last_tick = tick;
     alone.views[peer][tick] = view->second;
     const std::vector<double> found = Measure(alone, oracle_.oracle()).shown_error_by_tick_m;
-    errors->push_back(
-        {peer, tick, found.empty() ? std::numeric_limits<double>::quiet_NaN() : found.back()});
+    if (!found.empty() && !std::isnan(found.back())) errors_.push_back({peer, tick, found.back()});
   }
 }
 

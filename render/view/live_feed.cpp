@@ -111,6 +111,7 @@ void LiveFeed::Prune() {
   if (newest < 0) return;
   const int hz = std::max(1, recording.room.tick_hz);
   const auto ticks = static_cast<std::int64_t>(kPosesKept / bodies);
+  if (errors_ != nullptr) errors_->Forget(newest - kKept_s * hz);
   // The oracle is a second late, and measures what is still there.
   Forget(&recording, newest - std::clamp<std::int64_t>(ticks, 2 * hz, kKept_s * hz));
 }
@@ -288,16 +289,20 @@ void LiveFeed::AddStats() {
 
 void LiveFeed::AddErrors() {
   if (errors_ == nullptr) return;
+  const std::size_t known = errors_->errors().size();
+  errors_->Advance(builder_.recording(), ticks_.newest());
+  if (errors_->errors().size() > known) ring_.Add("errors", ErrorsJson(known));
+}
+
+std::string LiveFeed::ErrorsJson(std::size_t from) const {
   std::vector<std::string> rows;
-  for (const LiveError& error : errors_->Advance(builder_.recording(), ticks_.newest())) {
-    if (std::isnan(error.error_m)) continue;
+  for (std::size_t i = from; i < errors_->errors().size(); ++i) {
+    const LiveError& error = errors_->errors()[i];
     rows.push_back(fmt::format("[{},{},{}]", error.peer, error.tick,
                                std::llround(error.error_m / kLiveErrorUnit_m)));
   }
-  if (!rows.empty()) {
-    ring_.Add("errors", fmt::format(R"({{"behind":{:.1f},"rows":{}}})",
-                                    errors_->behind_s(ticks_.newest()), JsonList(rows)));
-  }
+  return fmt::format(R"({{"behind":{:.1f},"rows":{}}})", errors_->behind_s(ticks_.newest()),
+                     JsonList(rows));
 }
 
 std::string LiveFeed::Start() {
@@ -314,8 +319,10 @@ std::string LiveFeed::Start() {
   for (auto& [peer, feed] : peers_) feed.alone = true;
   motions_.alone = true;
   const char* oracle = !measures_ ? "" : too_late_ ? "late" : "beside";
-  return EventText("start", fmt::format(R"({{"player":{},"oracle":"{}","data":"{}"}})",
-                                        JsonText(player_), oracle, data));
+  const std::string start = EventText(
+      "start",
+      fmt::format(R"({{"player":{},"oracle":"{}","data":"{}"}})", JsonText(player_), oracle, data));
+  return errors_ == nullptr ? start : start + EventText("errors", ErrorsJson(0));
 }
 
 EventRing::Piece LiveFeed::Next(std::uint64_t* place) {

@@ -67,6 +67,7 @@ class LiveFeed {
   void AddEvents();
   void AddStats();
   void AddErrors();
+  std::string ErrorsJson(std::size_t from) const;
   void HearForErrors();
   void NoteHandOvers(const View& view);
 

@@ -28,7 +28,6 @@ std::vector<LiveError> HeardLive(const Recording& whole) {
   Recording growing;
   growing.room = whole.room;
   LiveErrors live(growing);
-  std::vector<LiveError> errors;
   const std::int64_t end = whole.last_tick + 2 * whole.room.tick_hz;
   for (std::int64_t tick = 0; tick <= end; ++tick) {
     for (const auto& [player, pieces] : whole.inputs)
@@ -44,12 +43,10 @@ std::vector<LiveError> HeardLive(const Recording& whole) {
     }
     live.Hear(growing);
     growing.inputs.clear();
-    const std::vector<LiveError> some =
-        live.Advance(growing, std::min(tick, whole.last_tick + whole.room.tick_hz));
-    errors.insert(errors.end(), some.begin(), some.end());
+    live.Advance(growing, std::min(tick, whole.last_tick + whole.room.tick_hz));
   }
   EXPECT_EQ(live.behind_s(end - whole.room.tick_hz), 0);
-  return errors;
+  return live.errors();
 }
 
 class LiveErrorsOf : public ::testing::TestWithParam<const char*> {};
@@ -84,6 +81,17 @@ TEST(LiveErrors, KeepNoMoreOfTheOracleThanTheyNeed) {
   std::size_t kept = 0;
   for (const auto& row : live.oracle().ticks) kept += row.empty() ? 0 : 1;
   EXPECT_LE(kept, 2u * static_cast<std::size_t>(recording.room.tick_hz) + 2);
+}
+
+TEST(LiveErrors, ForgetWhatNoPageShows) {
+  const Recording recording = Recorded("crossing");
+  LiveErrors live(recording);
+  live.Hear(recording);
+  live.Advance(recording, 100 + recording.room.tick_hz);
+  ASSERT_FALSE(live.errors().empty());
+  live.Forget(50);
+  EXPECT_GE(live.errors().front().tick, 50);
+  EXPECT_FALSE(live.errors().empty());
 }
 
 }  // namespace live_errors_test
