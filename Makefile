@@ -281,7 +281,7 @@ $(OUT)/seam-import: $(OUT)/render/import_main.o $(IMPORT) $(OUT)/libseam-common.
 	$(LINK) $(LIBS) -ltinyxml2 -o $@
 $(OUT)/seam-view: $(OUT)/render/view_main.o $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
-$(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+$(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(EMBED) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.
 $(OUT)/seam-tests: $(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
@@ -291,7 +291,7 @@ $(OUT)/seam-tests: $(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RE
 # more than half of the sources.
 CORE_TESTS := $(foreach f,base client codec net record scene server sync topology,$(filter \
 	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES))
-$(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(call alone,tests/lab/cluster.cpp tests/lab/world/plan_worlds.cpp) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+$(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(call alone,client/embed/cluster.cpp tests/lab/world/plan_worlds.cpp) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # Man pages, completion and the schema of scenes, by the programs themselves: from what parses their flags and scenes.

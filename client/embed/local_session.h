@@ -1,19 +1,14 @@
 #pragma once
-/// A whole session in one process and in virtual time: a server, a client for each of the scene's
-/// players, and a simulated network between them. The same calls give the same bits.
+/// A whole session for other programs, in one process and in virtual time: a server, a client for
+/// each of the scene's players, and a simulated network. The same calls give the same bits.
 
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "client/client.h"
-#include "common/base/entropy.h"
-#include "common/net/impair.h"
-#include "common/net/memory.h"
+#include "client/embed/cluster.h"
 #include "common/record/recording.h"
 #include "common/record/room_log.h"
-#include "server/server.h"
 
 namespace seam {
 
@@ -35,7 +30,6 @@ class LocalSession {
   /// Throws OperatorError when a name is unknown, a number out of range, or the log cannot be
   /// written.
   LocalSession(const Scene& scene, const LocalSessionConfig& config);
-  ~LocalSession();
   LocalSession(const LocalSession&) = delete;
   LocalSession& operator=(const LocalSession&) = delete;
 
@@ -46,57 +40,28 @@ class LocalSession {
   /// OperatorError if there is no such player or the session is driven otherwise.
   void SetInput(int player, const Input& input);
 
-  std::int64_t tick() const { return server_->tick(); }
+  std::int64_t tick() const { return cluster_.server().tick(); }
   /// Returns the number of clients: that of the scene's players.
-  int client_count() const { return static_cast<int>(peers_.size()); }
+  int client_count() const { return cluster_.client_count(); }
   /// Returns the bodies as a peer displays them now; 0: the server, 1 .. client_count(): the client
   /// of the scene's first player and so on. Empty before a client has the room. Throws
   /// OperatorError if there is no such peer.
   View ViewOf(int peer) const;
-  const Scene& scene() const { return scene_; }
-  const Server& server() const { return *server_; }
+  const Scene& scene() const { return cluster_.scene(); }
+  const Server& server() const { return cluster_.server(); }
   /// Returns the client of a player, 0 .. client_count() - 1.
-  const Client& client(int player) const {
-    return *peers_[static_cast<std::size_t>(player)].client;
-  }
+  const Client& client(int player) const { return *cluster_.client(player); }
   /// Returns all messages so far. Requires LocalSessionConfig::keep; else empty.
-  const Recording& recording() { return tap_.memory.builder.recording(); }
+  const Recording& recording() { return cluster_.recording(); }
   /// Writes the log's last events. Throws OperatorError if the log cannot be written.
   void Flush();
 
  private:
-  /// Records with the virtual time, as lcm-logger does in a live session.
-  class Tap : public Recorder {
-   public:
-    explicit Tap(const LocalSession& session) : session_(session) {}
-    void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
-    void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override;
-    bool listening() const override;
-    MemoryRecorder memory;
-    std::unique_ptr<RoomLog> log;
+  void RequireLog() const;
 
-   private:
-    const LocalSession& session_;
-  };
-  struct Peer {
-    std::unique_ptr<Net> endpoint;
-    std::unique_ptr<Entropy> entropy;
-    std::unique_ptr<Client> client;
-    std::int64_t clock_offset_us = 0;
-  };
-  void StartClient(Drive drive);
-  void Instant();
-
-  const Scene scene_;
-  const LocalSessionConfig config_;
-  Tap tap_{*this};
-  MemoryNetwork network_;
-  std::unique_ptr<Net> endpoint_;
-  std::unique_ptr<ImpairedNet> impaired_;
-  std::unique_ptr<Entropy> entropy_;
-  std::unique_ptr<Server> server_;
-  std::vector<Peer> peers_;
-  std::int64_t now_us_ = 1000000;
+  const Drive drive_;
+  std::unique_ptr<RoomLog> log_;  // nullptr: none
+  Cluster cluster_;
 };
 
 }  // namespace seam

@@ -4,10 +4,10 @@
 
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
 #include "common/sync/edits/edit_order.h"
 #include "tests/cluster/anchored_scenes.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace anchored_glue_test {

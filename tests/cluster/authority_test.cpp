@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/authority_watch.h"
 #include "tests/support/soak.h"
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
 #include "common/physics/part_places.h"
 #include "common/sync/edits/edit_order.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {

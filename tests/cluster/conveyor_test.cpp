@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/physics/part_places.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace conveyor_test {

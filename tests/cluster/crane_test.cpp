@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace crane_test {

@@ -7,12 +7,12 @@
 #include <iterator>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/codec/codec.h"
 #include "common/codec/quanta.h"
 #include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "tests/cluster/rewritten_states.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/path/rewriting_net.h"
 #include "tests/support/soak/server_test_access.h"
 

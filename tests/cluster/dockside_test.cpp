@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
 #include "server/rules/rules.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace dockside_test {

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
 #include "common/scene/scene.h"
 #include "common/sync/edits/edit_order.h"
 #include "server/edits/edit_log.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace edit_tick_test {

@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/handover_list.h"
 #include "tests/cluster/rewritten_states.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/path/rewriting_net.h"
 #include "tests/support/pendulums.h"
 #include "tests/support/soak.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/revisions.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace far_bodies_test {

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "client/embed/cluster.h"
 #include "server/sessions/traffic_count.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/authority_watch.h"
 #include "tests/support/pendulums.h"
 #include "tests/support/soak.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 #include "tests/support/authority_watch.h"
 #include "tests/support/pendulums.h"
 #include "tests/support/soak.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 #include "tests/support/pendulums.h"
 
 namespace seam {

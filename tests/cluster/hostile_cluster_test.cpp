@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "client/embed/cluster.h"
 #include "common/net/datagram.h"
 #include "common/net/link.h"
 #include "common/net/loose_datagram.h"
 #include "tests/cluster/rewritten_states.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/live_session.h"
 #include "tests/support/path/link_keys.h"
 #include "tests/support/path/rewriting_net.h"

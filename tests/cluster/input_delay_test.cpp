@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace input_delay_test {

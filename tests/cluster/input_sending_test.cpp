@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/sync/inputs/input_source.h"
 #include "server/interest/send_queue.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace input_sending_test {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/codec/packed/states_unpacker.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/path/opened_net.h"
 #include "tests/support/soak.h"
 

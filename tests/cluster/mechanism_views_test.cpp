@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace mechanism_views_test {

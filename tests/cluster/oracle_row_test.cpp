@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace oracle_row_test {

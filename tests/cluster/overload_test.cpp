@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 namespace overload_test {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <variant>
 
+#include "client/embed/cluster.h"
 #include "common/codec/codec.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/path/rewriting_net.h"
 
 namespace seam {

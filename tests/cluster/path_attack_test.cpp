@@ -9,10 +9,10 @@
 #include <functional>
 #include <memory>
 
+#include "client/embed/cluster.h"
 #include "common/net/datagram.h"
 #include "common/net/loose_datagram.h"
 #include "common/net/wire_number.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/live_session.h"
 #include "tests/support/path/link_keys.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <variant>
 
+#include "client/embed/cluster.h"
 #include "server/rules/rules.h"
 #include "tests/cluster/rewritten_states.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/path/rewriting_net.h"
 #include "tests/support/soak.h"
 

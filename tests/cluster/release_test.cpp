@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/sync/lease.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/authority_watch.h"
 #include "tests/support/path/rewriting_net.h"
 #include "tests/support/pendulums.h"

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "client/embed/cluster.h"
 #include "common/base/check.h"
 #include "common/record/log_file.h"
 #include "common/record/room_log.h"
-#include "tests/lab/cluster.h"
 #include "tests/lab/replay/replayed_room.h"
 #include "tests/support/arena.h"
 #include "tests/support/temporary_file.h"

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "client/embed/cluster.h"
 #include "common/sync/method.h"
 #include "server/room_state.h"
 #include "server/rules/rules.h"
 #include "server/saved/log_tail.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/arena.h"
 #include "tests/support/temporary_file.h"
 

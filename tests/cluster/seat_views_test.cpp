@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/scene/scene.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/soak.h"
 #include "tests/support/two_sides.h"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "client/embed/cluster.h"
 #include "common/base/bytes.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace show_age_cluster_test {

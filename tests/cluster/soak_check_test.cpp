@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 namespace soak_check_test {

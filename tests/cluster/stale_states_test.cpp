@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 #include "tests/support/path/rewriting_net.h"
 #include "tests/support/pendulums.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 namespace support_removed_test {

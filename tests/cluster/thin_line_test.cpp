@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/base/random.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/thin_net.h"
 
 namespace seam {

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "client/embed/cluster.h"
 #include "common/physics/part_places.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/scripted_world.h"
 
 namespace seam {

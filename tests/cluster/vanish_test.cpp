@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 namespace vanish_test {

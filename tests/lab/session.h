@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/base/limits.h"
 #include "common/base/version.h"
 #include "common/record/recorder.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
 #include "common/measure/revisions.h"
 #include "common/physics/world.h"
 #include "common/sync/edits/edit_order.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace measure_changes_test {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/limit/held_inputs.h"
 #include "common/measure/measure.h"
 #include "common/scene/expected.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace measure_limit_test {

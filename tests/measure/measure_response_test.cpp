@@ -6,10 +6,10 @@
 #include <functional>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/measure/screen/counterfactual.h"
 #include "common/measure/screen/extent.h"
 #include "common/measure/screen/response.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/made_recording.h"
 
 namespace seam {

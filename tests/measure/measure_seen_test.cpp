@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/measure/screen/noticed.h"
 #include "common/measure/screen/thresholds.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/made_recording.h"
 
 namespace seam {

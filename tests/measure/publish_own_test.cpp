@@ -7,12 +7,12 @@
 #include <memory>
 #include <set>
 
+#include "client/embed/cluster.h"
 #include "common/measure/contents/contents.h"
 #include "common/measure/contents/partial_views.h"
 #include "common/measure/measure.h"
 #include "common/measure/revisions.h"
 #include "common/record/log_file.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/lab_workspace.h"
 #include "tests/support/plan/plain_scene.h"
 #include "tests/support/program.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 #include "tests/support/plan/plain_scene.h"
 
 namespace seam {

@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/sync/edits/edit_order.h"
 #include "render/playback/playback.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace render_changes_test {

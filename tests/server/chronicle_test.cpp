@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <map>
 
+#include "client/embed/cluster.h"
 #include "common/record/events/event_text.h"
 #include "common/record/events/summary_text.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace chronicle_test {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
+#include "client/embed/cluster.h"
 #include "common/record/events/summary_text.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace console_test {

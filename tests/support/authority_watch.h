@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 

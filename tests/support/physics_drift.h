@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/joint_drift.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 namespace first_ticks_test {

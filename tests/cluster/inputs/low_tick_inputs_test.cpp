@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace low_tick_inputs_test {

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace capacity_test {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 #include "tests/support/path/rewriting_net.h"
 
 namespace seam {

@@ -8,8 +8,8 @@
 #include <map>
 #include <string>
 
+#include "client/embed/cluster.h"
 #include "common/scene/character.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace climb_cluster_test {

@@ -1,7 +1,7 @@
 /// The real server and clients in one process and in virtual time: collisions in each mode, changes
 /// of authority, and runs that repeat bit for bit.
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 #include <gtest/gtest.h>
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
 #include "common/scene/scene.h"
 #include "common/sync/edits/edit_order.h"
 #include "tests/cluster/anchored_scenes.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace edit_order_scenes_test {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/base/random.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/soak.h"
 #include "tests/support/soak/paired_boxes.h"
 

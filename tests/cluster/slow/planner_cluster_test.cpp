@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 #include "tests/lab/load/load.h"
 #include "tests/support/plan/plain_scene.h"
 #include "tests/support/two_sides.h"

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace reconcile_cluster_test {

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 

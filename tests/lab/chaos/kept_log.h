@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/record/room_log.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
 #include "common/scene/scene.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace unseen_server_test {

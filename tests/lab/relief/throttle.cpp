@@ -1,7 +1,7 @@
 #include "tests/lab/relief/throttle.h"
 
+#include "client/embed/cluster.h"
 #include "common/measure/measure.h"
-#include "tests/lab/cluster.h"
 #include "tests/support/plan/plain_scene.h"
 
 namespace seam {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "client/embed/cluster.h"
 #include "common/base/random.h"
-#include "tests/lab/cluster.h"
 #include "tests/lab/relief/relief_scene.h"
 #include "tests/support/soak/cut_net.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 namespace seam {
 

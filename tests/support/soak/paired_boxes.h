@@ -1,8 +1,8 @@
 #pragma once
 /// Boxes in pairs that are bonded and broken again, for rooms with a long edit history.
 
+#include "client/embed/cluster.h"
 #include "common/physics/part_places.h"
-#include "tests/lab/cluster.h"
 
 namespace seam {
 

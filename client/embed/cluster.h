@@ -29,12 +29,13 @@ struct ClusterConfig {
   int spectators = 0;     ///< clients besides the scene's players, after them: "guest0", ...
   Drive drive = Drive::kScript;
   Publish publish = Publish::kAll;  ///< for server and clients
+  bool shows = false;               ///< clients display their views: see ClientConfig
   int players = 0;                  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
   float smooth_rate = kSmoothRate;
   TrustMode trust = TrustMode::kOff;  ///< of the server
   std::optional<int> show_age_ticks;  ///< of all clients; nullopt: the scene's
-  Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
+  Recorder* recorder = nullptr;       ///< also gets every message, at now_us()
   /// Duration of a server tick, us of virtual time, by tick; nullptr: 0.
   std::function<std::int64_t(std::int64_t)> server_tick_us;
   /// CPU time of a client for each body in each of its steps, replayed ones included, us. Virtual
@@ -48,7 +49,10 @@ struct ClusterConfig {
 
 class Cluster {
  public:
+  /// Throws OperatorError for a scene that does not load, and for unknown names.
   explicit Cluster(const ClusterConfig& config);
+  /// Like above, with the scene instead of its name or text.
+  Cluster(const ClusterConfig& config, const Scene& scene);
   ~Cluster();
 
   /// Runs until the server has done this many ticks. Throws OperatorError after 30 s without a
@@ -82,7 +86,9 @@ class Cluster {
   }
 
   Server& server() { return *server_; }
+  const Server& server() const { return *server_; }
   Client* client(int i) { return clients_[static_cast<std::size_t>(i)].client.get(); }
+  const Client* client(int i) const { return clients_[static_cast<std::size_t>(i)].client.get(); }
   /// Returns the key that a revived client would use.
   std::int64_t key(int i) const { return clients_[static_cast<std::size_t>(i)].key; }
   int client_count() const { return static_cast<int>(clients_.size()); }

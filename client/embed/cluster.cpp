@@ -1,4 +1,4 @@
-#include "tests/lab/cluster.h"
+#include "client/embed/cluster.h"
 
 #include <fmt/format.h>
 #include <time.h>
@@ -53,9 +53,10 @@ void Cluster::Tap::EndTick(const std::string& channel, const LogSeal& seal, bool
 }
 
 Cluster::Cluster(const ClusterConfig& config)
-    : config_(config),
-      scene_(config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")
-                                       : ParseScene(config.scene_text, config.scene)) {
+    : Cluster(config, config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")
+                                                : ParseScene(config.scene_text, config.scene)) {}
+
+Cluster::Cluster(const ClusterConfig& config, const Scene& scene) : config_(config), scene_(scene) {
   const ImpairProfile profile = FindProfile(config.impair);
   server_endpoint_ = network_.Attach(server_address_);
   server_net_ = std::make_unique<ImpairedNet>(*server_endpoint_, profile, profile,
@@ -117,6 +118,7 @@ void Cluster::StartClient(std::size_t i) {
   config.name = config.watch ? "guest" + std::to_string(i - players) : scene_.players[i].name;
   config.drive = config.watch ? Drive::kNone : config_.drive;
   config.publish = config_.publish;
+  config.shows = config_.shows;
   config.script_of = config.name;
   config.key = peer.key;
   config.smooth_rate = config_.smooth_rate;
