@@ -11,8 +11,10 @@ constexpr std::int64_t kEpochUs = 10'000'000;
 constexpr int kRoundTrips = 8;
 /// Share of the rate in use from which on it is tested: a rate that is not used proves nothing.
 constexpr double kUsed = 0.5;
-/// Share of the sent bytes that arrives on a path that is not full, at least.
+/// Part of its usual share that arrives on a path that is not full, at least.
 constexpr double kArrives = 0.9;
+/// Weight of one look in the usual share, and the least share: some of it arrives on any path.
+constexpr double kLookWeight = 0.2, kArrivesLeast = 0.2;
 /// Rate after a cut, as shares of the arriving bytes: for a queue, and for a deep one.
 constexpr double kCutShare = 0.8, kCutDeepShare = 0.5;
 /// Growth in a second: up to the rate that was too much, about it, and beyond, where it rises by a
@@ -57,8 +59,14 @@ void LineRate::NoteRoundTrip(std::int64_t now_us, std::int64_t rtt_us, std::int6
 
 void LineRate::Look(std::int64_t now_us) {
   const double passed_s = static_cast<double>(now_us - begun_us_) * 1e-6;
-  const double sent = sent_ / passed_s, arriving = arrived_ / passed_s;
+  const double sent = sent_ / passed_s;
   const auto due = static_cast<double>(newest_ - newest_looked_);  // would be here without losses
+  const bool used = sent > kUsed * rate_;
+  if (!used && due > 0) {
+    const double share = std::clamp(arrived_ / due, kArrivesLeast, 1.0);
+    arrives_ += kLookWeight * (share - arrives_);
+  }
+  const double arriving = arrived_ / passed_s / arrives_;  // without the usual losses
   const std::int64_t least =
       least_before_us_ < 0 ? least_us_ : std::min(least_us_, least_before_us_);
   // The mean of a look is above its least by the jitter, and while a queue builds up.
@@ -66,7 +74,7 @@ void LineRate::Look(std::int64_t now_us) {
   queue_us_ = rtt_least_us_ - least;
   // Time that a datagram takes on a thin line by itself, and that a peer waits to acknowledge it.
   const std::int64_t apart_us = (now_us - begun_us_) / std::max(1, datagrams_);
-  const bool used = sent > kUsed * rate_, lacks = arrived_ < kArrives * due;
+  const bool lacks = arrived_ < kArrives * arrives_ * due;
   looked_us_ = begun_us_ = now_us;
   newest_looked_ = newest_;
   sent_ = arrived_ = 0;

@@ -6,9 +6,10 @@
 ///   rate   grows while it is used and the queue is short;
 ///          falls below the rate at which datagrams arrive when the queue is long
 ///
-/// Loss alone changes nothing: radio links lose datagrams without being full. A full path without a
-/// queue of its own loses all that is too much, so the rate never exceeds kArrivingShare of
-/// the arriving bytes.
+/// Loss alone changes nothing: radio links lose datagrams without being full, and do so while the
+/// rate is hardly used, which tells their share. A full path without a queue of its own loses all
+/// that is too much, so the rate never exceeds kArrivingShare of the bytes that would arrive
+/// without that share.
 
 #include <cstddef>
 #include <cstdint>
@@ -54,6 +55,7 @@ class LineRate {
   double rate_ = kStart;
   double growth_ = 5;  // of the rate in a second, share of it
   double full_ = 0;    // rate that filled the path at the last cut; 0: none did
+  double arrives_ = 1;  // share of the bytes that arrives while the path is not full
   std::int64_t queue_us_ = 0;
   // Least round trip of this epoch of 10 s and of the one before, us; -1: none.
   std::int64_t least_us_ = -1, least_before_us_ = -1, epoch_us_ = 0;

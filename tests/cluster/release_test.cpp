@@ -282,5 +282,22 @@ TEST(Release, ForgedReleasesAreCountedAndTakeNothingFromOthers) {
   EXPECT_GE(cluster.server().stats().dropped_right - before, forged - 2);
 }
 
+/// Two hundred discs change hands all the time: grants must not pile up behind lost ones.
+TEST(ReleaseCluster, HoldersThatLetGoStayOverLossyLines) {
+  for (const char* impair :
+       {"delay=110ms,jitter=20ms,loss=30%", "delay=115ms,jitter=20ms,loss=21%"}) {
+    SCOPED_TRACE(impair);
+    ClusterConfig config;
+    config.scene = "gas";
+    config.impair = impair;
+    config.drive = Drive::kBot;
+    config.duration_s = 16;
+    Cluster cluster(config);
+    cluster.Run();
+    EXPECT_EQ(Said(cluster.recording(), "is gone"), 0);
+    EXPECT_GT(cluster.recording().grants.size(), 100U) << "hands must change";
+  }
+}
+
 }  // namespace release_test
 }  // namespace seam

@@ -157,6 +157,22 @@ TEST(LineRate, JitterAndLossesOfWideLinesThrottleNothing) {
   }
 }
 
+/// The losses are there while little is sent, so that more does not cause them.
+TEST(LineRate, TheRateOfALossyLineGrowsWithTheNeed) {
+  for (const Path& path : {Path{5e6, 0, 0.3, 30000}, Path{5e6, 20, 0.3, 20000},
+                           Path{5e6, 10, 0.2, 60000}, Path{2e6, 20, 0.4, 20000}}) {
+    SCOPED_TRACE(std::to_string(path.jitter_ms) + " ms, loss " + std::to_string(path.loss));
+    Sender sender(path);
+    for (const int seconds : {4, 20}) {  // the rate falls to the need, or nearly so
+      sender.path().needs = 2500;
+      sender.Run(seconds);
+      sender.path().needs = path.needs;
+      sender.Run(4);
+      EXPECT_GT(sender.Run(20).sent, 0.85 * path.needs);
+    }
+  }
+}
+
 TEST(LineRate, AQueueThatIsNotOursIsTakenForThePath) {
   Sender sender({5e6, 0, 0, 20000});
   sender.Run(4);
