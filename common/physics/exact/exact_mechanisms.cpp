@@ -9,8 +9,9 @@
 namespace seam {
 namespace {
 
-/// The engine solves a mechanism well at once with so few joints, or with a mass ratio this small.
-/// It tears apart light links with a heavy load when it gets them in the middle of a swing.
+/// The engine solves a mechanism well at once with so few joints, or with a mass ratio this small
+/// in its island. It tears apart light links with a heavy load, joined to them or pressing on them,
+/// when it gets them in the middle of a swing.
 constexpr std::size_t kJointsOfEasy = 4;
 constexpr float kMassRatioOfEasy = 10;
 /// A mechanism that alone costs more multiplications than this is too large with any contacts, even
@@ -49,26 +50,30 @@ void ExactStep::FindMechanisms() {
       }
     }
     std::sort(mechanism.joints.begin(), mechanism.joints.end());
-    mechanism.easy = Easy(mechanism);
+    mechanism.lightest = LightestLink(mechanism);
   }
   found_.resize(mechanisms_.size());
 }
 
-bool ExactStep::Easy(const Mechanism& mechanism) const {
-  if (mechanism.joints.size() <= kJointsOfEasy) return true;
-  float least = b2_maxFloat, most = 0;
+float ExactStep::LightestLink(const Mechanism& mechanism) const {
+  float least = b2_maxFloat;
+  if (mechanism.joints.size() <= kJointsOfEasy) return least;
   for (const int slot : mechanism.slots) {
-    const b2Body& body = *slots_[static_cast<std::size_t>(slot)].body;
-    if (!Moves(const_cast<b2Body*>(&body))) continue;
-    least = std::min(least, body.GetMass());
-    most = std::max(most, body.GetMass());
+    b2Body* const body = slots_[static_cast<std::size_t>(slot)].body;
+    if (Moves(body)) least = std::min(least, body->GetMass());
   }
-  return most <= kMassRatioOfEasy * least;
+  return least;
 }
 
 bool ExactStep::Easy(const Found& found) const {
-  return std::all_of(found.mechanisms.begin(), found.mechanisms.end(),
-                     [this](int m) { return mechanisms_[static_cast<std::size_t>(m)].easy; });
+  float least = b2_maxFloat, most = 0;
+  for (const int m : found.mechanisms) {
+    least = std::min(least, mechanisms_[static_cast<std::size_t>(m)].lightest);
+  }
+  for (const int slot : found.slots) {
+    most = std::max(most, slots_[static_cast<std::size_t>(slot)].body->GetMass());
+  }
+  return most <= kMassRatioOfEasy * least;
 }
 
 /// Excludes mechanisms that are always too large, once and for all.

@@ -58,7 +58,7 @@ class ExactStep {
     std::vector<int> slots;   // in the order of the system
     std::vector<int> joints;  // indices into joints_
     bool exact = true;        // false: too expensive to factor
-    bool easy = true;         // the engine solves it well at any moment
+    float lightest = 0;       // LightestLink
   };
   struct Found {  // an island, stored at the index of its first mechanism
     std::vector<int> slots, mechanisms;
@@ -75,7 +75,9 @@ class ExactStep {
     return moving < 0 ? -1 : slot_of_[static_cast<std::size_t>(moving)];
   }
   void FindMechanisms();
-  bool Easy(const Mechanism& mechanism) const;
+  /// Returns the least mass that tears between heavy ends, kg; b2_maxFloat: none does.
+  float LightestLink(const Mechanism& mechanism) const;
+  /// True if the engine solves the island's mechanisms well at any moment.
   bool Easy(const Found& found) const;
   static bool IsHeap(const Found& found);
   void LeaveCharacters(const Scene& scene);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "tests/physics/exact/exact_scenes.h"
 #include "tests/support/mechanisms/taut_bridge.h"
@@ -71,6 +73,47 @@ TEST(ExactBridge, OtherPlanksRatesAndLoadsGetNoEnergyEither) {
         bridge.more = ball(-6, 1.2, 4) + ball(5, 1.5, 25);
         ExpectCalm(TautBridgeWorld(bridge).get(), kGapMost,
                    fmt::format("{} planks of {} kg/m2, {}", planks, density, rate));
+      }
+    }
+  }
+}
+
+/// Links of some 0.15 kg, hinged to a ring that falls onto the ground with a block of 30 to 80 kg
+/// in it: more contacts than are solved as a whole.
+std::string LoadedRing(int links, double radius, double density) {
+  std::string text = PartText("ground", "segment = [[-60, 0], [60, 0]]\nfriction = 0.8");
+  const auto at = [&](double index, double r) {
+    const double angle = 2 * M_PI * index / links;
+    return std::pair(r * std::cos(angle), radius + 1 + r * std::sin(angle));
+  };
+  const double side = 2 * radius * std::sin(M_PI / links);
+  for (int i = 0; i < links; ++i) {
+    const auto [x, y] = at(i + 0.5, radius * std::cos(M_PI / links));
+    text += PartText("link" + std::to_string(i),
+                     fmt::format("box = [{:.6f}, 0.15]\nposition = [{:.6f}, {:.6f}]\n"
+                                 "angle = {:.6f}\nfriction = 0.6\ngroup = -1",
+                                 side, x, y, 2 * M_PI * (i + 0.5) / links + M_PI / 2));
+  }
+  for (int i = 0; i < links; ++i) {
+    const auto [x, y] = at(i, radius);
+    text += HingeText("pin" + std::to_string(i), "link" + std::to_string((i + links - 1) % links),
+                      "link" + std::to_string(i), x, y);
+  }
+  return text + PartText("load", fmt::format("box = [2, 2]\nposition = [0.3, {:.6f}]\n"
+                                             "density = {}\nfriction = 0.6",
+                                             radius - 1, density));
+}
+
+TEST(ExactBridge, ARingOfLightLinksHoldsTheBlockInIt) {
+  for (const int links : {20, 24, 31}) {
+    for (const double density : {8.0, 20.0}) {
+      for (const char* substeps : {"1", "2", "5"}) {
+        const auto world = SmallWorld(LoadedRing(links, links / 6.0, density),
+                                      std::string("joint_substeps = ") + substeps + "\n");
+        const BridgeCourse course = FollowBridge(world.get(), 5);
+        const std::string name = fmt::format("{} links, {}, {} substeps", links, density, substeps);
+        EXPECT_LE(course.gained, kGainMost * course.released) << name;
+        EXPECT_LT(course.gap, kLongGapMost) << name;
       }
     }
   }
