@@ -135,6 +135,72 @@ motor = {speed = 0.005, force = 1000}
   EXPECT_NEAR(run.Read("box").position.y(), 0.1, 0.002);
 }
 
+/// Returns the places of the box in each second of a minute that begins after ten: it has swung for
+/// a while.
+std::vector<float> Swing(const std::string& scene) {
+  SlowRun run(scene, 10);
+  std::vector<float> places;
+  for (int s = 0; s < 60; ++s) {
+    run.StepTo((11 + s) * run.world.scene().solver.tick_hz);
+    places.push_back(run.Read("box").position.x());
+  }
+  return places;
+}
+
+/// Near a turning point they are slower than the engine's tolerances for longer than it waits.
+TEST(SlowWatch, ASlowSwingGoesOnPastItsTurningPoints) {
+  const std::string post = "[[part]]\nname = \"post\"\nbox = [0.2, 0.2]\nanchored = true\n";
+  const std::string pendulum = kAnn + post + "[[joint]]\nname = \"pin\"\nkind = \"hinge\"\n" +
+                               "a = \"post\"\nb = \"box\"\nanchor = [0, 0]\n";
+  const auto spring = [&](float by, float hz) {
+    return "gravity = [0, 0]\n" + kAnn + post +
+           Box("position = [" + std::to_string(3 + by) + ", 0]") +
+           "[[joint]]\nname = \"way\"\nkind = \"prismatic\"\na = \"post\"\n" +
+           "b = \"box\"\naxis = [1, 0]\n[[joint]]\nname = \"spring\"\nkind = \"distance\"\n" +
+           "a = \"post\"\nb = \"box\"\nlength = 3\nfrequency = " + std::to_string(hz) +
+           "\ndamping_ratio = 0\n";
+  };
+  struct Case {
+    std::string scene;
+    float middle, least;
+  };
+  const std::vector<Case> cases = {
+      {pendulum + Box("position = [0.008, -2]"), 0, 0.005F},
+      {pendulum + Box("position = [0.02, -9]"), 0, 0.013F},
+      {spring(0.03F, 0.07F), 3, 0.015F},
+      {spring(0.02F, 0.1F), 3, 0.01F},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.scene);
+    const std::vector<float> places = Swing(c.scene);
+    const auto [left, right] = std::minmax_element(places.begin(), places.end());
+    EXPECT_LT(*left, c.middle - c.least);
+    EXPECT_GT(*right, c.middle + c.least);
+  }
+}
+
+TEST(SlowWatch, ADampedSwingComesToRestInTheMiddle) {
+  const SlowRun run(kAnn + R"(
+[[part]]
+name = "post"
+box = [0.2, 0.2]
+position = [0, 3]
+anchored = true
+)" + Box("position = [0, 0.1]") +
+                        R"([[joint]]
+name = "spring"
+kind = "distance"
+a = "post"
+b = "box"
+length = 3
+frequency = 1
+damping_ratio = 0.2
+)",
+                    20);
+  EXPECT_TRUE(run.Sleeps("box"));
+  EXPECT_NEAR(run.Read("box").position.y(), -10 / 39.48, 0.02) << "g / (2 pi f)^2 below";
+}
+
 /// Returns the largest angle of the pole within 10 s, rad.
 float LargestAngle(const std::string& scene) {
   SlowRun run(kAnn + scene, 0);

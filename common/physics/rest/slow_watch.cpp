@@ -1,5 +1,6 @@
 #include "common/physics/rest/slow_watch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/physics/reveal.h"
@@ -12,6 +13,13 @@ SEAM_REVEAL(QuietTime, float, b2Body, m_sleepTime);
 /// Time after which a body that goes on in every step is not quiet, s. Speeds of piles rise and
 /// fall from step to step, so that none rises for so long.
 constexpr float kGoingFor = b2_timeToSleep / 2;
+
+/// Time within which an acceleration alone may not move a body by the engine's slop, s. Longer ones
+/// let damped bodies sleep later; with shorter ones slow swings end beside their rest.
+constexpr float kTurnsIn = 4;
+/// A body that slows down and stops sooner than this, s, may come to rest: the time does not count.
+/// Together with kGoingFor less than b2_timeToSleep, so that nothing sleeps while it turns.
+constexpr float kStopsIn = b2_timeToSleep / 4;
 
 /// Returns the body's speed and spin as a multiple of the engine's tolerances.
 float SpeedOf(const b2Body& body) {
@@ -67,8 +75,16 @@ void SlowWatch::After(const std::vector<int>& present, const std::vector<Activit
     float& quiet = b->*Member(QuietTime());
     const bool goes = b->IsAwake() && quiet > 0 && activities[i] == Activity::kSimulated &&
                       GoesOn(b, before_[i], h);
-    going_s_[i] = goes ? going_s_[i] + h : 0;
-    if (going_s_[i] >= kGoingFor) quiet = 0;
+    const float after = SpeedOf(*b), lost = before_[i] - after;
+    float& going = going_s_[i];
+    if (!goes) {
+      going = 0;
+    } else if (lost < 0) {
+      going = std::fabs(going) + h;
+    } else {
+      going = std::min(going, 0.f) - (after * h > lost * kStopsIn ? h : 0);
+    }
+    if (std::fabs(going) >= kGoingFor) quiet = 0;
   }
 }
 
@@ -77,8 +93,10 @@ bool SlowWatch::GoesOn(b2Body* body, float before, float h) {
   // Such a step is lost in single precision at a metre from the origin.
   if (after * h < b2_epsilon / b2_linearSleepTolerance) return false;
   if (after > before || !IsHeld(body)) return true;
-  const bool comes_to_rest = (before - after) * b2_timeToSleep >= before * after * h;
-  return !comes_to_rest && !Rests(body);
+  const float lost = before - after;
+  const bool comes_to_rest = lost * b2_timeToSleep >= before * after * h;
+  const bool turns = lost * kTurnsIn * kTurnsIn > 2 * b2_timeToSleep * h;
+  return (turns || !comes_to_rest) && !Rests(body);
 }
 
 /// Follows pressed contacts until one is with something that is not dynamic.

@@ -7,9 +7,14 @@
 ///   resting           goes on while it becomes faster: a chain of pressed contacts leads to
 ///                     something that is not dynamic. Steady creep is the solver's error there
 ///   held otherwise    goes on while it becomes faster, or slows down so little that it has more
-///                     than the engine's own slop (0.01 m/s or 2 degrees/s for 0.5 s) before it
+///                     than the engine's own slop (0.01 m/s or 2 degrees/s for 0.5 s) before it,
+///                     or slows down as if to turn: its acceleration alone would move it by that
+///                     slop within 4 s. The last 0.125 s before it stops do not count, so that what
+///                     a damper stops as soon as that sleeps
 ///
 /// The way left is v / (-dv/dt / v), as if the speed went on to fall at its present relative rate.
+/// A fall and the rise after it count as one, a rise and the fall after it do not: what trembles
+/// faster than 1.3 times in a second sleeps.
 
 #include <cstdint>
 #include <vector>
@@ -30,7 +35,8 @@ class SlowWatch {
   void After(const std::vector<int>& present, const std::vector<Activity>& activities,
              const BuiltScene& built, float h);
 
-  /// Time for which the body has gone on, s. Part of the world's state.
+  /// Time for which the body has gone on, s, negative while it slows down. Part of the world's
+  /// state.
   float going_s(int body) const { return going_s_[static_cast<std::size_t>(body)]; }
   void Restore(int body, float going_s) { going_s_[static_cast<std::size_t>(body)] = going_s; }
 
