@@ -47,7 +47,12 @@ constexpr std::int64_t kInputMarginLossUs = 5 * kInputRepeatUs;
 }  // namespace
 
 Client::Client(const ClientConfig& config, Net& net, Recorder& recorder, Entropy& entropy)
-    : config_(config), net_(net), recorder_(recorder), entropy_(entropy), key_(config.key) {}
+    : config_(config),
+      net_(net),
+      recorder_(recorder),
+      entropy_(entropy),
+      key_(config.key),
+      home_(config.server) {}
 
 void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
@@ -57,7 +62,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   ReceiveAll(now_us);
   if (closed_ || !fatal_.empty()) return;
   const std::int64_t silence_us = now_us - answered_us_;
-  if (silence_us > kLeaseUs && replica_ != nullptr && !released_) {
+  if (silence_us > kLeaseUs && replica_ != nullptr && !released_ && !moving_) {
     SendReleaseOfAll(now_us);
     replica_->ReleaseAll();
     released_ = true;
@@ -66,10 +71,11 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   // others. Nor is one without a welcome: the server may have had it and dropped it, and another
   // Join with its number is ignored.
   const bool lost = silence_us > kLostUs && (peer_ >= 0 || !offers_.empty());
-  if (lost || (peer_ >= 0 && released_ && silence_us < kLeaseUs)) {
+  if (!moving_ && (lost || (peer_ >= 0 && released_ && silence_us < kLeaseUs))) {
     Join(now_us);
   }
-  if (peer_ < 0) {
+  TryElsewhere(now_us);
+  if (peer_ < 0 || moving_) {
     SendHelloOrJoin(now_us);
   } else if (asked_names_us_ >= 0) {
     AskNames(now_us);
@@ -95,6 +101,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 void Client::SendReadyAndPing(std::int64_t now_us) {
   if (!said_ready_ && replica_ != nullptr && clock_.settled()) {
     said_ready_ = true;
+    redirects_ = 0;
     ++sessions_;
     Ready ready;
     ready.utime = now_us;
@@ -178,7 +185,8 @@ void Client::StepDue(std::int64_t now_us) {
   const std::int64_t hz = room_.tick_hz;
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t due = time * hz / 1000000;
-  if (due - replica_->tick() > kGiveUpTicks) {  // suspended for seconds: the server dropped us
+  if (due - replica_->tick() > kGiveUpTicks &&
+      !moving_) {  // suspended for seconds: the server dropped us
     Join(now_us);
     return;
   }

@@ -64,6 +64,9 @@ class Client {
   void Tick(std::int64_t now_us, std::int64_t cpu_us);
   /// Returns the latest time for the next call of Tick, on the same clock.
   std::int64_t next_tick_us(std::int64_t now_us);
+  /// Says where the room is now, as of the fleet's directory: the client goes there when it joins,
+  /// or when its server is silent and `epoch` is later than that server's.
+  void Suggest(const Address& server, std::int32_t epoch) { suggested_ = {server, epoch}; }
   /// Says goodbye; call Tick no more.
   void Shutdown(std::int64_t now_us);
 
@@ -76,7 +79,7 @@ class Client {
   bool closed() const { return closed_; }
   /// Returns the time spent on joining (again), us; 0 once joined.
   std::int64_t joining_us(std::int64_t now_us) const {
-    return peer_ < 0 && number_ != 0 ? now_us - joining_since_us_ : 0;
+    return (peer_ < 0 || moving_) && number_ != 0 ? now_us - joining_since_us_ : 0;
   }
   /// Returns the share of the room that has come, 0 to 1; 1 once there is a world.
   double room_share() const {
@@ -87,6 +90,12 @@ class Client {
   std::size_t room_size() const { return room_size_; }
   bool running() const { return replica_ != nullptr && started_; }
   int peer() const { return peer_; }
+  /// Returns the server that it is in, or joins.
+  const Address& server() const { return config_.server; }
+  /// Returns the room's epoch, the highest seen; 0: none yet.
+  std::int32_t epoch() const { return epoch_; }
+  /// True from a redirect until another server welcomes it: the world goes on as it was.
+  bool moving() const { return moving_; }
   /// Returns the name under which it joins or has joined.
   const std::string& name() const { return config_.name; }
   /// Returns the secret key of our place, which gives it back to us in a new session. 0: none yet.
@@ -114,12 +123,27 @@ class Client {
 
   /// If the newest answered ping, or the challenge of a join, is older than this, we join anew.
   static constexpr std::int64_t kLostUs = 5000000;
+  /// If a server is silent for so long and another one may have the room, we join that one, us.
+  static constexpr std::int64_t kElsewhereUs = 1000000;
+  /// Most redirects between two welcomes after which the client was ready.
+  static constexpr int kRedirectsMax = 3;
 
  private:
   friend struct ClientTestAccess;
 
   // client_join.cpp
   void Join(std::int64_t now_us);
+  /// Forgets the session and its world.
+  void Forget(std::int64_t now_us);
+  /// Begins a handshake with config_.server; keeps the session and the world.
+  void BeginJoin(std::int64_t now_us);
+  /// Joins another server that may have the room, if this one is silent.
+  void TryElsewhere(std::int64_t now_us);
+  /// Goes on at another server, and keeps the world until it welcomes us.
+  void Move(std::int64_t now_us, const Address& server);
+  void Follow(std::int64_t now_us, const Redirect& redirect);
+  /// Handles a message of a session that has not welcomed us yet.
+  void OnOffered(std::int64_t now_us, ByteView bytes);
   /// Until welcomed: sends a Hello, or a Join once there is a token.
   void SendHelloOrJoin(std::int64_t now_us);
   void SendLoose(const Bytes& message);
@@ -204,7 +228,25 @@ class Client {
   bool offer_fresh_ = false;  // the newest was not sent in a Join yet
   std::int64_t key_ = 0;
   std::optional<PublicKey> key_of_;  // the server that gave us the key, if it did in our life
-  std::unique_ptr<Link> link_;       // nullptr until the first datagram of the session
+  std::unique_ptr<Link> link_;       // nullptr until welcomed
+  Address at_;                       // the server of link_
+  std::unique_ptr<Link> next_;       // of a session that has not welcomed us yet
+  PublicKey next_of_{};              // its server
+  bool moving_ = false;              // joins another server; the world is that of the last one
+  std::optional<Redirect> redirect_;  // received in this call
+  std::string refusal_;               // likewise; "": none
+  int redirects_ = 0;                 // in a row
+  Address home_;                      // the configured server
+  Address away_;                      // the last one to which we were redirected; port 0: none
+  struct Suggestion {
+    Address server;
+    std::int32_t epoch = 0;
+  };
+  std::optional<Suggestion> suggested_;
+  std::int32_t epoch_ = 0;         // of the room: no lower one is joined
+  std::int32_t proved_epoch_ = 0;  // of the newest Welcome, with its proof
+  std::int64_t proof_ = 0;
+  std::int64_t begun_us_ = 0;  // begin of this handshake
   std::unique_ptr<Publisher> publisher_;
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<Replica> replica_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 #include <variant>
 
 #include "client/client.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr std::int64_t kHelloUs = 100000;
 /// A refused join is repeated for this long, us.
 constexpr std::int64_t kInsistUs = 3000000;
+/// The same of a server to which we were sent on: it may have to load the room first, us.
+constexpr std::int64_t kInsistMovingUs = 10000000;
 
 /// Time for the server to answer which names are free, us; older servers never do.
 constexpr std::int64_t kNamesUs = 1000000;
@@ -35,11 +38,11 @@ std::string OtherProtocol(const std::string& reason) {
 }  // namespace
 
 void Client::Join(std::int64_t now_us) {
-  do {
-    number_ = entropy_.Next();
-  } while (number_ == 0);
-  BeginOffers();
-  offer_fresh_ = false;
+  Forget(now_us);
+  BeginJoin(now_us);
+}
+
+void Client::Forget(std::int64_t now_us) {
   link_.reset();
   unpacker_.reset();
   packer_.reset();
@@ -52,19 +55,31 @@ void Client::Join(std::int64_t now_us) {
   clock_ = ClockFilter();
   feed_ = InputFeed();
   metadata_ = MetaTable();
-  if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
+  if ((peer_ >= 0 && !moving_) || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
-  said_ready_ = started_ = released_ = loaded_now_ = false;
+  said_ready_ = started_ = released_ = loaded_now_ = moving_ = false;
   timeline_ = RoomTimeline();
   lead_us_ = -1;
   answered_us_ = now_us;
-  refused_us_ = asked_names_us_ = -1;
+  asked_names_us_ = -1;
+}
+
+void Client::BeginJoin(std::int64_t now_us) {
+  do {
+    number_ = entropy_.Next();
+  } while (number_ == 0);
+  BeginOffers();
+  offer_fresh_ = false;
+  next_.reset();
+  refused_us_ = -1;
+  begun_us_ = now_us;
 }
 
 void Client::BeginOffers() {
   // A token counts once; who was in the room comes back with the key of the place.
   const bool shows = config_.token && !key_of_;
-  offers_.Begin(entropy_, number_, config_.name, config_.room, shows ? &*config_.token : nullptr);
+  offers_.Begin(entropy_, number_, config_.name, config_.room, shows ? &*config_.token : nullptr,
+                proved_epoch_, proof_);
 }
 
 void Client::SendHelloOrJoin(std::int64_t now_us) {
@@ -92,7 +107,7 @@ void Client::SendLoose(const Bytes& message) {
 
 void Client::OnUnknownSession(std::int64_t now_us) {
   // Anybody on the path can say so: our session goes on as long as it is answered.
-  if (PongOverdue(now_us)) Join(now_us);
+  if (!moving_ && PongOverdue(now_us)) Join(now_us);
 }
 
 bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
@@ -103,7 +118,7 @@ bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
   }
   if (number_ == 0 || number != number_) return false;
   // Once we have joined, such a datagram is a late answer, or somebody else's.
-  if (peer_ >= 0) return true;
+  if (peer_ >= 0 && !moving_) return true;
   const AnyMessage any = Decode(LooseMessage(datagram));
   if (const auto* challenge = std::get_if<Challenge>(&any)) {
     OnChallenge(now_us, *challenge);
@@ -125,21 +140,94 @@ void Client::OnChallenge(std::int64_t now_us, const Challenge& challenge) {
 }
 
 bool Client::OnSealed(std::int64_t now_us, const Bytes& datagram) {
-  const auto receive = [&] {
-    return link_->Receive(now_us, datagram, [&](ByteView message) { OnMessage(now_us, message); });
-  };
-  if (link_ != nullptr) return receive();
-  PublicKey identity{};
-  const SealKeys* const keys = offers_.Find(SessionOfDatagram(datagram), &identity);
-  if (keys == nullptr) return false;
-  link_ = std::make_unique<Link>(*keys);
-  if (receive()) {
-    key_of_ = identity;
-    offers_.Clear();
-    return true;
+  const std::uint64_t session = SessionOfDatagram(datagram);
+  Link* link = link_ != nullptr && link_->session() == session ? link_.get() : nullptr;
+  if (link == nullptr) {
+    PublicKey identity{};
+    const SealKeys* const keys = offers_.Find(session, &identity);
+    if (keys == nullptr) return false;
+    if (next_ == nullptr || next_->session() != session) next_ = std::make_unique<Link>(*keys);
+    next_of_ = identity;
+    link = next_.get();
   }
-  link_.reset();
-  return false;
+  const bool good = link->Receive(now_us, datagram, [&](ByteView message) {
+    if (link == link_.get()) {
+      OnMessage(now_us, message);
+    } else {
+      OnOffered(now_us, message);
+    }
+  });
+  if (redirect_) Follow(now_us, *std::exchange(redirect_, std::nullopt));
+  if (!refusal_.empty()) {
+    next_.reset();
+    OnRefusal(now_us, std::exchange(refusal_, {}));
+  }
+  return good;
+}
+
+void Client::OnOffered(std::int64_t now_us, ByteView bytes) {
+  const AnyMessage any = Decode(bytes);
+  if (const auto* welcome = std::get_if<Welcome>(&any)) {
+    if (welcome->epoch < epoch_) {
+      refusal_ = "it has epoch " + std::to_string(welcome->epoch) +
+                 " of the room, which has gone on elsewhere to " + std::to_string(epoch_);
+      return;
+    }
+    Forget(now_us);
+    link_ = std::move(next_);
+    at_ = config_.server;
+    key_of_ = next_of_;
+    offers_.Clear();
+    OnWelcome(now_us, *welcome);
+  } else if (const auto* redirect = std::get_if<Redirect>(&any)) {
+    redirect_ = *redirect;
+  } else if (const auto* bye = std::get_if<Bye>(&any)) {
+    refusal_ = bye->reason;
+  }
+}
+
+void Client::Follow(std::int64_t now_us, const Redirect& redirect) {
+  Address to;
+  if (!ReadAddress(redirect.address, &to) || redirect.epoch < epoch_) {
+    ++stats_.dropped_malformed;
+    return;
+  }
+  if (++redirects_ > kRedirectsMax) {
+    fatal_ = "the servers redirect again and again, now to " + redirect.address;
+    return;
+  }
+  epoch_ = redirect.epoch;
+  config_.room = redirect.room;
+  away_ = to;
+  Move(now_us, to);
+}
+
+void Client::Move(std::int64_t now_us, const Address& server) {
+  if (peer_ >= 0 && !moving_) {
+    moving_ = true;
+    joining_since_us_ = now_us;
+  }
+  config_.server = server;
+  BeginJoin(now_us);
+}
+
+void Client::TryElsewhere(std::int64_t now_us) {
+  const bool joining = peer_ < 0 || moving_;
+  const bool later = suggested_ && suggested_->epoch > epoch_;
+  if (!joining) {
+    const bool silent = now_us - answered_us_ > kElsewhereUs && PongOverdue(now_us);
+    if (later && silent && suggested_->server != config_.server) Move(now_us, suggested_->server);
+    return;
+  }
+  const bool known = suggested_ && suggested_->epoch >= epoch_;
+  if (known && suggested_->server != config_.server && offers_.empty()) {
+    return Move(now_us, suggested_->server);
+  }
+  if (now_us - begun_us_ <= (offers_.empty() ? kElsewhereUs : kLostUs)) return;
+  // No answer: the other server that we know, if there is one.
+  const bool away = away_.port != 0 && config_.server == home_;
+  if (!known && (away || config_.server != home_)) return Move(now_us, away ? away_ : home_);
+  if (moving_ && !offers_.empty()) BeginJoin(now_us);
 }
 
 void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
@@ -153,7 +241,7 @@ void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
   if (refused_us_ < 0) refused_us_ = now_us;
   if (!other.empty()) {
     fatal_ = other;
-  } else if (now_us - refused_us_ > kInsistUs) {
+  } else if (now_us - refused_us_ > (moving_ ? kInsistMovingUs : kInsistUs)) {
     fatal_ = "the server refuses: " + reason;
   }
 }
@@ -191,6 +279,8 @@ void Client::OnWelcome(std::int64_t now_us, const Welcome& welcome) {
   peer_ = welcome.peer;
   player_ = welcome.player;
   key_ = welcome.key;
+  epoch_ = proved_epoch_ = welcome.epoch;
+  proof_ = welcome.proof;
   answered_us_ = now_us;
   room_size_ = static_cast<std::size_t>(welcome.room_bytes);
 }

@@ -33,8 +33,8 @@ void Client::ReceiveAll(std::int64_t now_us) {
   for (int n = 0; n < 1024 && net_.Receive(&from, &datagram); ++n) {
     stats_.bytes_in += static_cast<std::int64_t>(datagram.size());
     stats_.datagrams_in += 1;
-    const bool good =
-        from == config_.server && (OnHandshake(now_us, datagram) || OnSealed(now_us, datagram));
+    const bool ours = from == config_.server || (link_ != nullptr && from == at_);
+    const bool good = ours && (OnHandshake(now_us, datagram) || OnSealed(now_us, datagram));
     if (!good) ++stats_.dropped_malformed;
   }
   stats_.dropped_malformed += net_.discarded() - discarded_;
@@ -43,8 +43,8 @@ void Client::ReceiveAll(std::int64_t now_us) {
 
 void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   const AnyMessage any = Decode(bytes);
-  if (const auto* welcome = std::get_if<Welcome>(&any)) {
-    OnWelcome(now_us, *welcome);
+  if (const auto* redirect = std::get_if<Redirect>(&any)) {
+    redirect_ = *redirect;
   } else if (const auto* chunk = std::get_if<Chunk>(&any)) {
     OnChunk(now_us, *chunk);
   } else if (const auto* pong = std::get_if<Pong>(&any)) {
@@ -78,7 +78,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* reset = std::get_if<Reset>(&any)) {
     if (packer_) packer_->Reset(static_cast<std::uint16_t>(reset->number));
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
-    if (peer_ < 0) return OnRefusal(now_us, bye->reason);
+    if (moving_) return;  // the server that has sent us on ends
     if (asked_names_us_ >= 0) return GiveUpName(bye->reason);
     closed_ = true;
   } else {

@@ -56,7 +56,7 @@ void Client::Flush(std::int64_t now_us) {
     stats_.bytes_out += static_cast<std::int64_t>(datagram.size);
     stats_.datagrams_out += 1;
     credit_.Spend(datagram.size);
-    net_.Send(config_.server, datagram);
+    net_.Send(at_, datagram);
   };
   link_->Flush(now_us, send, static_cast<std::size_t>(std::max(0.0, credit_.bytes())));
 }

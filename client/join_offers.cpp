@@ -5,7 +5,8 @@
 namespace seam {
 
 void JoinOffers::Begin(Entropy& entropy, std::uint64_t number, const std::string& name,
-                       const std::string& room, const ConnectToken* token) {
+                       const std::string& room, const ConnectToken* token, std::int32_t epoch,
+                       std::int64_t proof) {
   offers_.clear();
   own_ = KeyPair(entropy);
   terms_ = JoinTerms();
@@ -14,6 +15,8 @@ void JoinOffers::Begin(Entropy& entropy, std::uint64_t number, const std::string
   terms_.name = name;
   terms_.room = room;
   terms_.client = own_.open;
+  terms_.epoch = epoch;
+  terms_.proof = proof;
   token_keys_.reset();
   if (token == nullptr) return;
   token_keys_ = token->keys;
@@ -58,6 +61,8 @@ Join JoinOffers::Make(std::int64_t now_us, std::int64_t place_key) const {
   const SealedKey sealed = offer.secrets.CloseKey(place_key);
   join.exchange.insert(join.exchange.end(), sealed.begin(), sealed.end());
   join.pass = offer.terms.pass;
+  join.epoch = offer.terms.epoch;
+  join.proof = offer.terms.proof;
   return join;
 }
 

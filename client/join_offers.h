@@ -17,9 +17,10 @@ namespace seam {
 class JoinOffers {
  public:
   /// Begins anew for the session `number`: forgets all offers and draws a key pair. `token`: to be
-  /// shown, nullptr: none.
+  /// shown, nullptr: none. `epoch` and `proof`: of the newest Welcome to the room; 0: none.
   void Begin(Entropy& entropy, std::uint64_t number, const std::string& name,
-             const std::string& room, const ConnectToken* token = nullptr);
+             const std::string& room, const ConnectToken* token = nullptr, std::int32_t epoch = 0,
+             std::int64_t proof = 0);
   /// Makes an offer for the challenge. False if it is the newest one already, or has keys that are
   /// none.
   bool Take(const Challenge& challenge);

@@ -96,6 +96,8 @@ Bytes RoomState::Copy(std::int64_t now_us, std::size_t expected_bytes) {
   settings.session = 0;  // the server that loads the room begins a session of its own
   Bytes room = Encode(settings);
   PersistBytes(a, &room);
+  std::int32_t epoch = parts_.epoch;
+  a.Int(&epoch, 1, INT32_MAX);
   std::vector<Snapshot> edits = Edits(0);
   a.List(&edits, StateArchive::kListMost, [&](Snapshot* part) {
     Bytes bytes = Encode(*part);
@@ -141,6 +143,8 @@ std::unique_ptr<const SavedRoom> SavedRoom::Read(ByteView bytes, Status* status)
   StateArchive a(rest);
   a.Section("room");
   const Room room = ReadMessage<Room>(a);
+  std::int32_t epoch = 1;
+  a.Int(&epoch, 1, INT32_MAX);
   std::vector<TopologyEntry> entries;
   std::vector<Snapshot> edits;
   a.List(&edits, StateArchive::kListMost, [&](Snapshot* part) {
@@ -159,6 +163,7 @@ std::unique_ptr<const SavedRoom> SavedRoom::Read(ByteView bytes, Status* status)
     return fail(error.what());
   }
   std::unique_ptr<SavedRoom> saved(new SavedRoom(room, scene));
+  saved->epoch_ = epoch;
   if (!edits.empty()) {
     const Status made = TopologyFold::FromEntries(saved->scene_, entries, edits.front().number,
                                                   &saved->fold_, &saved->topology_);

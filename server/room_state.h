@@ -35,7 +35,7 @@ class StateArchive;
 class TrustLadder;
 
 /// Version of the saved bytes. Raise it with every change of them; older ones are not read.
-constexpr std::uint32_t kRoomStateVersion = 3;
+constexpr std::uint32_t kRoomStateVersion = 4;
 
 /// The beginning of a saved room, enough to make the server that loads it.
 class SavedRoom {
@@ -46,6 +46,8 @@ class SavedRoom {
 
   /// Settings, scene text and name.
   const Room& room() const { return room_; }
+  /// The room's epoch, 1 or more.
+  std::int32_t epoch() const { return epoch_; }
   const Scene& scene() const { return scene_; }
   const Topology& topology() const { return topology_; }
   /// The edits that made the topology, for the EditLog.
@@ -58,6 +60,7 @@ class SavedRoom {
       : room_(room), scene_(scene), topology_(scene_), fold_(topology_) {}
 
   Room room_;
+  std::int32_t epoch_ = 1;
   Scene scene_;
   Topology topology_;
   TopologyFold fold_;
@@ -69,6 +72,7 @@ class RoomState {
   /// The owners of a room's state. All must outlive this; `source` and `rules` may be null.
   struct Parts {
     const Room& room;
+    std::int32_t epoch;
     Replica& replica;
     AuthorityManager& authority;
     EditLog& edits;

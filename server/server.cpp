@@ -69,11 +69,12 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
     : scene_(scene),
       config_(config),
       room_(MakeRoom(scene_, config_, entropy)),
+      epoch_(config.epoch),
       net_(net),
       replica_(topology, OwnSync(config, recorder), 0, -1),
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
                 net, entropy, config.client_bytes_per_s, config.identity,
-                TokenDoor{config.token_key, config.room}),
+                TokenDoor{config.token_key, config.room, config.epoch}),
       authority_(scene_, config.sync, replica_),
       edits_(MakeEditLog(*config.sync.policy, replica_.world(), authority_, config.sync.tick_hz)),
       bounds_(replica_),
@@ -98,6 +99,7 @@ Server::~Server() = default;
 
 void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
+  if (over_) return AnswerOnly(now_us);
   ReceiveAll(now_us);
   sessions_.DropSilent(now_us);
   FollowSessions(now_us);
@@ -132,7 +134,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 }
 
 std::int64_t Server::next_tick_us() const {
-  if (!started()) return std::numeric_limits<std::int64_t>::max();
+  if (!started() || over_) return std::numeric_limits<std::int64_t>::max();
   return clock_.DueUs(replica_.tick() + 1);
 }
 

@@ -46,6 +46,7 @@ constexpr int kDatagramsMax = 4096;
 struct ServerConfig {
   SyncConfig sync;
   std::string room = "main";
+  std::int32_t epoch = 1;          ///< of the room; a resumed one has at least its saved one
   std::string impair = "perfect";  ///< for the record only
   std::int64_t seed = 1;
   int wait_players = 0;  ///< tick 0 comes when this many players are ready
@@ -103,6 +104,20 @@ class Server {
   void PublishLoad(const Load& load) { broadcast_.Publish(load); }
   /// Says goodbye to everyone. Tick must not be called afterwards.
   void Shutdown(std::int64_t now_us, const std::string& reason);
+  /// Gives the room away: what is saved from now on is of this epoch. Redirect or Forsake follows.
+  void GiveAway(std::int32_t epoch) { epoch_ = epoch; }
+  /// Ends the room here; its clients, and those that join, are told to go on at another server.
+  /// Tick then only tells them so.
+  void RedirectAll(std::int64_t now_us, const Redirect& redirect);
+  /// Ends the room here without a word to its clients: it goes on elsewhere, who knows where.
+  void Forsake(std::int64_t now_us);
+  /// True after RedirectAll, once every client has acknowledged it or is silent.
+  bool all_redirected() const { return over_ && sessions_.AllTold(); }
+  /// The room's epoch.
+  std::int32_t epoch() const { return epoch_; }
+  /// A higher epoch of the room that a client has proved: another server has it, and this one must
+  /// stop. 0: none.
+  std::int32_t shown_epoch() const { return sessions_.shown_epoch(); }
 
   /// Returns the room's description, with the number of this session.
   const Room& room() const { return room_; }
@@ -225,6 +240,11 @@ class Server {
   /// True if only the inputs of the session's client count.
   bool InputsOnly(const Session& session) const;
 
+  // server_events.cpp
+  /// Puts the end of the session into the record.
+  void End(std::int64_t now_us, const std::string& reason);
+  /// Tick of a room that is over.
+  void AnswerOnly(std::int64_t now_us);
   // server.cpp
   /// Acts on the events of sessions: joined, ready, left.
   void FollowSessions(std::int64_t now_us);
@@ -267,6 +287,8 @@ class Server {
   const Scene scene_;
   const ServerConfig config_;
   const Room room_;
+  std::int32_t epoch_;  // of what is saved
+  bool over_ = false;   // the room goes on elsewhere: Tick only answers
   Net& net_;
   ServerStats stats_;
   Replica replica_;

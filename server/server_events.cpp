@@ -1,5 +1,8 @@
 /// Server: what it tells of its clock, its bounds and its end, and the sum of the session.
 
+#include <utility>
+#include <variant>
+
 #include "server/chronicle.h"
 #include "server/server.h"
 
@@ -33,11 +36,40 @@ void Server::RemoveOutside(std::int64_t now_us) {
   chronicle_->Say(now_us, event);
 }
 
-void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
+void Server::End(std::int64_t now_us, const std::string& reason) {
   chronicle_->Say(now_us, MakeEvent(EventKind::kEnded, "the room ends: " + reason));
   if (started()) chronicle_->Publish(now_us, Sum(now_us, Ended::kEnded));
   broadcast_.EndTick(now_us, false, true);
+}
+
+void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
+  if (!over_) End(now_us, reason);
   sessions_.Close(now_us, reason, &stats_.counters);
+}
+
+void Server::RedirectAll(std::int64_t now_us, const Redirect& redirect) {
+  if (!std::exchange(over_, true)) End(now_us, "it goes on at " + redirect.address);
+  Redirect now = redirect;
+  now.utime = now_us;
+  sessions_.RedirectAll(now);
+}
+
+void Server::Forsake(std::int64_t now_us) {
+  if (!std::exchange(over_, true)) End(now_us, "it goes on at another server");
+  sessions_.Forsake();
+}
+
+void Server::AnswerOnly(std::int64_t now_us) {
+  Address from;
+  Bytes datagram;
+  for (int n = 0; n < kDatagramsMax && net_.Receive(&from, &datagram); ++n) {
+    sessions_.Receive(now_us, from, datagram, [&](Session& session, ByteView message) {
+      if (std::holds_alternative<Bye>(Decode(message))) sessions_.Leave(session, "left");
+    });
+  }
+  sessions_.DropSilent(now_us);
+  sessions_.TakeEvents();
+  sessions_.Flush(now_us, &stats_.counters);
 }
 
 }  // namespace seam

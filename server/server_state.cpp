@@ -11,8 +11,8 @@
 namespace seam {
 
 RoomState Server::State() {
-  return RoomState({room_, replica_, authority_, *edits_, seat_bonds_, bounds_, ladder_, sessions_,
-                    clock_, rule_source_.get(), rules_.get()});
+  return RoomState({room_, epoch_, replica_, authority_, *edits_, seat_bonds_, bounds_, ladder_,
+                    sessions_, clock_, rule_source_.get(), rules_.get()});
 }
 
 Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }

@@ -22,8 +22,11 @@
 #define SEAM_MESSAGES(X)                                                                           \
   X(Hello, hello_t, kEdge, "", m.utime, m.protocol, m.name)                                        \
   X(Challenge, challenge_t, kEdge, "", m.utime, m.token, m.keys)                                   \
-  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.name, m.room, m.exchange, m.pass)     \
-  X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key)                 \
+  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.name, m.room, m.exchange, m.epoch,    \
+    m.proof, m.pass)                                                                               \
+  X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key, m.epoch,        \
+    m.proof)                                                                                       \
+  X(Redirect, redirect_t, kEdge, "", m.utime, m.address, m.room, m.epoch)                          \
   X(Chunk, chunk_t, kEdge, "", m.utime, m.offset_bytes, m.data)                                    \
   X(Ready, ready_t, kEdge, "", m.utime)                                                            \
   X(Room, room_t, kBusRoom, "scene", m.utime, m.session, m.sequence, m.protocol, m.room,           \

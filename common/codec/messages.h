@@ -42,6 +42,8 @@ struct Join {
   std::int64_t token = 0;  ///< from the Challenge
   std::string name;        ///< 1..32 characters of [A-Za-z0-9_-]
   std::string room;        ///< name of the room, or "": the server's first
+  std::int32_t epoch = 0;  ///< highest of the room that the client has seen; 0: none
+  std::int64_t proof = 0;  ///< Welcome::proof of that epoch; 0: none
   std::vector<std::uint8_t> exchange, pass;  ///< a public and a sealed key; a connect token
 };
 
@@ -52,6 +54,16 @@ struct Welcome {
   std::int32_t player = -1;     ///< index of its player in the scene, -1 for a spectator
   std::int32_t room_bytes = 0;  ///< size of the compressed encoded Room that follows
   std::int64_t key = 0;         ///< secret of this player; for its next Join
+  std::int32_t epoch = 1;       ///< of the room: grows when another server goes on with it
+  std::int64_t proof = 0;       ///< EpochProof of that epoch, for the next Join
+};
+
+/// Server -> client, in a session: the room goes on at another server.
+struct Redirect {
+  std::int64_t utime = 0;
+  std::string address;     ///< as ToString(Address)
+  std::string room;        ///< name of the room there
+  std::int32_t epoch = 1;  ///< of the room there; no lower one is to be joined
 };
 
 /// Client -> server, reliable: the client has loaded the room and its clock has settled.

@@ -98,14 +98,19 @@ bool Valid(const Challenge& m) { return Time(m.utime) && m.keys.size() == kChall
 
 bool Valid(const Join& m) {
   return Time(m.utime) && IsName(m.name) && (m.room.empty() || IsName(m.room)) &&
-         m.exchange.size() == kJoinExchangeBytes && m.pass.size() <= kPassBytesMax;
+         m.exchange.size() == kJoinExchangeBytes && m.epoch >= 0 && m.pass.size() <= kPassBytesMax;
 }
 
 bool Valid(const Ready& m) { return Time(m.utime); }
 
 bool Valid(const Welcome& m) {
   return Time(m.utime) && Within(m.peer, 1, kPeersMax - 1) && Within(m.player, -1, kPeersMax - 1) &&
-         Within(m.room_bytes, 1, kPackedRoomBytesMax);
+         Within(m.room_bytes, 1, kPackedRoomBytesMax) && m.epoch >= 1;
+}
+
+bool Valid(const Redirect& m) {
+  return Time(m.utime) && !m.address.empty() && IsPrintable(m.address, kLabelBytesMax) &&
+         IsName(m.room) && m.epoch >= 1;
 }
 
 bool Valid(const Chunk& m) {

@@ -82,6 +82,8 @@ JoinSecrets::JoinSecrets(const JoinTerms& terms, const Secret& both_ephemeral,
   }
   transcript.Add(terms.pass.size());
   transcript.Add(terms.pass.data(), terms.pass.size());
+  transcript.Add(static_cast<std::uint64_t>(terms.epoch));
+  transcript.Add(static_cast<std::uint64_t>(terms.proof));
   Secret master;
   transcript.End(&master);
   const Secret to_server = Derived(master, 1), to_client = Derived(master, 2);
@@ -135,6 +137,19 @@ std::optional<std::int64_t> JoinSecrets::OpenKey(const SealedKey& sealed) const 
   for (const std::uint8_t byte : bytes) key = key << 8 | byte;
   Wipe(bytes, sizeof bytes);
   return static_cast<std::int64_t>(key);
+}
+
+std::int64_t EpochProof(const Secret& identity, const std::string& room, std::int32_t epoch) {
+  Transcript transcript;
+  transcript.AddText("Seam2D room epoch 1");
+  transcript.Add(identity.data(), Secret::kSecretBytes);
+  transcript.AddText(room);
+  transcript.Add(static_cast<std::uint64_t>(epoch));
+  Secret hash;
+  transcript.End(&hash);
+  std::uint64_t proof = 0;
+  for (int i = 0; i < 8; ++i) proof = proof << 8 | hash.data()[i];
+  return static_cast<std::int64_t>(proof);
 }
 
 bool SameKey(const PublicKey& a, const PublicKey& b) {

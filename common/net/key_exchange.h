@@ -40,6 +40,8 @@ struct JoinTerms {
   PublicKey ephemeral{};  ///< the server's, for a time slot
   PublicKey identity{};   ///< the server's, lasting
   Bytes pass;             ///< the sealed part of a connect token; empty: none
+  std::int32_t epoch = 0;  ///< of the room, the highest that the client has seen; 0: none
+  std::int64_t proof = 0;  ///< EpochProof of it; 0: none
 };
 
 /// Bytes of a place's key in a join: sealed, also if it is 0.
@@ -69,6 +71,10 @@ class JoinSecrets {
   SealKeys keys_;
   Secret box_;
 };
+
+/// Returns a hash of a room's name and epoch, keyed by a server's lasting key. A client that has it
+/// was told so by a server with that key, so that nobody else can end a room by an invented epoch.
+std::int64_t EpochProof(const Secret& identity, const std::string& room, std::int32_t epoch);
 
 /// Compares in constant time.
 bool SameKey(const PublicKey& a, const PublicKey& b);

@@ -44,6 +44,9 @@ inline std::array<std::uint8_t, 18> BytesOf(const Address& address) {
 
 /// Returns "127.0.0.1:7777" or "[2001:db8::1]:7777", for logs.
 std::string ToString(const Address& address);
+/// Reads the text of ToString: numbers alone, with a port. False if it is another one: nothing is
+/// looked up, so that a peer's text may be given.
+bool ReadAddress(const std::string& text, Address* address);
 
 /// Unreliable, unordered datagrams. Not thread-safe. No call blocks, throws or aborts because of an
 /// event in the network.

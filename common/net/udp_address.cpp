@@ -115,6 +115,20 @@ Address ParseAddress(const std::string& text, std::uint16_t default_port) {
   return address;
 }
 
+bool ReadAddress(const std::string& text, Address* address) {
+  const std::size_t colon = text.rfind(':');
+  const bool six = !text.empty() && text.front() == '[';
+  if (colon == std::string::npos || text.size() > INET6_ADDRSTRLEN + 8) return false;
+  if (text.find_first_not_of("0123456789abcdefABCDEF:.[]") != std::string::npos) return false;
+  if (!six && text.find_first_not_of("0123456789.:") != std::string::npos) return false;
+  try {
+    *address = ParseAddress(text, 0);
+  } catch (const OperatorError&) {
+    return false;
+  }
+  return address->port != 0;
+}
+
 std::string ToString(const Address& address) {
   char text[INET6_ADDRSTRLEN] = {};
   const std::string port = std::to_string(address.port);

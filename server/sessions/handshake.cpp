@@ -6,6 +6,7 @@
 #include "common/base/check.h"
 #include "common/codec/codec.h"
 #include "common/net/datagram.h"
+#include "common/net/link.h"
 #include "common/net/loose_datagram.h"
 
 namespace seam {
@@ -70,6 +71,8 @@ Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, s
     return Verdict::kAnswered;
   }
   request->tag = UsedOnce::TagOf(join.exchange.data());
+  const auto redirected = redirects_.find(request->tag);
+  if (redirected != redirects_.end()) Send(from, redirected->second.datagram);
   if (used_.Has(request->tag) || !MayCompute(now_us)) return Verdict::kAnswered;
   TokenGrant grant;
   const std::string refusal = ReadPass(now_us, join, request, &grant);
@@ -87,6 +90,8 @@ Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, s
   terms.ephemeral = ephemeral->open;
   terms.identity = identity_.open;
   terms.pass = join.pass;
+  terms.epoch = join.epoch;
+  terms.proof = join.proof;
   SealedKey sealed{};
   std::copy_n(join.exchange.begin() + static_cast<std::ptrdiff_t>(terms.client.size()),
               sealed.size(), sealed.begin());
@@ -99,6 +104,10 @@ Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, s
     return Verdict::kAnswered;
   }
   request->name = join.name;
+  request->room = join.room;
+  request->epoch = join.epoch;
+  request->epoch_proved =
+      join.epoch > 0 && join.proof == EpochProof(identity_.secret, door_.room, join.epoch);
   request->place_key = *key;
   request->keys = secrets->keys();
   return Verdict::kJoins;
@@ -107,6 +116,21 @@ Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, s
 void Handshake::NoteGranted(std::int64_t now_us, const JoinRequest& request) {
   used_.Note(now_us, request.tag, now_us + 2 * AddressToken::kSlotUs);
   if (request.token) used_.Note(now_us, request.token_tag, request.token_until_us);
+}
+
+void Handshake::AnswerByRedirect(std::int64_t now_us, const Address& to, const JoinRequest& request,
+                                 Redirect redirect) {
+  for (auto sent = redirects_.begin(); sent != redirects_.end();) {
+    sent = sent->second.until_us <= now_us ? redirects_.erase(sent) : std::next(sent);
+  }
+  used_.Note(now_us, request.tag, now_us + 2 * AddressToken::kSlotUs);
+  redirect.utime = now_us;
+  Link link(request.keys);
+  link.SendReliable(Encode(redirect));
+  RedirectSent sent{{}, now_us + 2 * AddressToken::kSlotUs};
+  link.Flush(now_us, [&](ByteView bytes) { sent.datagram.assign(bytes.begin(), bytes.end()); });
+  Send(to, sent.datagram);
+  redirects_[request.tag] = std::move(sent);
 }
 
 std::string Handshake::ReadPass(std::int64_t now_us, const Join& join, JoinRequest* request,

@@ -4,6 +4,7 @@
 /// sender has the keys.
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -24,7 +25,10 @@ namespace seam {
 /// A client that asks to come in, and has proved its address.
 struct JoinRequest {
   std::string name;
+  std::string room;            ///< "": the server's first
   std::int64_t place_key = 0;  ///< 0: none
+  std::int32_t epoch = 0;      ///< highest of the room that the client has seen; 0: none
+  bool epoch_proved = false;   ///< a server with our lasting key has told it
   bool token = false;          ///< has a connect token, which is right
   bool may_play = true;        ///< else the token lets it only look on
   SealKeys keys;               ///< of the session to be
@@ -58,6 +62,10 @@ class Handshake {
                   JoinRequest* request);
   /// Notes that the request was granted: its keys count no second time.
   void NoteGranted(std::int64_t now_us, const JoinRequest& request);
+  /// Answers the request by a redirect, in a sealed session of one datagram; the same join gets the
+  /// same datagram again. `redirect`: its utime is `now_us`.
+  void AnswerByRedirect(std::int64_t now_us, const Address& to, const JoinRequest& request,
+                        Redirect redirect);
 
   /// Sends the reason of a refusal, in answer to a datagram of `sent_bytes`, if the address's byte
   /// credit allows. `proved`: the sender has proved its address.
@@ -97,6 +105,11 @@ class Handshake {
   ByteCredit credit_;
   SlotKeys slot_keys_;
   UsedOnce used_;
+  struct RedirectSent {
+    Bytes datagram;
+    std::int64_t until_us = 0;
+  };
+  std::map<UsedOnce::Tag, RedirectSent> redirects_;  // those that may be asked for again
   double joins_left_ = kJoinsAtOnce;
   std::int64_t filled_us_ = -1;
   std::int64_t bytes_ = 0, datagrams_ = 0;  // sent since the last Count

@@ -104,6 +104,24 @@ void SessionTable::FlushTo(std::int64_t now_us, Session& session, std::size_t re
   session.link.Flush(now_us, send, std::min(reliable_bytes, session.path.left()));
 }
 
+void SessionTable::RedirectAll(const Redirect& redirect) {
+  redirect_ = redirect;
+  for (Session* const session : in_order_) session->link.SendUrgent(Encode(redirect));
+}
+
+void SessionTable::Forsake() {
+  forsaken_ = true;
+  sessions_.clear();
+  by_peer_.clear();
+  by_number_.clear();
+  NoteChanged();
+}
+
+bool SessionTable::AllTold() const {
+  return std::none_of(in_order_.begin(), in_order_.end(),
+                      [](const Session* session) { return session->link.reliable_pending(); });
+}
+
 void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
   for (Session* const session : in_order_) {
     if (!session->link.Sends(now_us) || !session->send_queue.Ready(now_us)) continue;

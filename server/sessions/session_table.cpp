@@ -38,8 +38,9 @@ SessionTable::SessionTable(const Scene& scene, const Bytes& room, const TrafficR
       bytes_per_s_(bytes_per_s),
       net_(net),
       identity_(identity != nullptr ? std::move(identity) : std::make_shared<KeyPair>(entropy)),
-      needs_token_(door.key != nullptr),
-      handshake_(net, entropy, *identity_, traffic_, std::move(door)),
+      door_(std::move(door)),
+      handshake_(net, entropy, *identity_, traffic_, door_),
+      epoch_proof_(EpochProof(identity_->secret, door_.room, door_.epoch)),
       places_(scene, entropy) {
   NoteChanged();
 }
@@ -76,6 +77,13 @@ SessionTable::Verdict SessionTable::OnStranger(std::int64_t now_us, const Sessio
     case Handshake::Verdict::kAnswered: return Verdict::kTaken;
     case Handshake::Verdict::kJoins: break;
   }
+  if (join.epoch_proved && join.epoch > std::max(door_.epoch, shown_epoch_)) {
+    shown_epoch_ = join.epoch;
+  }
+  if (redirect_ && !forsaken_) {
+    handshake_.AnswerByRedirect(now_us, id.address, join, *redirect_);
+    return Verdict::kTaken;
+  }
   const std::string no_entry = NoEntry(join);
   if (!no_entry.empty()) {
     handshake_.Refuse(now_us, id.address, id.number, datagram.size(), no_entry, true);
@@ -97,7 +105,11 @@ SessionTable::Verdict SessionTable::OnStranger(std::int64_t now_us, const Sessio
 }
 
 std::string SessionTable::NoEntry(const JoinRequest& join) const {
-  if (!needs_token_) return "";
+  if (forsaken_ || join.epoch > door_.epoch) {
+    return "the room " + door_.room + " goes on elsewhere, in a later epoch than " +
+           std::to_string(door_.epoch);
+  }
+  if (door_.key == nullptr) return "";
   const bool back = places_.IsOwner(join.name, static_cast<std::uint64_t>(join.place_key));
   if (!join.token && !back) return "a token is needed here: seam-client --token FILE";
   const bool plays = std::any_of(scene_.players.begin(), scene_.players.end(),
@@ -131,6 +143,8 @@ Session* SessionTable::Admit(std::int64_t now_us, const SessionId& id, const Sea
   welcome.player = place.player;
   welcome.room_bytes = static_cast<std::int32_t>(room_.size());
   welcome.key = static_cast<std::int64_t>(place.key);
+  welcome.epoch = door_.epoch;
+  welcome.proof = epoch_proof_;
   session->link.SendReliable(Encode(welcome));
   Note(SessionEvent::Kind::kJoined, *session);
   const auto place_of = static_cast<std::size_t>(peer);

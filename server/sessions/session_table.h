@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -123,6 +124,15 @@ class SessionTable {
   /// Says goodbye to all sessions and ends them without events.
   void Close(std::int64_t now_us, const std::string& reason, Stats* stats);
 
+  /// Tells all sessions, and from now on those that join, to go on at another server.
+  void RedirectAll(const Redirect& redirect);
+  /// Ends all sessions without a word, and admits nobody any more: the room goes on elsewhere.
+  void Forsake();
+  /// True if no session is left that has not acknowledged everything.
+  bool AllTold() const;
+  /// Returns the highest epoch of the room above its own that a client has proved; 0: none.
+  std::int32_t shown_epoch() const { return shown_epoch_; }
+
  private:
   using Sessions = std::map<SessionId, std::unique_ptr<Session>>;
 
@@ -152,8 +162,12 @@ class SessionTable {
   Net& net_;
   TrafficCount traffic_;
   const std::shared_ptr<const KeyPair> identity_;
-  const bool needs_token_;
+  const TokenDoor door_;
   Handshake handshake_;
+  std::optional<Redirect> redirect_;  // set: the answer to every join
+  bool forsaken_ = false;
+  std::int32_t shown_epoch_ = 0;
+  const std::int64_t epoch_proof_;
   PlaceTable places_;
   AccountBook accounts_;
   Sessions sessions_;

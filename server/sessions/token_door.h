@@ -1,6 +1,7 @@
 #pragma once
-/// Whom a room lets in: anybody, or only those with the operator's connect tokens.
+/// Decides who may join a room: anybody, or only those with the operator's connect tokens.
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -11,6 +12,7 @@ namespace seam {
 struct TokenDoor {
   std::shared_ptr<const Secret> key;  ///< the operator's; nullptr: anybody comes in, without token
   std::string room;                   ///< for which the tokens must be
+  std::int32_t epoch = 1;             ///< of the room
 };
 
 }  // namespace seam

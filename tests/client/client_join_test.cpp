@@ -73,6 +73,8 @@ class ClientJoin : public ::testing::Test {
     terms.cookie = join.token;
     terms.name = join.name;
     terms.room = join.room;
+    terms.epoch = join.epoch;
+    terms.proof = join.proof;
     std::copy_n(join.exchange.begin(), 32, terms.client.begin());
     terms.ephemeral = ephemeral_.open;
     terms.identity = identity_.open;

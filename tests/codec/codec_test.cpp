@@ -19,8 +19,8 @@ namespace seam {
 namespace codec_test {
 
 using Messages =
-    ::testing::Types<Hello, Welcome, Chunk, Room, ScenePart, Ping, Pong, Inputs, States, Rest,
-                     PackedStates, PackedInputs, Grants, Release, ExactStates, ImpactReport,
+    ::testing::Types<Hello, Welcome, Redirect, Chunk, Room, ScenePart, Ping, Pong, Inputs, States,
+                     Rest, PackedStates, PackedInputs, Grants, Release, ExactStates, ImpactReport,
                      TouchReport, EditOrder, Meta, View, Impacts, Strands, Stats, Event, Summary,
                      TickChain, LogSeal, Accepted, Bye, Reset, Differing>;
 

@@ -35,12 +35,17 @@ class RandomMessages {
   void Fill(Join& m) {
     Common(m), m.protocol = Int32(), m.token = static_cast<std::int64_t>(random_.Next());
     m.name = Name(), m.room = Name(), Vector(m.exchange, kJoinExchangeBytes, 0, 255);
+    Set(m.epoch, 0, INT32_MAX), m.proof = static_cast<std::int64_t>(random_.Next());
     Vector(m.pass, Count(0, kPassBytesMax), 0, 255);
   }
   void Fill(Ready& m) { Common(m); }
   void Fill(Welcome& m) {
     Common(m), Set(m.peer, 1, 31), Set(m.player, -1, 31), Set(m.room_bytes, 1, kPackedRoomBytesMax);
     m.key = static_cast<std::int64_t>(random_.Next());
+    Set(m.epoch, 1, INT32_MAX), m.proof = static_cast<std::int64_t>(random_.Next());
+  }
+  void Fill(Redirect& m) {
+    Common(m), m.address = "a" + Text(60), m.room = Name(), Set(m.epoch, 1, INT32_MAX);
   }
   void Fill(Chunk& m) {
     Common(m), Set(m.offset_bytes, 0, 4000000), Vector(m.data, Count(1, kChunkBytesMax), 0, 255);
