@@ -236,7 +236,7 @@ TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
   Room newer = MakeRoom();
   newer.protocol = kProtocolVersion + 1;
   EXPECT_EQ(refusal(Encode(newer)),
-            file.path() + ": recorded with protocol 15; this program reads protocol 8 to 14");
+            file.path() + ": recorded with protocol 16; this program reads protocol 8 to 15");
   Room before = MakeRoom();
   before.protocol = 6;  // its bodies had ids of 16 bits
   EXPECT_EQ(refusal(Encode(before)),

@@ -98,6 +98,8 @@ class Middle {
     terms.name = join->name;
     terms.room = join->room;
     terms.pass = join->pass;
+    terms.epoch = join->epoch;
+    terms.proof = join->proof;
     SealedKey sealed{};
     const auto half = join->exchange.begin() + static_cast<std::ptrdiff_t>(terms.client.size());
     std::copy(join->exchange.begin(), half, terms.client.begin());
