@@ -47,16 +47,18 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-
 LIBRARY_CXXFLAGS := -fPIC -fvisibility=hidden
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
-LIBS := -llcm -lbox2d -lfmt -lsodium -lzstd -pthread -Wl,--push-state,--as-needed -lsqlite3 -Wl,--pop-state
+LIBS := -llcm -lbox2d -lfmt -lsodium -lzstd -pthread -Wl,--push-state,--as-needed -lsqlite3 -lcurl -Wl,--pop-state
 RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz -ltinyxml2
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
 DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
 	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libzstd-dev libfreetype-dev \
-	fonts-dejavu-core libgtest-dev libsodium-dev libsqlite3-dev nlohmann-json3-dev libtinyxml2-dev iproute2 util-linux
+	fonts-dejavu-core libgtest-dev libsodium-dev libsqlite3-dev libcurl4-openssl-dev nlohmann-json3-dev libtinyxml2-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_test := python3
+# For the tests of the fleet's directory in etcd; without it they are skipped.
+DEBS_fleet := etcd-server
 # The Python of these packages, also where another one comes first in PATH.
 PYTHON3 ?= /usr/bin/python3
 DEBS_python := python3 libpython3-dev pybind11-dev python3-numpy

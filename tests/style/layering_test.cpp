@@ -50,8 +50,9 @@ struct Room {
 
 const std::vector<Room>& Rooms() {
   static const std::vector<std::string> common = {
-      "common/base",     "common/net",     "common/codec",  "common/record", "common/scene",
-      "common/topology", "common/physics", "common/stages", "common/sync",   "common/measure"};
+      "common/base",   "common/net",   "common/codec",    "common/record",
+      "common/scene",  "common/fleet", "common/topology", "common/physics",
+      "common/stages", "common/sync",  "common/measure"};
   static const auto with = [](std::vector<std::string> more) {
     std::vector<std::string> all = common;
     all.insert(all.end(), more.begin(), more.end());
@@ -60,6 +61,7 @@ const std::vector<Room>& Rooms() {
   static const std::vector<Room> rooms = {
       {"common/base", {}},
       {"common/net", {"common/base"}},
+      {"common/fleet", {"common/base", "common/net"}},
       {"seam", {}},  // generated from lcmtypes
       {"common/codec", {"common/base", "seam"}},
       {"common/record", {"common/base", "common/net", "common/codec"}},
@@ -186,6 +188,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"server/sessions", "server/interest"},
       {"server/load", "server"},
       {"server/saved", "server"},
+      {"server/fleet", "server/(hub|saved)"},
       {"server/hub", "server(/load|/sessions|/saved)?"},
       {"server/script", "none"},
       {"server/token", "none"},
@@ -310,7 +313,10 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
       "keyed_chain\\.cpp",
       kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("common/record/store/store\\.cpp|tests/.*", kCode, "sqlite3\\.h");
-  ExpectOnlyIn("render/import/rube\\.cpp", kCode, "nlohmann/.*");
+  ExpectOnlyIn(
+      "render/import/rube\\.cpp|common/fleet/(directory_values|etcd_store|file_store)\\.cpp", kCode,
+      "nlohmann/.*");
+  ExpectOnlyIn("common/fleet/http_post\\.cpp", kCode, "curl/.*");
   ExpectOnlyIn("render/import/tiled\\.cpp", kCode, "tinyxml2\\.h");
   ExpectOnlyIn("client/python/.*", kCode, "pybind11/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");

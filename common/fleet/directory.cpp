@@ -1,0 +1,205 @@
+#include "common/fleet/directory.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/base/names.h"
+#include "common/base/process.h"
+#include "common/fleet/directory_values.h"
+
+namespace seam {
+namespace {
+
+using Is = KeyCondition::Is;
+
+/// Time between two looks of Watch, ms.
+constexpr int kWatchMs = 200;
+
+bool SameKeys(const std::vector<KeyValue>& a, const std::vector<KeyValue>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.key == y.key && x.changed == y.changed && x.lease == y.lease;
+  });
+}
+
+}  // namespace
+
+const FleetRoom* FleetListing::FindRoom(const std::string& name) const {
+  const auto found =
+      std::find_if(rooms.begin(), rooms.end(), [&](const auto& room) { return room.name == name; });
+  return found == rooms.end() ? nullptr : &*found;
+}
+
+const FleetServer* FleetListing::FindServer(const std::string& id) const {
+  const auto found = std::find_if(servers.begin(), servers.end(),
+                                  [&](const auto& server) { return server.id == id; });
+  return found == servers.end() ? nullptr : &*found;
+}
+
+const FleetServer* PlaceRoom(const std::vector<FleetServer>& servers, std::int32_t protocol,
+                             const std::string& but, Random& random) {
+  std::vector<const FleetServer*> may;
+  for (const FleetServer& server : servers) {
+    const bool fits = server.protocol == protocol && server.used < server.capacity;
+    if (fits && !server.draining && server.id != but) may.push_back(&server);
+  }
+  if (may.empty()) return nullptr;
+  const FleetServer* const a = may[random.Next() % may.size()];
+  const FleetServer* const b = may[random.Next() % may.size()];
+  // used / capacity, without a division
+  const auto share = [](const FleetServer& x, const FleetServer& y) {
+    return std::int64_t{x.used} * y.capacity;
+  };
+  return share(*b, *a) < share(*a, *b) ? b : a;
+}
+
+Directory::Directory(std::unique_ptr<KeyStore> store, const std::string& fleet)
+    : store_(std::move(store)), prefix_("/seam/" + fleet + "/") {
+  SEAM_ASSERT(IsName(fleet));
+}
+
+Status Directory::List(FleetListing* listing) {
+  std::vector<KeyValue> keys;
+  const Status status = store_->List(prefix_, &keys);
+  if (!status.ok()) return status;
+  *listing = ReadListing(prefix_, keys);
+  seen_ = std::move(keys);
+  return status;
+}
+
+Status Directory::Watch(int wait_ms, FleetListing* listing) {
+  const std::vector<KeyValue> before = seen_;
+  Status status = List(listing);
+  for (int waited = 0; status.ok() && SameKeys(before, seen_) && waited < wait_ms;) {
+    const int now_ms = std::min(kWatchMs, wait_ms - waited);
+    SleepUs(std::int64_t{now_ms} * 1000);
+    waited += now_ms;
+    status = List(listing);
+  }
+  return status;
+}
+
+Status Directory::Register(const FleetServer& me) {
+  SEAM_ASSERT(IsName(me.id));
+  me_ = me;
+  if (lease_ == 0) {
+    const Status status = store_->Grant(kFleetLeaseS, &lease_);
+    if (!status.ok()) return status;
+  }
+  bool done = false;
+  const Status status =
+      store_->Commit({}, {{prefix_ + "servers/" + me.id, ServerText(me), lease_}}, &done);
+  if (!status.ok()) lease_ = 0;
+  return status;
+}
+
+Status Directory::Renew(bool* kept) {
+  *kept = false;
+  if (lease_ == 0) return Status::Ok();
+  const Status status = store_->KeepAlive(lease_, kept);
+  if (status.ok() && !*kept) lease_ = 0;
+  return status;
+}
+
+std::string Directory::RoomKey(const std::string& room, const char* what) const {
+  return prefix_ + "rooms/" + room + "/" + what;
+}
+
+std::string Directory::HolderText(const std::string& server, const std::string& address,
+                                  std::int32_t epoch) const {
+  return HolderTextOf({server, address, epoch});
+}
+
+Status Directory::Claim(const std::string& room, const std::string& spec, std::int32_t least,
+                        std::int32_t* epoch) {
+  return Take(room, &spec, least, epoch);
+}
+
+Status Directory::TakeOver(const std::string& room, std::int32_t least, std::int32_t* epoch) {
+  return Take(room, nullptr, least, epoch);
+}
+
+Status Directory::Take(const std::string& room, const std::string* spec, std::int32_t least,
+                       std::int32_t* epoch) {
+  SEAM_ASSERT(IsName(room) && least >= 1);
+  *epoch = 0;
+  FleetListing listing;
+  const Status status = List(&listing);
+  if (!status.ok()) return status;
+  const FleetRoom* const known = listing.FindRoom(room);
+  const std::int32_t last = known == nullptr ? 0 : known->epoch;
+  if (last == std::numeric_limits<std::int32_t>::max()) {
+    return Status::Error("room " + room + ": there is no epoch left");
+  }
+  const std::int32_t next = std::max(last + 1, least);
+  std::vector<KeyCondition> conditions = {
+      {RoomKey(room, "holder"), Is::kAbsent, "", 0},
+      {RoomKey(room, "epoch"), Is::kChangedAt, "", known == nullptr ? 0 : known->epoch_changed},
+      {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}};
+  std::vector<KeyWrite> writes = {
+      {RoomKey(room, "epoch"), std::to_string(next), 0},
+      {RoomKey(room, "holder"), HolderText(me_.id, me_.address, next), lease_}};
+  if (spec != nullptr) {
+    writes.push_back({RoomKey(room, "spec"), *spec, 0});
+  } else {
+    conditions.push_back({RoomKey(room, "spec"), Is::kPresent, "", 0});
+  }
+  bool done = false;
+  const Status taken = store_->Commit(conditions, writes, &done);
+  if (taken.ok() && done) *epoch = next;
+  return taken;
+}
+
+Status Directory::TakeBack(const std::string& room, std::int32_t epoch, bool* done) {
+  return store_->Commit({{RoomKey(room, "holder"), Is::kAbsent, "", 0},
+                         {RoomKey(room, "epoch"), Is::kValue, std::to_string(epoch), 0},
+                         {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}},
+                        {{RoomKey(room, "holder"), HolderText(me_.id, me_.address, epoch), lease_}},
+                        done);
+}
+
+Status Directory::Move(const std::string& room, std::int32_t epoch, const FleetServer& to,
+                       std::int32_t* next) {
+  *next = 0;
+  if (epoch == std::numeric_limits<std::int32_t>::max()) return Status::Ok();
+  bool done = false;
+  const Status status = store_->Commit(
+      {{RoomKey(room, "holder"), Is::kValue, HolderText(me_.id, me_.address, epoch), 0},
+       {prefix_ + "servers/" + to.id, Is::kPresent, "", 0}},
+      {{RoomKey(room, "epoch"), std::to_string(epoch + 1), 0},
+       {RoomKey(room, "holder"), HolderText(to.id, to.address, epoch + 1), to.lease}},
+      &done);
+  if (status.ok() && done) *next = epoch + 1;
+  return status;
+}
+
+Status Directory::SaveState(const std::string& room, std::int32_t epoch, const std::string& state,
+                            bool* done) {
+  return store_->Commit({{RoomKey(room, "epoch"), Is::kValue, std::to_string(epoch), 0}},
+                        {{RoomKey(room, "state"), state, 0}}, done);
+}
+
+Status Directory::Release(const std::string& room, std::int32_t epoch) {
+  bool done = false;
+  return store_->Commit(
+      {{RoomKey(room, "holder"), Is::kValue, HolderText(me_.id, me_.address, epoch), 0}},
+      {{RoomKey(room, "holder"), std::nullopt, 0},
+       {RoomKey(room, "spec"), std::nullopt, 0},
+       {RoomKey(room, "state"), std::nullopt, 0}},
+      &done);
+}
+
+Status Directory::GiveUp(const std::string& room, std::int32_t epoch) {
+  bool done = false;
+  return store_->Commit(
+      {{RoomKey(room, "holder"), Is::kValue, HolderText(me_.id, me_.address, epoch), 0}},
+      {{RoomKey(room, "holder"), std::nullopt, 0}}, &done);
+}
+
+Status Directory::Leave() {
+  const std::int64_t lease = std::exchange(lease_, 0);
+  return lease == 0 ? Status::Ok() : store_->Revoke(lease);
+}
+
+}  // namespace seam

@@ -1,0 +1,256 @@
+/// A KeyStore in one JSON file, guarded by flock: FOLDER/directory.json, replaced as a whole.
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "common/base/check.h"
+#include "common/base/plain_file.h"
+#include "common/base/process.h"
+#include "common/fleet/key_store.h"
+
+namespace seam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// Holds the folder's lock while it lives.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& path)
+      : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
+    for (int waited = 0; fd_ >= 0 && !locked_ && waited < kStoreWaitS * 1000; ++waited) {
+      locked_ = flock(fd_, LOCK_EX | LOCK_NB) == 0;
+      if (!locked_ && errno != EWOULDBLOCK && errno != EINTR) return;
+      if (!locked_) SleepUs(1000);
+    }
+  }
+  ~FolderLock() {
+    if (fd_ >= 0) close(fd_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  bool locked() const { return locked_; }
+
+ private:
+  int fd_;
+  bool locked_ = false;
+};
+
+struct FileLease {
+  std::int64_t ttl_us = 0, until_us = 0;  // until: since 1970
+};
+
+struct FileState {
+  std::int64_t revision = 0, leases_given = 0;
+  std::map<std::int64_t, FileLease> leases;
+  std::map<std::string, KeyValue> keys;
+};
+
+bool FromJson(const Json& all, FileState* state) {
+  const auto whole = [](const Json& object, const char* name, std::int64_t* value) {
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_number_integer()) return false;
+    *value = found->get<std::int64_t>();
+    return *value >= 0;
+  };
+  if (!all.is_object() || !whole(all, "revision", &state->revision) ||
+      !whole(all, "leases_given", &state->leases_given)) {
+    return false;
+  }
+  const auto leases = all.find("leases"), keys = all.find("keys");
+  if (leases == all.end() || keys == all.end() || !leases->is_array() || !keys->is_object()) {
+    return false;
+  }
+  for (const Json& each : *leases) {
+    std::int64_t id = 0;
+    FileLease lease;
+    if (!each.is_object() || !whole(each, "id", &id) || !whole(each, "ttl_us", &lease.ttl_us) ||
+        !whole(each, "until_us", &lease.until_us)) {
+      return false;
+    }
+    state->leases[id] = lease;
+  }
+  for (const auto& [key, each] : keys->items()) {
+    KeyValue entry;
+    entry.key = key;
+    const auto value = each.find("value");
+    if (!each.is_object() || value == each.end() || !value->is_string() ||
+        !whole(each, "changed", &entry.changed) || !whole(each, "lease", &entry.lease)) {
+      return false;
+    }
+    entry.value = value->get<std::string>();
+    state->keys[key] = entry;
+  }
+  return true;
+}
+
+std::string ToText(const FileState& state) {
+  Json all{{"revision", state.revision}, {"leases_given", state.leases_given}};
+  all["leases"] = Json::array();
+  all["keys"] = Json::object();
+  for (const auto& [id, lease] : state.leases) {
+    all["leases"].push_back({{"id", id}, {"ttl_us", lease.ttl_us}, {"until_us", lease.until_us}});
+  }
+  for (const auto& [key, entry] : state.keys) {
+    all["keys"][key] = {{"value", entry.value}, {"changed", entry.changed}, {"lease", entry.lease}};
+  }
+  return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// Removes the leases that have ended, with their keys.
+void EndLeases(std::int64_t now_us, FileState* state) {
+  for (auto lease = state->leases.begin(); lease != state->leases.end();) {
+    lease = lease->second.until_us <= now_us ? state->leases.erase(lease) : std::next(lease);
+  }
+  for (auto key = state->keys.begin(); key != state->keys.end();) {
+    const std::int64_t lease = key->second.lease;
+    const bool ended = lease != 0 && state->leases.count(lease) == 0;
+    key = ended ? state->keys.erase(key) : std::next(key);
+  }
+}
+
+class FileStore : public KeyStore {
+ public:
+  explicit FileStore(const std::string& folder)
+      : path_((fs::path(folder) / "directory.json").string()),
+        lock_((fs::path(folder) / "directory.lock").string()) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw OperatorError("--directory file:" + folder + ": " + error.message());
+  }
+
+  Status List(const std::string& prefix, std::vector<KeyValue>* found) override {
+    return With(false, [&](FileState* state) {
+      for (auto key = state->keys.lower_bound(prefix);
+           key != state->keys.end() && key->first.rfind(prefix, 0) == 0; ++key) {
+        found->push_back(key->second);
+      }
+      return Status::Ok();
+    });
+  }
+
+  Status Commit(const std::vector<KeyCondition>& conditions, const std::vector<KeyWrite>& writes,
+                bool* done) override {
+    *done = false;
+    return With(true, [&](FileState* state) {
+      for (const KeyCondition& condition : conditions) {
+        if (!Holds(*state, condition)) return Status::Ok();
+      }
+      for (const KeyWrite& write : writes) {
+        if (write.value && write.lease != 0 && state->leases.count(write.lease) == 0) {
+          return Status::Error(path_ + ": the lease has ended");
+        }
+      }
+      ++state->revision;
+      for (const KeyWrite& write : writes) {
+        state->keys.erase(write.key);
+        if (write.value) {
+          state->keys[write.key] = {write.key, *write.value, state->revision, write.lease};
+        }
+      }
+      *done = true;
+      return Status::Ok();
+    });
+  }
+
+  Status Grant(int ttl_s, std::int64_t* lease) override {
+    return With(true, [&](FileState* state) {
+      *lease = ++state->leases_given;
+      const std::int64_t ttl_us = std::int64_t{ttl_s} * 1000000;
+      state->leases[*lease] = {ttl_us, WallClockUs() + ttl_us};
+      return Status::Ok();
+    });
+  }
+
+  Status KeepAlive(std::int64_t lease, bool* alive) override {
+    return With(true, [&](FileState* state) {
+      const auto found = state->leases.find(lease);
+      *alive = found != state->leases.end();
+      if (*alive) found->second.until_us = WallClockUs() + found->second.ttl_us;
+      return Status::Ok();
+    });
+  }
+
+  Status Revoke(std::int64_t lease) override {
+    return With(true, [&](FileState* state) {
+      state->leases.erase(lease);
+      EndLeases(WallClockUs(), state);
+      return Status::Ok();
+    });
+  }
+
+ private:
+  static bool Holds(const FileState& state, const KeyCondition& condition) {
+    const auto found = state.keys.find(condition.key);
+    const bool there = found != state.keys.end();
+    switch (condition.is) {
+      case KeyCondition::Is::kAbsent: return !there;
+      case KeyCondition::Is::kPresent: return there;
+      case KeyCondition::Is::kValue: return there && found->second.value == condition.value;
+      case KeyCondition::Is::kChangedAt:
+        return (there ? found->second.changed : 0) == condition.changed;
+    }
+    return false;
+  }
+
+  /// Reads the file under the lock, lets `act` use it, and writes it if `writes`.
+  template <class Act>
+  Status With(bool writes, const Act& act) {
+    const FolderLock lock(lock_);
+    if (!lock.locked()) return Status::Error(lock_ + ": cannot be locked");
+    FileState state;
+    Status status = Read(&state);
+    if (!status.ok()) return status;
+    EndLeases(WallClockUs(), &state);
+    status = act(&state);
+    return status.ok() && writes ? Replace(ToText(state)) : status;
+  }
+
+  Status Read(FileState* state) const {
+    if (!fs::exists(path_)) return Status::Ok();
+    std::string text;
+    try {
+      text = ReadPlainFile(path_, kStoreBytesMax);
+    } catch (const OperatorError& error) {
+      return Status::Error(error.what());
+    }
+    const Json all = Json::parse(text, nullptr, false);
+    return FromJson(all, state) ? Status::Ok() : Status::Error(path_ + ": is damaged");
+  }
+
+  Status Replace(const std::string& text) const {
+    const std::string unfinished = path_ + ".tmp";
+    const int fd = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    bool good = fd >= 0;
+    for (std::size_t at = 0; good && at < text.size();) {
+      const ssize_t now = write(fd, text.data() + at, text.size() - at);
+      if (now < 0 && errno == EINTR) continue;
+      good = now > 0;
+      at += good ? static_cast<std::size_t>(now) : 0;
+    }
+    good = good && fdatasync(fd) == 0;
+    if (fd >= 0) close(fd);
+    good = good && std::rename(unfinished.c_str(), path_.c_str()) == 0;
+    if (good) return Status::Ok();
+    return Status::Error(path_ + ": cannot be written: " + std::strerror(errno));
+  }
+
+  const std::string path_, lock_;
+};
+
+}  // namespace
+
+std::unique_ptr<KeyStore> OpenFileStore(const std::string& folder) {
+  return std::make_unique<FileStore>(folder);
+}
+
+}  // namespace seam

@@ -1,0 +1,49 @@
+#include "common/fleet/room_watch.h"
+
+#include <chrono>
+
+namespace seam {
+namespace {
+
+/// Time between two looks, ms.
+constexpr int kLookMs = 250;
+
+}  // namespace
+
+RoomWatch::RoomWatch(const std::string& directory, const std::string& fleet,
+                     const std::string& room)
+    : room_(room), directory_(OpenKeyStore(directory), fleet) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+RoomWatch::~RoomWatch() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+    wake_.notify_all();
+  }
+  thread_.join();
+}
+
+void RoomWatch::Run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stop_) {
+    lock.unlock();
+    FleetListing listing;
+    up_ = directory_.List(&listing).ok();
+    lock.lock();
+    for (const FleetRoom& room : listing.rooms) {
+      if (!room.holder || (room.name != room_ && !room_.empty())) continue;
+      newest_ = room.holder;
+      break;
+    }
+    wake_.wait_for(lock, std::chrono::milliseconds(kLookMs), [this] { return stop_; });
+  }
+}
+
+std::optional<FleetHolder> RoomWatch::newest() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return newest_;
+}
+
+}  // namespace seam

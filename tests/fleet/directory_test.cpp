@@ -1,0 +1,352 @@
+/// One set of rules for each directory of a fleet: a file, and etcd.
+
+#include "common/fleet/directory.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <atomic>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include "common/base/check.h"
+#include "common/codec/messages.h"
+#include "common/fleet/base64.h"
+#include "common/fleet/directory_values.h"
+#include "tests/fleet/etcd_here.h"
+
+namespace seam {
+namespace directory_test {
+
+const char* const kSpec = R"({"folder": "/var/rooms"})";
+
+FleetServer ServerOf(const std::string& id) {
+  FleetServer server;
+  server.id = id;
+  server.address = "127.0.0.1:" + std::to_string(7000 + id.back());
+  server.version = "0.27.0";
+  server.protocol = kProtocolVersion;
+  server.capacity = 8;
+  return server;
+}
+
+/// `GetParam()`: file or etcd.
+class EachDirectory : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (GetParam() == std::string("file")) {
+      text_ = "file:" + folder_.path();
+      return;
+    }
+    if (!EtcdHere::Installed()) GTEST_SKIP() << "etcd is not installed: make build/.deps-fleet";
+    etcd_ = std::make_unique<EtcdHere>();
+    ASSERT_TRUE(etcd_->WaitUntilUp()) << etcd_->Story();
+    text_ = etcd_->Text();
+  }
+  std::unique_ptr<Directory> Open(const std::string& id) const {
+    auto directory = std::make_unique<Directory>(OpenKeyStore(text_), "test");
+    const Status status = directory->Register(ServerOf(id));
+    EXPECT_TRUE(status.ok()) << status.why();
+    return directory;
+  }
+  /// Claims; -1 after an error.
+  static std::int32_t Claimed(Directory& directory, const std::string& room,
+                              std::int32_t least = 1) {
+    std::int32_t epoch = -1;
+    const Status status = directory.Claim(room, kSpec, least, &epoch);
+    EXPECT_TRUE(status.ok()) << status.why();
+    return status.ok() ? epoch : -1;
+  }
+  static std::int32_t TakenOver(Directory& directory, const std::string& room) {
+    std::int32_t epoch = -1;
+    const Status status = directory.TakeOver(room, 1, &epoch);
+    EXPECT_TRUE(status.ok()) << status.why();
+    return status.ok() ? epoch : -1;
+  }
+  static FleetListing Listed(Directory& directory) {
+    FleetListing listing;
+    const Status status = directory.List(&listing);
+    EXPECT_TRUE(status.ok()) << status.why();
+    return listing;
+  }
+
+  Workspace folder_;
+  std::unique_ptr<EtcdHere> etcd_;
+  std::string text_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Fleet, EachDirectory, ::testing::Values("file", "etcd"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(EachDirectory, ARoomHasOneHolderAndItsEpochGrowsWithEach) {
+  const auto a = Open("a"), b = Open("b");
+  EXPECT_EQ(Claimed(*a, "red"), 1);
+  EXPECT_EQ(Claimed(*b, "red"), 0) << "held";
+  EXPECT_EQ(TakenOver(*b, "red"), 0) << "its lease has not ended";
+  const FleetListing listing = Listed(*b);
+  ASSERT_NE(listing.FindRoom("red"), nullptr);
+  ASSERT_TRUE(listing.FindRoom("red")->holder);
+  EXPECT_EQ(listing.FindRoom("red")->holder->server, "a");
+  EXPECT_EQ(listing.FindRoom("red")->holder->address, ServerOf("a").address);
+  EXPECT_EQ(listing.FindRoom("red")->spec, kSpec);
+  EXPECT_EQ(listing.servers.size(), 2u);
+  EXPECT_EQ(listing.refused, "");
+  ASSERT_TRUE(a->Leave().ok());
+  EXPECT_FALSE(Listed(*b).FindRoom("red")->holder);
+  EXPECT_EQ(TakenOver(*b, "red"), 2);
+  EXPECT_EQ(TakenOver(*b, "blue"), 0) << "nobody has begun it";
+  EXPECT_EQ(Claimed(*b, "blue", 5), 5) << "its saved state has epoch 4";
+}
+
+TEST_P(EachDirectory, ALeaseThatIsNotRenewedEndsWithWhatItHolds) {
+  const auto a = Open("a"), b = Open("b");
+  ASSERT_EQ(Claimed(*a, "red"), 1);
+  const std::int64_t begin_us = SteadyClockUs();
+  std::int32_t epoch = 0;
+  while (epoch == 0 && SteadyClockUs() - begin_us < 30000000) {
+    bool kept = false;
+    ASSERT_TRUE(b->Renew(&kept).ok());
+    EXPECT_TRUE(kept) << "this one is renewed";
+    epoch = TakenOver(*b, "red");
+    usleep(50000);
+  }
+  const double after_s = static_cast<double>(SteadyClockUs() - begin_us) * 1e-6;
+  std::printf("%s: taken over %.2f s after the last renewal\n", GetParam(), after_s);
+  EXPECT_EQ(epoch, 2);
+  EXPECT_GT(after_s, kFleetLeaseS - 1);
+  EXPECT_LT(after_s, kFleetLeaseS + 4);
+  bool kept = true;
+  ASSERT_TRUE(a->Renew(&kept).ok());
+  EXPECT_FALSE(kept);
+  ASSERT_TRUE(a->Register(ServerOf("a")).ok());
+  bool done = true;
+  ASSERT_TRUE(a->TakeBack("red", 1, &done).ok());
+  EXPECT_FALSE(done) << "another server has the room";
+}
+
+TEST_P(EachDirectory, AHolderThatWasAwayTakesBackARoomThatNobodyTook) {
+  const auto a = Open("a");
+  ASSERT_EQ(Claimed(*a, "red"), 1);
+  ASSERT_TRUE(a->Leave().ok());  // as if its lease had ended
+  ASSERT_TRUE(a->Register(ServerOf("a")).ok());
+  bool done = false;
+  ASSERT_TRUE(a->TakeBack("red", 1, &done).ok());
+  EXPECT_TRUE(done);
+  EXPECT_EQ(Listed(*a).FindRoom("red")->holder->epoch, 1);
+  ASSERT_TRUE(a->TakeBack("red", 1, &done).ok());
+  EXPECT_FALSE(done) << "it has it";
+}
+
+TEST_P(EachDirectory, AMoveGivesTheRoomWithTheNextEpochToAServerThatIsThere) {
+  const auto a = Open("a"), b = Open("b"), c = Open("c");
+  ASSERT_EQ(Claimed(*a, "red"), 1);
+  const FleetServer to_b = *Listed(*a).FindServer("b"), to_c = *Listed(*a).FindServer("c");
+  std::int32_t next = -1;
+  ASSERT_TRUE(b->Move("red", 1, to_c, &next).ok());
+  EXPECT_EQ(next, 0) << "not b's to give";
+  ASSERT_TRUE(a->Move("red", 1, to_b, &next).ok());
+  EXPECT_EQ(next, 2);
+  EXPECT_EQ(Listed(*c).FindRoom("red")->holder->server, "b");
+  EXPECT_EQ(Listed(*c).FindRoom("red")->epoch, 2);
+  ASSERT_TRUE(a->Move("red", 1, to_c, &next).ok());
+  EXPECT_EQ(next, 0) << "a has it no more";
+  ASSERT_TRUE(a->Leave().ok());
+  EXPECT_TRUE(Listed(*c).FindRoom("red")->holder) << "it goes with b's lease, not with a's";
+  ASSERT_TRUE(b->Leave().ok());
+  EXPECT_FALSE(Listed(*c).FindRoom("red")->holder);
+}
+
+TEST_P(EachDirectory, StateAndReleaseAreOfTheHoldersEpoch) {
+  const auto a = Open("a"), b = Open("b");
+  ASSERT_EQ(Claimed(*a, "red"), 1);
+  bool done = false;
+  ASSERT_TRUE(a->SaveState("red", 1, R"({"tick": 5})", &done).ok());
+  EXPECT_TRUE(done);
+  ASSERT_TRUE(a->Leave().ok());
+  ASSERT_EQ(TakenOver(*b, "red"), 2);
+  ASSERT_TRUE(a->SaveState("red", 1, R"({"tick": 9})", &done).ok());
+  EXPECT_FALSE(done) << "a stale server writes nothing";
+  EXPECT_EQ(Listed(*b).FindRoom("red")->state, R"({"tick": 5})");
+  ASSERT_TRUE(b->Release("red", 1).ok());
+  EXPECT_TRUE(Listed(*b).FindRoom("red")->holder) << "another epoch";
+  ASSERT_TRUE(b->Release("red", 2).ok());
+  EXPECT_EQ(Listed(*b).FindRoom("red")->spec, "");
+  EXPECT_EQ(TakenOver(*b, "red"), 0) << "it has ended";
+  EXPECT_EQ(Claimed(*b, "red"), 3) << "no epoch comes back";
+}
+
+TEST_P(EachDirectory, AWatcherSeesAChange) {
+  const auto a = Open("a"), b = Open("b");
+  Listed(*b);
+  FleetListing listing;
+  const std::int64_t begin_us = SteadyClockUs();
+  ASSERT_TRUE(b->Watch(700, &listing).ok());
+  EXPECT_GT(SteadyClockUs() - begin_us, 600000) << "nothing has changed";
+  ASSERT_EQ(Claimed(*a, "red"), 1);
+  ASSERT_TRUE(b->Watch(10000, &listing).ok());
+  EXPECT_NE(listing.FindRoom("red"), nullptr);
+}
+
+TEST_P(EachDirectory, AnEpochIsNeverGivenTwiceToServersThatRace) {
+  constexpr int kProcesses = 4, kThreads = 2, kRounds = 6;
+  // Processes and threads claim the same rooms and give them up at once.
+  const auto race = [&](int process, std::vector<std::int32_t>* got) {
+    std::vector<std::thread> threads;
+    std::vector<std::vector<std::int32_t>> each(kThreads);
+    for (int t = 0; t < kThreads; ++t) {
+      threads.emplace_back([&, t] {
+        const auto directory = Open("s" + std::to_string(process) + std::to_string(t));
+        for (int round = 0; round < kRounds;) {
+          const std::int32_t epoch = Claimed(*directory, "red");
+          if (epoch < 0) return;
+          if (epoch == 0) continue;
+          each[static_cast<std::size_t>(t)].push_back(epoch);
+          EXPECT_TRUE(directory->GiveUp("red", epoch).ok());
+          ++round;
+        }
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const auto& epochs : each) got->insert(got->end(), epochs.begin(), epochs.end());
+  };
+  std::vector<pid_t> children;
+  std::vector<int> ends;
+  for (int p = 0; p < kProcesses; ++p) {
+    int ends_of[2];
+    ASSERT_EQ(pipe(ends_of), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      std::vector<std::int32_t> got;
+      race(p, &got);
+      for (const std::int32_t epoch : got) {
+        if (write(ends_of[1], &epoch, sizeof epoch) != sizeof epoch) _exit(1);
+      }
+      _exit(::testing::Test::HasFailure() ? 1 : 0);
+    }
+    close(ends_of[1]);
+    ends.push_back(ends_of[0]);
+    children.push_back(child);
+  }
+  std::multiset<std::int32_t> all;
+  for (const int end : ends) {
+    std::int32_t epoch = 0;
+    while (read(end, &epoch, sizeof epoch) == sizeof epoch) all.insert(epoch);
+    close(end);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  ASSERT_EQ(all.size(), std::size_t{kProcesses * kThreads * kRounds});
+  EXPECT_EQ(std::set<std::int32_t>(all.begin(), all.end()).size(), all.size());
+  EXPECT_EQ(*all.begin(), 1);
+  EXPECT_EQ(*all.rbegin(), kProcesses * kThreads * kRounds) << "and none is left out";
+}
+
+TEST_P(EachDirectory, ValuesThatAreWrongAreIgnoredAndNamedOnce) {
+  const auto a = Open("a");
+  ASSERT_EQ(Claimed(*a, "red"), 1);
+  const std::unique_ptr<KeyStore> store = OpenKeyStore(text_);
+  const std::string huge(kFleetValueBytesMax + 1, 'x');
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"servers/b", "no JSON"},
+      {"servers/b", R"({"address": 5})"},
+      {"servers/b", R"({"address": "example.org:7777", "version": "1", "protocol": 15,
+                       "capacity": 1, "used": 0, "draining": false})"},
+      {"servers/b", R"({"address": "1.2.3.4:7777", "version": "1", "protocol": 1e99,
+                       "capacity": 1, "used": 0, "draining": false})"},
+      {"servers/b", R"({"address": "1.2.3.4:7777", "version": "1", "protocol": 15,
+                       "capacity": 99999999999999999999, "used": 0, "draining": false})"},
+      {"servers/b c", ServerText(ServerOf("b"))},
+      {"servers/b", huge},
+      {"rooms/blue/holder", R"({"server": "b", "address": "1.2.3.4:0", "epoch": 1})"},
+      {"rooms/blue/holder", R"({"server": "b", "address": "1.2.3.4:7777", "epoch": 0})"},
+      {"rooms/blue/holder", R"([1, 2, 3])"},
+      {"rooms/blue/epoch", "-1"},
+      {"rooms/blue/epoch", "4294967296"},
+      {"rooms/blue/spec", std::string(5000, '[')},
+      {"rooms/blue/other", "1"},
+      {"rooms/../epoch", "1"},
+      {"strange", "1"}};
+  for (const auto& [key, value] : wrong) {
+    bool done = false;
+    ASSERT_TRUE(store->Commit({}, {{"/seam/test/" + key, value, 0}}, &done).ok()) << key;
+    const FleetListing listing = Listed(*a);
+    EXPECT_NE(listing.refused, "") << key << " " << value.substr(0, 80);
+    EXPECT_LT(listing.refused.size(), 200u);
+    EXPECT_EQ(listing.servers.size(), 1u) << value.substr(0, 80);
+    EXPECT_EQ(listing.rooms.size(), 1u) << value.substr(0, 80);
+    ASSERT_TRUE(store->Commit({}, {{"/seam/test/" + key, std::nullopt, 0}}, &done).ok());
+  }
+  EXPECT_EQ(Listed(*a).refused, "");
+}
+
+TEST(DirectoryFile, ADamagedFileIsOneErrorAndStaysAsItIs) {
+  Workspace folder;
+  for (const char* text : {"{", "[]", R"({"revision": 1})", R"({"revision": "1"})"}) {
+    folder.Write("directory.json", text);
+    const std::vector<std::string> before = folder.Content();
+    Directory directory(OpenKeyStore("file:" + folder.path()), "test");
+    const Status status = directory.Register(ServerOf("a"));
+    EXPECT_EQ(status.why(), folder / "directory.json" + ": is damaged");
+    folder.Write("directory.lock", "");
+    EXPECT_GE(folder.Content().size(), before.size());
+  }
+}
+
+TEST(DirectoryEtcd, OneThatIsNotThereIsOneErrorInTime) {
+  Directory directory(OpenKeyStore("etcd:127.0.0.1:1,127.0.0.1:2"), "test");
+  const std::int64_t begin_us = SteadyClockUs();
+  FleetListing listing;
+  EXPECT_FALSE(directory.List(&listing).ok());
+  EXPECT_LT(SteadyClockUs() - begin_us, 5000000);
+  for (const char* text : {"", "etcd", "etcd:", "file:", "zoo:keeper", "etcd:a,,b"}) {
+    EXPECT_THROW(OpenKeyStore(text), OperatorError) << text;
+  }
+}
+
+TEST(Base64, IsThatOfTheRfcAndNothingElse) {
+  const std::pair<const char*, const char*> rfc[] = {{"", ""},
+                                                     {"f", "Zg=="},
+                                                     {"fo", "Zm8="},
+                                                     {"foo", "Zm9v"},
+                                                     {"foob", "Zm9vYg=="},
+                                                     {"fooba", "Zm9vYmE="},
+                                                     {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : rfc) {
+    std::string back;
+    EXPECT_EQ(ToBase64(bytes), text);
+    EXPECT_TRUE(FromBase64(text, &back));
+    EXPECT_EQ(back, bytes);
+  }
+  std::string back;
+  for (const char* text : {"Z", "Zg=", "Zg==Zg==", "Zh==", "Z===", "Zm9v\n", "Zm=v", "===="}) {
+    EXPECT_FALSE(FromBase64(text, &back)) << text;
+  }
+}
+
+TEST(PlaceRoom, TakesTheEmptierOfTwoOfTheSameProtocolThatAreNotDraining) {
+  std::vector<FleetServer> servers;
+  for (const char* id : {"a", "b", "c", "d", "e"}) servers.push_back(ServerOf(id));
+  servers[0].protocol = kProtocolVersion - 1;
+  servers[1].draining = true;
+  servers[2].used = servers[2].capacity;
+  servers[3].used = 4;
+  servers[4].used = 1;
+  Random random(1);
+  int emptier = 0;
+  for (int i = 0; i < 400; ++i) {
+    const FleetServer* const placed = PlaceRoom(servers, kProtocolVersion, "", random);
+    ASSERT_NE(placed, nullptr);
+    ASSERT_TRUE(placed->id == "d" || placed->id == "e") << placed->id;
+    emptier += placed->id == "e" ? 1 : 0;
+  }
+  EXPECT_NEAR(emptier, 300, 40) << "all draws but d and d";
+  EXPECT_EQ(PlaceRoom(servers, kProtocolVersion, "e", random)->id, "d");
+  EXPECT_EQ(PlaceRoom(servers, 3, "", random), nullptr);
+}
+
+}  // namespace directory_test
+}  // namespace seam
