@@ -20,6 +20,7 @@
 #include "common/net/udp.h"
 #include "common/record/doctor.h"
 #include "common/sync/method.h"
+#include "server/fleet/fleet_host.h"
 #include "server/hub/hub.h"
 #include "server/hub/progress.h"
 #include "server/saved/resumed_room.h"
@@ -123,8 +124,8 @@ void CheckResume(const Flags& f) {
 }
 
 RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string& name, int index,
-                       int rooms) {
-  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, log_key));
+                       int rooms, std::int32_t epoch = 0) {
+  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, log_key, epoch));
   const Room& room = resumed->saved->room();
   RoomPlan plan;
   plan.scene = resumed->saved->scene();
@@ -135,6 +136,7 @@ RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string&
   config.sync.send_hz = room.send_hz;
   config.sync.seed = config.seed = room.seed;
   config.room = name;
+  config.epoch = resumed->epoch;
   FinishPlan(f, f.impair == kNotGiven.impair ? room.impair : f.impair, index, rooms, &plan);
   plan.state = f.resume;
   plan.record = resumed->log;
@@ -142,7 +144,8 @@ RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string&
   return plan;
 }
 
-RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int rooms) {
+RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int rooms,
+                  FleetMember* member) {
   RoomPlan plan;
   plan.scene = LoadScene(FindScene(scene_name));
   const Scene& scene = plan.scene;
@@ -157,6 +160,7 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);
   FinishPlan(f, f.impair, index, rooms, &plan);
+  if (member != nullptr) config.epoch = member->Claim(config.room, 1);
   plan.force = f.force;
   plan.record = LogOf(f.record, config.room, rooms);
   if (!f.state.empty()) {
@@ -166,20 +170,26 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
     }
     PrepareStateFolder(f.state, config.room, f.force);
     plan.state = f.state;
-    plan.record = StateLogOf(f.state, config.room);
+    plan.record = StateLogOf(f.state, config.room, config.epoch);
   }
   if (!plan.record.empty()) RequireOutput(plan.record, plan.force, {FindScene(scene_name)});
   return plan;
 }
 
-std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key) {
+std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key, FleetMember* member) {
   std::vector<RoomPlan> plans;
+  if (f.gateway) return plans;
   if (!f.resume.empty()) {
     CheckResume(f);
-    const std::vector<std::string> names = RoomsIn(f.resume);
+    const std::vector<std::string> names = RoomsIn(f.resume, member != nullptr);
     const int rooms = static_cast<int>(names.size());
     for (int r = 0; r < rooms; ++r) {
-      plans.push_back(PlanOfResumed(f, log_key, names[static_cast<std::size_t>(r)], r, rooms));
+      const std::string& name = names[static_cast<std::size_t>(r)];
+      if (member != nullptr && member->Knows(name)) continue;  // its thread takes it over
+      plans.push_back(PlanOfResumed(f, log_key, name, r, rooms));
+      if (member == nullptr) continue;
+      const std::int32_t epoch = member->Claim(name, plans.back().config.epoch + 1);
+      plans.back() = PlanOfResumed(f, log_key, name, r, rooms, epoch);
     }
     return plans;
   }
@@ -187,76 +197,118 @@ std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key) {
   const int rooms = f.rooms > 0 ? f.rooms : static_cast<int>(f.scenes.size());
   CheckRoomName(f.room, rooms);
   for (int r = 0; r < rooms; ++r) {
-    plans.push_back(MakePlan(f, f.scenes[static_cast<std::size_t>(r) % f.scenes.size()], r, rooms));
+    const std::string& scene = f.scenes[static_cast<std::size_t>(r) % f.scenes.size()];
+    plans.push_back(MakePlan(f, scene, r, rooms, member));
   }
   return plans;
 }
 
-/// Gives all rooms the server's keys.
-void SetKeys(const Flags& f, std::vector<RoomPlan>* plans) {
+/// The same for all rooms of the server.
+struct Shared {
+  std::shared_ptr<const KeyPair> identity;
+  std::shared_ptr<const Secret> token_key, log_key;
+  std::shared_ptr<StoreWriter> store;
+
+  void GiveTo(RoomPlan* plan) const {
+    plan->config.identity = identity;
+    plan->config.token_key = token_key;
+    plan->log_key = log_key;
+    plan->store = store;
+  }
+};
+
+Shared MakeShared(const Flags& f) {
+  Shared shared;
   OsEntropy entropy;
   // A kept room's clients give the keys of their places to the same server alone.
   const std::string folder = f.state.empty() ? f.resume : f.state;
   std::string file = f.identity;
   if (file.empty() && !folder.empty()) file = folder + "/identity";
-  const auto identity = std::make_shared<const KeyPair>(
+  shared.identity = std::make_shared<const KeyPair>(
       file.empty() ? Secret(entropy) : KeepSecretFile("--identity", file, entropy));
-  std::shared_ptr<const Secret> token_key;
+  shared.log_key = KeyOfLogs(f);
   if (!f.token_key.empty()) {
-    token_key = std::make_shared<const Secret>(ReadSecretFile("--token-key", f.token_key));
+    shared.token_key = std::make_shared<const Secret>(ReadSecretFile("--token-key", f.token_key));
   }
-  for (RoomPlan& plan : *plans) {
-    plan.config.identity = identity;
-    plan.config.token_key = token_key;
+  if (!f.store.empty()) {
+    RequirePlainFile(f.store);
+    shared.store = std::make_shared<StoreWriter>(f.store);
   }
+  return shared;
+}
+
+/// Says what the server has.
+void Announce(const Flags& f, const std::vector<RoomPlan>& plans, const Address& local,
+              const KeyPair& identity) {
+  const std::string key = ToHex(identity.open.data(), identity.open.size());
+  if (plans.empty()) {
+    std::fprintf(stderr, "seam-server: %s of fleet %s, on %s\nseam-server: its key is %s\n",
+                 f.gateway ? "gateway" : "member", f.fleet.c_str(), ToString(local).c_str(),
+                 key.c_str());
+    return;
+  }
+  const int rooms = static_cast<int>(plans.size());
+  const SyncConfig& sync = plans[0].config.sync;
+  const std::string variant = VariantOf(NamesOf(sync));
+  const std::string what = rooms == 1 ? plans[0].scene.name : std::to_string(rooms) + " rooms";
+  std::fprintf(stderr,
+               "seam-server: %s, mode %s%s%s, network %s, on %s\n"
+               "seam-server: its key is %s\n"
+               "seam-server: %s %d player(s)%s%s\n",
+               what.c_str(), NamesOf(sync).mode.c_str(), variant.empty() ? "" : " ",
+               variant.c_str(), plans[0].config.impair.c_str(), ToString(local).c_str(),
+               key.c_str(), f.resume.empty() ? "waiting for" : "goes on, waiting for",
+               plans[0].config.wait_players, rooms == 1 ? "" : " in the first",
+               Ending(DurationOf(f, plans[0].scene)).c_str());
 }
 
 int Serve(const Flags& f) {
-  const std::shared_ptr<const Secret> log_key = KeyOfLogs(f);
-  std::vector<RoomPlan> plans = MakePlans(f, log_key.get());
+  CheckFleetFlags(f);
+  UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));
+  std::unique_ptr<FleetMember> member;
+  const bool fleet = !f.directory.empty();
+  // The thread of the member makes plans too.
+  std::shared_ptr<const Shared> shared;
+  const auto prepare = [&](const std::string& room, std::int32_t epoch) {
+    RoomPlan plan = PlanOfResumed(f, shared->log_key.get(), room, 0, 2, epoch);
+    shared->GiveTo(&plan);
+    return plan;
+  };
+  if (fleet) member = std::make_unique<FleetMember>(MemberOf(f, udp.local()), prepare);
+  PrepareFolders(f);
+  std::vector<RoomPlan> plans = MakePlans(f, KeyOfLogs(f).get(), member.get());
   if (!f.summary.empty()) RequireOutput(f.summary, f.force, f.scenes);
-  SetKeys(f, &plans);
-  std::shared_ptr<StoreWriter> store;
-  if (!f.store.empty()) {
-    RequirePlainFile(f.store);
-    store = std::make_shared<StoreWriter>(f.store);
-  }
+  shared = std::make_shared<const Shared>(MakeShared(f));
   for (RoomPlan& plan : plans) {
-    plan.log_key = log_key;
-    plan.store = store;
+    shared->GiveTo(&plan);
+    plan.alone = plan.alone && !fleet;
   }
   const int rooms = static_cast<int>(plans.size());
-  if (f.workers > 0 && rooms == 1) throw OperatorError("--workers: one room has one thread");
-  UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));
+  if (f.workers > 0 && rooms == 1 && !fleet) {
+    throw OperatorError("--workers: one room has one thread");
+  }
   std::unique_ptr<HttpPage> page;
   if (f.metrics_port > 0) {
     page = std::make_unique<HttpPage>(static_cast<std::uint16_t>(f.metrics_port));
   }
-  Hub hub(plans, udp);
+  Hub hub(plans, udp, shared->identity);
   StopOnSignals();
   const int workers = f.workers > 0 ? f.workers : CoreCount();
-  if (rooms > 1) hub.Start(std::min(workers, rooms));
-  const SyncConfig& sync = plans[0].config.sync;
-  const std::string variant = VariantOf(NamesOf(sync));
-  const std::string what = rooms == 1 ? plans[0].scene.name : std::to_string(rooms) + " rooms";
-  std::fprintf(
-      stderr,
-      "seam-server: %s, mode %s%s%s, network %s, on %s\n"
-      "seam-server: its key is %s\n"
-      "seam-server: %s %d player(s)%s%s\n",
-      what.c_str(), NamesOf(sync).mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
-      plans[0].config.impair.c_str(), ToString(udp.local()).c_str(),
-      ToHex(plans[0].config.identity->open.data(), plans[0].config.identity->open.size()).c_str(),
-      f.resume.empty() ? "waiting for" : "goes on, waiting for", plans[0].config.wait_players,
-      rooms == 1 ? "" : " in the first", Ending(DurationOf(f, plans[0].scene)).c_str());
+  if (rooms > 1 || fleet) hub.Start(fleet ? workers : std::min(workers, rooms));
+  Announce(f, plans, udp.local(), *shared->identity);
+  if (fleet) {
+    hub.SetElsewhere([&](const std::string& room) { return member->Find(room); });
+    member->Start();
+  }
   ProgressLine line(f.quiet);
   std::int64_t page_us = 0;
-  while (g_stop == 0 && !hub.done()) {
+  while (g_stop == 0 && (fleet || !hub.done())) {
     const std::int64_t now = SteadyClockUs();
     hub.Poll(now);
+    if (fleet) FollowFleet(*member, hub);
     if (page != nullptr && now - page_us >= kPageUs) {
       page_us = now;
-      page->Poll(now, [&] { return WriteLoadPage(hub.Loads()); });
+      page->Poll(now, [&] { return WriteLoadPage(hub.Loads()) + FleetPage(member.get()); });
     }
     for (const std::string& news : hub.TakeReports()) {
       line.End();
@@ -266,8 +318,10 @@ int Serve(const Flags& f) {
     hub.Wait();
   }
   line.End();
+  if (g_stop != 0 && !f.drain_to.empty()) DrainRooms(f, member.get(), hub);
   hub.Close();
-  if (store != nullptr) store->Finish();
+  member.reset();
+  if (shared->store != nullptr) shared->store->Finish();
   return ReportEnd(hub, f.summary);
 }
 

@@ -43,7 +43,7 @@ void Server::End(std::int64_t now_us, const std::string& reason) {
 }
 
 void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
-  if (!over_) End(now_us, reason);
+  if (!std::exchange(over_, true)) End(now_us, reason);
   sessions_.Close(now_us, reason, &stats_.counters);
 }
 

@@ -85,6 +85,20 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
              "keep the rooms in this folder: the log of each, and a snapshot each 5 s");
   app.Option("--resume", f.resume,
              "go on with the rooms in such a folder, and keep them there; takes no scene");
+  app.Option("--drain-to", f.drain_to,
+             "after SIGTERM send the clients to the server at this address, which goes on with the "
+             "rooms (--resume); fleet: to one of the --directory");
+  app.Option("--directory", f.directory,
+             "take rooms by this directory of a fleet, file:FOLDER or etcd:HOST:PORT,...; with "
+             "--resume also take over the rooms of servers that are gone (docs/fleet.md)");
+  app.Option("--fleet", f.fleet, "name of the fleet in the directory");
+  app.Option("--id", f.server_id, "name of this server in the directory (default: its address)");
+  app.Option("--advertise", f.advertise,
+             "address under which clients reach this server, for the directory (default: --bind)");
+  app.Option("--capacity", f.capacity, "most rooms that it takes by the directory")
+      .Range(1, kRoomsMax);
+  app.Switch("--gateway", f.gateway,
+             "have no rooms: send each client to the server of the --directory that has its room");
   app.Option("--store", f.store,
              "put sessions, players, scores and events into this SQLite database (seam-log top)");
   app.Option("--summary", f.summary,

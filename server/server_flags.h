@@ -40,6 +40,13 @@ struct ServerFlags {
   int metrics_port = 0;
   std::string trust = "off";
   std::string identity, token_key, log_key;
+  std::string drain_to;   // address at which the rooms go on after SIGTERM; "fleet": any server's
+  std::string directory;  // of the fleet; "": none
+  std::string fleet = "main";
+  std::string server_id;  // in the directory; "": from the address
+  std::string advertise;  // address under which clients reach it
+  int capacity = 64;
+  bool gateway = false;
 };
 
 /// Defines the flags, which set `flags`.

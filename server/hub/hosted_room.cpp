@@ -24,7 +24,9 @@ Net& Through(const ImpairProfile& profile, Net& direct, Net& impaired) {
 Sink MakeSink(const RoomPlan& plan) {
   const bool goes_on = plan.resumed != nullptr && !plan.resumed->new_log;
   if (!goes_on) {
-    return Sink(plan.lcm_url, plan.record, plan.force, plan.config.room, plan.log_key);
+    // A log of this epoch without a snapshot is that of a server that died at once.
+    const bool force = plan.force || (plan.resumed != nullptr && plan.config.epoch > 1);
+    return Sink(plan.lcm_url, plan.record, force, plan.config.room, plan.log_key);
   }
   return Sink(plan.lcm_url, plan.record, plan.resumed->tail.end, plan.config.room, plan.log_key);
 }
@@ -39,7 +41,7 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
   Net& net = Through(plan.profile, net_, impaired_);
   newest_.room = plan.config.room;
   if (!plan.state.empty()) {
-    keeper_ = std::make_unique<RoomKeeper>(plan.state, plan.config.room, sink_);
+    keeper_ = std::make_unique<RoomKeeper>(plan.state, plan.config.room, sink_, plan.config.epoch);
   }
   if (plan.resumed == nullptr) {
     server_ = std::make_unique<Server>(plan_.scene, plan_.config, net, sink_, entropy_);
@@ -47,7 +49,10 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
     server_ = std::make_unique<Server>(*plan.resumed->saved, plan_.config, net, sink_, entropy_);
   }
   if (plan.store != nullptr) server_->chronicle().Keep();
-  if (plan.resumed != nullptr) GoOn(*plan.resumed);
+  if (plan.resumed == nullptr) return;
+  GoOn(*plan.resumed);
+  // In a log of its own the ticks before are not: they are in a snapshot.
+  if (keeper_ != nullptr && plan.resumed->new_log) keeper_->Finish(*server_, SteadyClockUs());
 }
 
 void HostedRoom::GoOn(const ResumedRoom& resumed) {
@@ -77,6 +82,12 @@ void HostedRoom::Run(std::int64_t now_us) {
     DrainNetwork(now_us);
     return;
   }
+  StopIfSuperseded(now_us);
+  if (over()) {
+    server_->Tick(now_us, 0);
+    CollectReports();
+    return;
+  }
   const std::int64_t tick = server_->tick(), due_us = server_->next_tick_us();
   const std::int64_t cpu_us = plan_.alone ? 0 : ThreadCpuUs();
   server_->Tick(now_us, CpuForStats(now_us));
@@ -102,6 +113,62 @@ void HostedRoom::EndIfDone(std::int64_t now_us) {
   Close(now_us);
   const std::lock_guard<std::mutex> lock(mutex_);
   done_ = true;
+}
+
+void HostedRoom::Supersede(const Redirect& elsewhere) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  superseded_ = elsewhere;
+}
+
+void HostedRoom::StopIfSuperseded(std::int64_t now_us) {
+  Redirect by;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (superseded_) by = *std::exchange(superseded_, std::nullopt);
+  }
+  const bool told = by.epoch > server_->epoch();
+  if (!told && server_->shown_epoch() <= server_->epoch()) return;
+  if (over() && (by.address.empty() || !told)) return;
+  const std::int32_t epoch = std::max(told ? by.epoch : 0, server_->shown_epoch());
+  if (by.address.empty()) {
+    server_->Forsake(now_us);
+  } else {
+    server_->RedirectAll(now_us, by);
+  }
+  sink_.Flush();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!std::exchange(over_, true)) {
+    news_.push_back("room " + plan_.config.room + ": another server has its epoch " +
+                    std::to_string(epoch) + ": stopped here in epoch " +
+                    std::to_string(server_->epoch()) + ", its files stay");
+  }
+}
+
+bool HostedRoom::over() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return over_;
+}
+
+std::int32_t HostedRoom::GiveAway(std::int64_t now_us) {
+  sink_.Poll();
+  const std::int32_t next = server_->epoch() + 1;
+  server_->GiveAway(next);
+  if (keeper_ != nullptr) keeper_->Finish(*server_, now_us);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  over_ = true;
+  return next;
+}
+
+void HostedRoom::EndGivenAway(std::int64_t now_us) {
+  server_->Shutdown(now_us, "the server stops");
+  TakeSummaries();
+  sink_.Flush();
+}
+
+void HostedRoom::RedirectAll(std::int64_t now_us, const Redirect& to) {
+  server_->RedirectAll(now_us, to);
+  TakeSummaries();
+  sink_.Flush();
 }
 
 std::int64_t HostedRoom::due_us() const {
@@ -169,7 +236,10 @@ std::vector<std::string> HostedRoom::TakeReports() {
 
 void HostedRoom::Close(std::int64_t now_us) {
   sink_.Poll();
-  if (!done()) {
+  if (over()) {
+    server_->Forsake(now_us);
+    TakeSummaries();
+  } else if (!done()) {
     if (keeper_ != nullptr) keeper_->Finish(*server_, now_us);
     server_->Shutdown(now_us, "the server stops");
     TakeSummaries();

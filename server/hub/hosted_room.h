@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,20 @@ class HostedRoom : public Runnable {
   /// that came and went.
   std::vector<std::string> TakeReports();
 
+  /// Thread-safe: the room goes on at another server in this epoch: stops it without a word to its
+  /// clients, or, with an address in `elsewhere`, sends them there. Its files stay as they are.
+  void Supersede(const Redirect& elsewhere);
+  /// Thread-safe: true if another server has the room.
+  bool over() const;
+
   // Only while no thread runs the room:
+  /// Saves the room for another server, which is to go on with it in the next epoch; it stops.
+  /// Returns that epoch. Redirect or Supersede follows.
+  std::int32_t GiveAway(std::int64_t now_us);
+  /// Says goodbye to the clients instead: nobody goes on with it now.
+  void EndGivenAway(std::int64_t now_us);
+  /// Sends the clients to the server that goes on with the room.
+  void RedirectAll(std::int64_t now_us, const Redirect& to);
   /// Says goodbye to the clients, unless done, and closes the recording.
   void Close(std::int64_t now_us);
   /// Advances the simulated network; false if nothing is in flight any more.
@@ -85,6 +99,7 @@ class HostedRoom : public Runnable {
   void NoteTicks();
   void Tell(std::int64_t now_us);
   void CollectReports();
+  void StopIfSuperseded(std::int64_t now_us);
   void EndIfDone(std::int64_t now_us);
   void GoOn(const ResumedRoom& resumed);
   void TakeSummaries();
@@ -104,6 +119,8 @@ class HostedRoom : public Runnable {
   mutable std::mutex mutex_;  // guards all below
   RoomLoad newest_;
   bool done_ = false;
+  bool over_ = false;
+  std::optional<Redirect> superseded_;  // not acted on yet
   std::vector<std::string> news_;
 };
 

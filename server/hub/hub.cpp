@@ -24,10 +24,10 @@ std::vector<std::string> NamesOfRooms(const std::vector<RoomPlan>& plans) {
 
 }  // namespace
 
-Hub::Hub(const std::vector<RoomPlan>& plans, UdpNet& udp)
+Hub::Hub(const std::vector<RoomPlan>& plans, UdpNet& udp, std::shared_ptr<const KeyPair> identity)
     : udp_(udp),
       finder_(NamesOfRooms(plans)),
-      identity_(plans.front().config.identity),
+      identity_(std::move(identity)),
       handshake_(udp, entropy_, *identity_, traffic_),
       mail_(plans.size()) {
   for (std::size_t r = 0; r < plans.size(); ++r) {
@@ -46,6 +46,55 @@ void Hub::Start(int workers) {
   lanes_ = std::make_unique<Lanes>(rooms, workers);
 }
 
+void Hub::Add(const RoomPlan& plan) {
+  senders_.push_back(std::make_unique<UdpSender>(udp_));
+  const int index = static_cast<int>(rooms_.size());
+  auto room = std::make_unique<HostedRoom>(plan, index, finder_, *senders_.back());
+  finder_.Add(plan.config.room);
+  rooms_.push_back(std::move(room));
+  mail_.push_back(false);
+  if (lanes_ != nullptr) lanes_->Add(rooms_.back().get());
+}
+
+void Hub::OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t number,
+                        const Bytes& datagram) {
+  if (!elsewhere_) {
+    handshake_.Refuse(now_us, from, number, datagram.size(), finder_.Refusal(), false);
+    return;
+  }
+  JoinRequest join;
+  const auto verdict = handshake_.Receive(now_us, from, number, datagram, &join);
+  if (verdict != Handshake::Verdict::kJoins) return;
+  const std::optional<Redirect> to = elsewhere_(join.room);
+  if (to) {
+    handshake_.AnswerByRedirect(now_us, from, join, *to);
+  } else {
+    handshake_.Refuse(now_us, from, number, datagram.size(), finder_.Refusal(), true);
+  }
+}
+
+void Hub::Drain(const Where& where) {
+  lanes_.reset();
+  std::vector<std::pair<HostedRoom*, Redirect>> moved;
+  for (const auto& room : rooms_) {
+    if (room->done() || room->over()) continue;
+    const std::int32_t epoch = room->GiveAway(SteadyClockUs());
+    const Redirect to = where(room->config().room, epoch);
+    if (!to.address.empty()) {
+      moved.emplace_back(room.get(), to);
+    } else {
+      room->EndGivenAway(SteadyClockUs());
+    }
+  }
+  for (const auto& [room, to] : moved) room->RedirectAll(SteadyClockUs(), to);
+  const std::int64_t deadline_us = SteadyClockUs() + kDrainUsMax;
+  const auto told = [](const auto& each) { return each.first->server().all_redirected(); };
+  while (SteadyClockUs() < deadline_us && !std::all_of(moved.begin(), moved.end(), told)) {
+    Poll(SteadyClockUs());
+    Wait();
+  }
+}
+
 void Hub::Take(std::int64_t now_us) {
   handshake_.Forget(now_us);
   Address from;
@@ -62,7 +111,7 @@ void Hub::Take(std::int64_t now_us) {
     if (number != 0 && room == RoomFinder::kHello) {
       handshake_.Receive(now_us, from, number, datagram, &join);
     } else if (number != 0) {
-      handshake_.Refuse(now_us, from, number, datagram.size(), finder_.Refusal(), false);
+      OnUnknownRoom(now_us, from, number, datagram);
     } else {
       ++strangers_;
       if (SessionOfDatagram(datagram) != 0) handshake_.RefuseSession(now_us, from, datagram);

@@ -3,8 +3,11 @@
 /// worker threads run the rooms.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/net/http_page.h"
@@ -19,15 +22,27 @@ namespace seam {
 
 class Hub {
  public:
-  /// Opens the rooms; `udp` must outlive the hub. Asserts that the names differ. Throws
-  /// OperatorError as HostedRoom does.
-  Hub(const std::vector<RoomPlan>& plans, UdpNet& udp);
+  /// Opens the rooms, none or more; `udp` must outlive the hub, whose lasting keys `identity` is.
+  /// Asserts that the names differ. Throws OperatorError as HostedRoom does.
+  Hub(const std::vector<RoomPlan>& plans, UdpNet& udp, std::shared_ptr<const KeyPair> identity);
   ~Hub();
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;
 
   /// Starts `workers` threads that run the rooms. Without threads, Poll runs the rooms.
   void Start(int workers);
+  /// Opens one more room, in place of one of the same name. Throws OperatorError as HostedRoom
+  /// does.
+  void Add(const RoomPlan& plan);
+  /// Finds the server that has a room which is not here; it is asked for those that have proved
+  /// their address. Without it such a join is refused.
+  using Elsewhere = std::function<std::optional<Redirect>(const std::string& room)>;
+  void SetElsewhere(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
+  /// Ends the threads and saves the rooms for other servers. `where`: returns where the room goes
+  /// on in this epoch, or an empty address if nowhere. Sends the clients there, and serves until
+  /// they know it, for at most kDrainUsMax.
+  using Where = std::function<Redirect(const std::string& room, std::int32_t epoch)>;
+  void Drain(const Where& where);
   /// Delivers the received datagrams; without workers also runs the rooms that are due. To be
   /// called whenever Wait returns. Never blocks.
   void Poll(std::int64_t now_us);
@@ -51,6 +66,8 @@ class Hub {
 
  private:
   void Take(std::int64_t now_us);
+  void OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t number,
+                     const Bytes& datagram);
 
   UdpNet& udp_;
   RoomFinder finder_;
@@ -62,6 +79,7 @@ class Hub {
   std::vector<std::unique_ptr<HostedRoom>> rooms_;
   std::vector<bool> mail_;  // by room: got a datagram in this Take
   std::int64_t strangers_ = 0;
+  Elsewhere elsewhere_;
   Gather wake_policy_;
   std::unique_ptr<Lanes> lanes_;
 };

@@ -149,6 +149,23 @@ void Lanes::Join(Lane* lane) {
   fewest->wake.notify_one();
 }
 
+void Lanes::Add(Runnable* room) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  rooms_.push_back(std::make_unique<Room>());
+  rooms_.back()->what = room;
+  rooms_.back()->index = static_cast<int>(rooms_.size()) - 1;
+  std::size_t open = 0;
+  Lane* fewest = nullptr;
+  for (const auto& lane : lanes_) {
+    if (lane->over) continue;
+    ++open;
+    if (fewest == nullptr || lane->rooms.size() < fewest->rooms.size()) fewest = lane.get();
+  }
+  if (open < workers_) fewest = AddLane();
+  fewest->rooms.push_back(rooms_.back().get());
+  fewest->wake.notify_one();
+}
+
 void Lanes::Wake(int room) {
   const std::lock_guard<std::mutex> lock(mutex_);
   Room* const woken = rooms_[static_cast<std::size_t>(room)].get();

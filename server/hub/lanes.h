@@ -31,6 +31,8 @@ class Lanes {
   Lanes(const Lanes&) = delete;
   Lanes& operator=(const Lanes&) = delete;
 
+  /// Thread-safe: runs another one, the next in number, which must outlive it.
+  void Add(Runnable* room);
   /// Thread-safe: makes a room run soon, even if it is not due.
   void Wake(int room);
   /// Returns the number of threads that run rooms now: the workers, and one for each slow room.

@@ -21,7 +21,7 @@ int RoomFinder::Asked(ByteView datagram) const {
   if (std::holds_alternative<Hello>(any)) return kHello;
   const auto* join = std::get_if<Join>(&any);
   if (join == nullptr) return kNone;
-  if (join->room.empty()) return 0;
+  if (join->room.empty()) return rooms_.empty() ? kUnknown : 0;
   const auto found = std::find(rooms_.begin(), rooms_.end(), join->room);
   return found == rooms_.end() ? kUnknown : static_cast<int>(found - rooms_.begin());
 }
@@ -40,7 +40,16 @@ int RoomFinder::Find(std::int64_t now_us, ByteView datagram) {
   return asked != kUnknown && rooms_.size() == 1 ? 0 : asked;
 }
 
+int RoomFinder::Add(const std::string& room) {
+  for (std::string& other : rooms_) {
+    if (other == room) other.clear();
+  }
+  rooms_.push_back(room);
+  return static_cast<int>(rooms_.size()) - 1;
+}
+
 std::string RoomFinder::Refusal() const {
+  if (rooms_.empty()) return "there is no room here";
   constexpr std::size_t kNamedMax = 8;
   std::string line = "there is no such room here: ";
   const char* before = rooms_.size() == 1 ? "the room is " : "the rooms are ";

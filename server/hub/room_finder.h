@@ -1,6 +1,6 @@
 #pragma once
 /// Finds the room of a datagram: by its session, or for a Join by the room it names. Remembers only
-/// sessions that a room has admitted. Thread-safe.
+/// sessions that a room has admitted. Learn and count are thread-safe.
 
 #include <cstdint>
 #include <mutex>
@@ -27,6 +27,8 @@ class RoomFinder {
   /// Returns the index of the room, or one of the above. With a single room, everything goes to it
   /// except a Join to another room.
   int Find(std::int64_t now_us, ByteView datagram);
+  /// Adds a room and returns its index; one of the same name is not asked for any more.
+  int Add(const std::string& room);
   /// Returns the refusal for a client that asked for an unknown room.
   std::string Refusal() const;
 
@@ -48,7 +50,7 @@ class RoomFinder {
   int Asked(ByteView datagram) const;
   void ForgetOld(std::int64_t now_us);
 
-  const std::vector<std::string> rooms_;
+  std::vector<std::string> rooms_;  // of the hub's thread; "": asked for no more
   mutable std::mutex mutex_;
   std::unordered_map<std::uint64_t, Route> routes_;  // by session, which nobody can choose
   std::int64_t swept_us_ = 0;

@@ -30,28 +30,30 @@ std::string PutAside(const std::string& log) {
 
 }  // namespace
 
-std::string StateLogOf(const std::string& folder, const std::string& room) {
-  return (fs::path(folder) / (room + kLogEnding)).string();
+std::string StateLogOf(const std::string& folder, const std::string& room, std::int32_t epoch) {
+  return (fs::path(folder) / (StemOf(room, epoch) + kLogEnding)).string();
 }
 
-std::vector<std::string> RoomsIn(const std::string& folder) {
+std::vector<std::string> RoomsIn(const std::string& folder, bool may_none) {
   std::set<std::string> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
-    const std::string name = path.stem().string();
+    const std::string stem = path.stem().string();
+    const std::string name = stem.substr(0, stem.find('.'));
     if (path.extension() == kLogEnding && IsName(name)) names.insert(name);
   }
   if (error) throw OperatorError(folder + ": cannot be read: " + error.message());
-  if (names.empty()) throw OperatorError(folder + ": no room in it (--state keeps one there)");
+  if (names.empty() && !may_none)
+    throw OperatorError(folder + ": no room in it (--state keeps one there)");
   return {names.begin(), names.end()};
 }
 
 ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
-                            const Secret* log_key) {
+                            const Secret* log_key, std::int32_t epoch) {
   ResumedRoom resumed;
-  resumed.log = StateLogOf(folder, room);
   LogPlace from;
+  std::int32_t log_epoch = 1;
   for (const SnapshotName& file : ListSnapshots(folder, room)) {
     RoomSnapshot snapshot;
     Status status = ReadSnapshot(file.path, &snapshot);
@@ -62,6 +64,7 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
     if (status.ok()) {
       resumed.saved_tick = snapshot.tick;
       from = snapshot.log;
+      log_epoch = file.epoch;
       break;
     }
     resumed.notes.push_back(status.why() + "; the one before is used");
@@ -71,8 +74,16 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
     for (const std::string& note : resumed.notes) why += "; " + note.substr(0, note.find("; the"));
     throw OperatorError(why);
   }
+  resumed.log = StateLogOf(folder, room, log_epoch);
+  resumed.epoch = std::max({epoch, resumed.saved->epoch(), log_epoch});
   const Status read = ReadLogTail(resumed.log, room, from, log_key, &resumed.tail);
   const std::string damage = read.ok() ? resumed.tail.damage : read.why();
+  if (resumed.epoch > log_epoch) {
+    if (!damage.empty()) resumed.notes.push_back(damage);
+    resumed.log = StateLogOf(folder, room, resumed.epoch);
+    resumed.new_log = true;
+    return resumed;
+  }
   if (damage.empty()) return resumed;
   const bool there = fs::exists(resumed.log);
   resumed.notes.push_back(damage + (there ? "; " + PutAside(resumed.log) : "; a new log begins"));
@@ -85,11 +96,19 @@ void PrepareStateFolder(const std::string& folder, const std::string& room, bool
   fs::create_directories(folder, error);
   if (error) throw OperatorError(folder + ": cannot be made: " + error.message());
   const std::vector<SnapshotName> snapshots = ListSnapshots(folder, room);
-  if (!force && (fs::exists(StateLogOf(folder, room)) || !snapshots.empty())) {
+  std::vector<fs::path> logs;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(room + ".", 0) == 0 && entry.path().extension() == kLogEnding) {
+      logs.push_back(entry.path());
+    }
+  }
+  if (!force && (!logs.empty() || !snapshots.empty())) {
     throw OperatorError(folder + ": has a room " + room + ": --resume " + folder +
                         " goes on with it, --force removes it");
   }
   for (const SnapshotName& file : snapshots) fs::remove(file.path, error);
+  for (const fs::path& log : logs) fs::remove(log, error);
 }
 
 }  // namespace seam

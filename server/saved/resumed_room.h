@@ -12,6 +12,7 @@ namespace seam {
 
 struct ResumedRoom {
   std::unique_ptr<const SavedRoom> saved;
+  std::int32_t epoch = 1;  ///< in which the room goes on
   std::int64_t saved_tick = 0;
   LogTail tail;
   std::string log;                 ///< path; it goes on at tail.end
@@ -19,15 +20,16 @@ struct ResumedRoom {
   std::vector<std::string> notes;  ///< lines for the operator: what is damaged, what is lost
 };
 
-/// Returns the path of a room's log in such a folder.
-std::string StateLogOf(const std::string& folder, const std::string& room);
-/// Returns the names of the rooms in it. Throws OperatorError if there are none.
-std::vector<std::string> RoomsIn(const std::string& folder);
+/// Returns the path of a room's log in such a folder, for one epoch.
+std::string StateLogOf(const std::string& folder, const std::string& room, std::int32_t epoch = 1);
+/// Returns the names of the rooms in it. Throws OperatorError if there are none, unless `may_none`.
+std::vector<std::string> RoomsIn(const std::string& folder, bool may_none = false);
 /// Reads a room: of its snapshots the newest that is whole and of this version, and its log from
 /// there on. Throws OperatorError if there is none. Renames a log that is damaged behind that, or
-/// was not written with `log_key` (nullptr: need not be).
+/// was not written with `log_key` (nullptr: need not be). `epoch`: in which it is to go on, 0: as
+/// saved; in a later one than that of the log it gets a log of its own.
 ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
-                            const Secret* log_key = nullptr);
+                            const Secret* log_key = nullptr, std::int32_t epoch = 0);
 /// Makes the folder if there is none. Throws OperatorError if that cannot be, or if it holds this
 /// room and `force` is not given; with `force` removes the room.
 void PrepareStateFolder(const std::string& folder, const std::string& room, bool force);

@@ -12,8 +12,8 @@
 
 namespace seam {
 
-RoomKeeper::RoomKeeper(std::string folder, std::string room, Sink& sink)
-    : folder_(std::move(folder)), room_(std::move(room)), sink_(sink) {}
+RoomKeeper::RoomKeeper(std::string folder, std::string room, Sink& sink, std::int32_t epoch)
+    : folder_(std::move(folder)), room_(std::move(room)), sink_(sink), epoch_(epoch) {}
 
 void RoomKeeper::AfterTick(Server& server, std::int64_t now_us) {
   const int tick_hz = server.room().tick_hz;
@@ -29,14 +29,14 @@ void RoomKeeper::Save(Server& server, std::int64_t now_us) {
   longest_us_ = std::max(longest_us_, SteadyClockUs() - begin_us);
   bytes_ = snapshot.room.size();
   shared_->writing = true;
-  sink_.disk().Do(
-      [shared = shared_, folder = folder_, room = room_, snapshot = std::move(snapshot)]() mutable {
-        RoomState::Finish(&snapshot.room);
-        const Status status = WriteSnapshot(folder, room, snapshot);
-        shared->writing = false;
-        const std::lock_guard<std::mutex> lock(shared->mutex);
-        if (!status.ok() && shared->trouble.ok()) shared->trouble = status;
-      });
+  sink_.disk().Do([shared = shared_, folder = folder_, room = room_, epoch = epoch_,
+                   snapshot = std::move(snapshot)]() mutable {
+    RoomState::Finish(&snapshot.room);
+    const Status status = WriteSnapshot(folder, room, snapshot, epoch);
+    shared->writing = false;
+    const std::lock_guard<std::mutex> lock(shared->mutex);
+    if (!status.ok() && shared->trouble.ok()) shared->trouble = status;
+  });
 }
 
 void RoomKeeper::Finish(Server& server, std::int64_t now_us) {

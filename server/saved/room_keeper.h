@@ -21,7 +21,7 @@ constexpr int kSnapshotS = 5;
 class RoomKeeper {
  public:
   /// Keeps the room in `folder`. Its log must go to `sink`, which must outlive this.
-  RoomKeeper(std::string folder, std::string room, Sink& sink);
+  RoomKeeper(std::string folder, std::string room, Sink& sink, std::int32_t epoch = 1);
 
   /// Call after each Server::Tick that has stepped. Saves the room if that is due and possible:
   /// rooms go back to barriers, and only at these saving changes nothing.
@@ -46,6 +46,7 @@ class RoomKeeper {
 
   const std::string folder_, room_;
   Sink& sink_;
+  const std::int32_t epoch_;  // of the log
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::int64_t next_tick_ = 0;
   std::int64_t longest_us_ = 0;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <tuple>
 
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
@@ -22,6 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr char kSnapshotMagic[8] = {'S', 'E', 'A', 'M', 'S', 'N', 'A', 'P'};
 constexpr const char* kSnapshotEnding = ".snapshot";
+/// Stands in a file's name before the epoch; no room's name has a dot.
+constexpr const char* kEpochMark = ".e";
 /// Most bytes read of a snapshot, normal 1 MB.
 constexpr std::size_t kSnapshotBytesMax = std::size_t{1} << 30;
 
@@ -42,10 +45,18 @@ std::uint32_t ChecksumOf(ByteView header, ByteView room) {
   return Crc32c(room, Crc32c({header.data + kCheckedFrom, header.size - kCheckedFrom}));
 }
 
-std::string SnapshotPath(const std::string& folder, const std::string& room, std::int64_t tick) {
+std::string SnapshotPath(const std::string& folder, const std::string& stem, std::int64_t tick) {
   char number[32];
   std::snprintf(number, sizeof number, "%012lld", static_cast<long long>(tick));
-  return (fs::path(folder) / (room + "-" + number + kSnapshotEnding)).string();
+  return (fs::path(folder) / (stem + "-" + number + kSnapshotEnding)).string();
+}
+
+/// Reads up to 18 digits.
+bool ReadDigits(const std::string& text, std::int64_t* number) {
+  const bool digits = !text.empty() && text.size() <= 18 &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
+  if (digits) *number = std::atoll(text.c_str());
+  return digits;
 }
 
 /// Writes a file and waits for the disk.
@@ -81,25 +92,39 @@ void SyncFolder(const std::string& folder) {
 
 }  // namespace
 
+std::string StemOf(const std::string& room, std::int32_t epoch) {
+  return epoch <= 1 ? room : room + kEpochMark + std::to_string(epoch);
+}
+
 std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room) {
   std::vector<SnapshotName> all;
   std::error_code error;
-  const std::string begin = room + "-";
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (entry.path().extension() != kSnapshotEnding || name.rfind(begin, 0) != 0) continue;
-    const std::string number = entry.path().stem().string().substr(begin.size());
-    const bool digits = !number.empty() && number.size() <= 18 &&
-                        number.find_first_not_of("0123456789") == std::string::npos;
-    if (digits) all.push_back({std::atoll(number.c_str()), entry.path().string()});
+    if (entry.path().extension() != kSnapshotEnding) continue;
+    const std::string name = entry.path().stem().string();
+    const std::size_t dash = name.rfind('-');
+    if (dash == std::string::npos || name.rfind(room, 0) != 0) continue;
+    SnapshotName file;
+    file.path = entry.path().string();
+    const std::string mark = kEpochMark;
+    const std::string between =
+        dash < room.size() ? "-" : name.substr(room.size(), dash - room.size());
+    std::int64_t epoch = 1;
+    const bool marked =
+        between.rfind(mark, 0) == 0 && ReadDigits(between.substr(mark.size()), &epoch);
+    const bool ours = between.empty() || (marked && epoch > 1 && epoch <= INT32_MAX);
+    if (!ours || !ReadDigits(name.substr(dash + 1), &file.tick)) continue;
+    file.epoch = static_cast<std::int32_t>(epoch);
+    all.push_back(file);
   }
-  std::sort(all.begin(), all.end(),
-            [](const SnapshotName& a, const SnapshotName& b) { return a.tick > b.tick; });
+  std::sort(all.begin(), all.end(), [](const SnapshotName& a, const SnapshotName& b) {
+    return std::tie(a.epoch, a.tick) > std::tie(b.epoch, b.tick);
+  });
   return all;
 }
 
 Status WriteSnapshot(const std::string& folder, const std::string& room,
-                     const RoomSnapshot& snapshot) {
+                     const RoomSnapshot& snapshot, std::int32_t epoch) {
   FileHeader header{};
   std::memcpy(header.magic, kSnapshotMagic, sizeof kSnapshotMagic);
   header.version = kSnapshotVersion;
@@ -110,7 +135,7 @@ Status WriteSnapshot(const std::string& folder, const std::string& room,
   header.log_keyed = snapshot.log.keyed;
   const ByteView head(reinterpret_cast<const std::uint8_t*>(&header), sizeof header);
   header.crc = ChecksumOf(head, snapshot.room);
-  const std::string path = SnapshotPath(folder, room, snapshot.tick);
+  const std::string path = SnapshotPath(folder, StemOf(room, epoch), snapshot.tick);
   const std::string unfinished = path + ".tmp";
   Status status = WriteWhole(unfinished, head, snapshot.room);
   if (status.ok() && std::rename(unfinished.c_str(), path.c_str()) != 0) {

@@ -28,16 +28,21 @@ struct RoomSnapshot {
 
 /// A snapshot's file.
 struct SnapshotName {
+  std::int32_t epoch = 1;  ///< of the room when it was written
   std::int64_t tick = 0;
   std::string path;
 };
 
-/// Returns the snapshots of a room in a folder, newest first.
+/// Returns the beginning of the names of a room's files: "main", and from epoch 2 on "main.e2". A
+/// server that does not know yet that another one has the room writes into no file of that one.
+std::string StemOf(const std::string& room, std::int32_t epoch);
+
+/// Returns the snapshots of a room in a folder, the latest epoch first, and its newest first.
 std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room);
 /// Writes a snapshot that appears whole or not at all (a file of its own, fsync, rename), and
 /// removes those older than the last kSnapshotsKept. Returns one line if it cannot.
 Status WriteSnapshot(const std::string& folder, const std::string& room,
-                     const RoomSnapshot& snapshot);
+                     const RoomSnapshot& snapshot, std::int32_t epoch = 1);
 /// Reads a snapshot; trusts no byte. Returns one line if it cannot be read or is damaged.
 Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot);
 

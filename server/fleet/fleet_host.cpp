@@ -1,0 +1,119 @@
+#include "server/fleet/fleet_host.h"
+
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/base/check.h"
+#include "common/base/names.h"
+#include "common/base/process.h"
+#include "common/base/version.h"
+#include "common/net/udp.h"
+
+namespace seam {
+namespace {
+
+constexpr const char* kAnyOfFleet = "fleet";
+
+/// Returns the address as a name: "192-0-2-1-7777".
+std::string NameOf(const std::string& address) {
+  std::string name;
+  for (const char c : address) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
+  return name.size() > kNameBytesMax ? name.substr(name.size() - kNameBytesMax) : name;
+}
+
+}  // namespace
+
+void CheckFleetFlags(const ServerFlags& f) {
+  const bool kept = !f.state.empty() || !f.resume.empty();
+  if (!f.drain_to.empty() && !kept) {
+    throw OperatorError("--drain-to: the other server goes on with what --state or --resume keeps");
+  }
+  if (f.drain_to == kAnyOfFleet && f.directory.empty()) {
+    throw OperatorError("--drain-to fleet needs --directory");
+  }
+  if (!f.drain_to.empty() && f.drain_to != kAnyOfFleet &&
+      ParseAddress(f.drain_to, 7777).port == 0) {
+    throw OperatorError("--drain-to " + f.drain_to + ": no server has port 0");
+  }
+  if (f.gateway && f.directory.empty()) throw OperatorError("--gateway needs --directory");
+  if (f.gateway && (kept || !f.scenes.empty())) {
+    throw OperatorError("--gateway has no rooms: not with a scene, --state or --resume");
+  }
+  if (!f.directory.empty() && !IsName(f.fleet)) {
+    throw OperatorError("--fleet takes 1 to 32 letters, digits, - or _");
+  }
+  if (!f.server_id.empty() && !IsName(f.server_id)) {
+    throw OperatorError("--id takes 1 to 32 letters, digits, - or _");
+  }
+}
+
+void PrepareFolders(const ServerFlags& f) {
+  std::error_code error;
+  if (!f.directory.empty() && !f.resume.empty()) {
+    std::filesystem::create_directories(f.resume, error);
+  }
+  if (error) throw OperatorError(f.resume + ": cannot be made: " + error.message());
+}
+
+FleetMember::Config MemberOf(const ServerFlags& f, const Address& local) {
+  Address reached = local;
+  if (!f.advertise.empty()) reached = ParseAddress(f.advertise, local.port);
+  Address any = kAnyAddress;
+  any.port = reached.port;
+  if (reached == any || reached == Address{0, reached.port}) {
+    throw OperatorError(
+        "--directory: clients need an address of this server: --advertise ADDRESS, or --bind");
+  }
+  FleetMember::Config config;
+  config.directory = f.directory;
+  config.fleet = f.fleet;
+  config.me.address = ToString(reached);
+  config.me.id = f.server_id.empty() ? NameOf(config.me.address) : f.server_id;
+  config.me.version = kVersion;
+  config.me.protocol = kProtocolVersion;
+  config.me.capacity = f.gateway ? 0 : f.capacity;
+  config.folder = f.state.empty() ? f.resume : f.state;
+  config.takes = !f.resume.empty();
+  return config;
+}
+
+void FollowFleet(FleetMember& member, Hub& hub) {
+  for (const std::string& news : member.TakeReports()) PrintError("seam-server", news);
+  for (const Redirect& lost : member.TakeLost()) {
+    for (const auto& room : hub.rooms()) {
+      if (room->config().room == lost.room) room->Supersede(lost);
+    }
+  }
+  for (const RoomPlan& plan : member.TakeReady()) {
+    try {
+      hub.Add(plan);
+    } catch (const OperatorError& error) {
+      PrintError("seam-server", error.what());
+    }
+  }
+}
+
+void DrainRooms(const ServerFlags& f, FleetMember* member, Hub& hub) {
+  std::string to;
+  if (f.drain_to != kAnyOfFleet) to = ToString(ParseAddress(f.drain_to, 7777));
+  if (member != nullptr) member->Stop();
+  hub.Drain([&](const std::string& room, std::int32_t epoch) {
+    if (member != nullptr) return member->Move(room, to, epoch);
+    Redirect redirect;
+    redirect.address = to;
+    redirect.room = room;
+    redirect.epoch = epoch;
+    return redirect;
+  });
+}
+
+std::string FleetPage(const FleetMember* member) {
+  if (member == nullptr) return "";
+  return std::string(
+             "# HELP seam_directory_up 1 if the directory of the fleet answered last\n"
+             "# TYPE seam_directory_up gauge\nseam_directory_up ") +
+         (member->up() ? "1\n" : "0\n");
+}
+
+}  // namespace seam

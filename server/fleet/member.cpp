@@ -1,0 +1,244 @@
+#include "server/fleet/member.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/base/entropy.h"
+#include "common/base/json_text.h"
+#include "common/base/process.h"
+#include "server/saved/snapshot_file.h"
+
+namespace seam {
+namespace {
+
+/// Time between two rounds, ms: a lease of kFleetLeaseS is renewed twenty times.
+constexpr int kRoundMs = 250;
+/// A room that cannot be opened here is left to others for so long, us.
+constexpr std::int64_t kFailedUs = 10000000;
+
+Redirect To(const std::string& room, const FleetHolder& holder) {
+  Redirect to;
+  to.room = room;
+  to.address = holder.address;
+  to.epoch = holder.epoch;
+  return to;
+}
+
+}  // namespace
+
+FleetMember::FleetMember(const Config& config, Prepare prepare)
+    : config_(config),
+      prepare_(std::move(prepare)),
+      directory_(OpenKeyStore(config.directory), config.fleet) {
+  const Status status = directory_.Register(config.me);
+  if (!status.ok()) throw OperatorError("--directory " + config.directory + ": " + status.why());
+}
+
+FleetMember::~FleetMember() {
+  Stop();
+  (void)directory_.Leave();  // else the lease ends by itself
+}
+
+std::int32_t FleetMember::Claim(const std::string& room, std::int32_t least) {
+  std::int32_t epoch = 0;
+  Status status =
+      directory_.Claim(room, "{\"folder\": " + JsonText(config_.folder) + "}", least, &epoch);
+  bool saved = false;
+  if (status.ok() && epoch > 0 && !config_.folder.empty()) {
+    status =
+        directory_.SaveState(room, epoch, "{\"folder\": " + JsonText(config_.folder) + "}", &saved);
+  }
+  if (!status.ok()) throw OperatorError("--directory " + config_.directory + ": " + status.why());
+  if (epoch == 0) {
+    FleetListing listing;
+    (void)directory_.List(&listing);
+    const FleetRoom* const known = listing.FindRoom(room);
+    const bool held = known != nullptr && known->holder;
+    throw OperatorError("room " + room + " is held by " +
+                        (held ? known->holder->server + " at " + known->holder->address
+                              : "another server, which was faster"));
+  }
+  held_[room] = epoch;
+  return epoch;
+}
+
+bool FleetMember::Knows(const std::string& room) {
+  FleetListing listing;
+  const Status status = directory_.List(&listing);
+  if (!status.ok()) throw OperatorError("--directory " + config_.directory + ": " + status.why());
+  const FleetRoom* const known = listing.FindRoom(room);
+  return known != nullptr && !known->spec.empty();
+}
+
+void FleetMember::Start() {
+  stop_ = false;
+  thread_ = std::thread([this] { Run(); });
+}
+
+void FleetMember::Stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+    wake_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void FleetMember::Run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stop_) {
+    lock.unlock();
+    const Status status = Round();
+    lock.lock();
+    if (up_.exchange(status.ok()) != status.ok()) {
+      news_.push_back(status.ok() ? "the directory answers again"
+                                  : "no directory: the rooms go on (" + status.why() + ")");
+    }
+    wake_.wait_for(lock, std::chrono::milliseconds(kRoundMs), [this] { return stop_; });
+  }
+}
+
+Status FleetMember::Round() {
+  bool kept = false;
+  Status status = directory_.Renew(&kept);
+  if (!status.ok()) return status;
+  FleetServer me = config_.me;
+  me.used = static_cast<std::int32_t>(held_.size());
+  if (!kept || me.used != directory_.me().used) {
+    status = directory_.Register(me);
+    if (!status.ok()) return status;
+  }
+  FleetListing listing;
+  status = directory_.List(&listing);
+  if (!status.ok()) return status;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    listing_ = listing;
+    if (listing.refused != refused_ && !listing.refused.empty()) {
+      news_.push_back("the directory has a value that is ignored: " + listing.refused);
+    }
+    refused_ = listing.refused;
+  }
+  for (const FleetRoom& room : listing.rooms) {
+    status = LookAt(room);
+    if (!status.ok()) return status;
+  }
+  return status;
+}
+
+Status FleetMember::LookAt(const FleetRoom& room) {
+  const auto held = held_.find(room.name);
+  const bool mine = room.holder && room.holder->server == config_.me.id;
+  if (held != held_.end()) {
+    if (room.epoch > held->second && !mine) {
+      held_.erase(held);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      Redirect to;
+      to.room = room.name;
+      to.epoch = room.epoch;
+      lost_.push_back(room.holder ? To(room.name, *room.holder) : to);
+      return Status::Ok();
+    }
+    if (mine && room.holder->epoch > held->second) return TakeHere(room, room.holder->epoch);
+    bool done = false;
+    return room.holder ? Status::Ok() : directory_.TakeBack(room.name, held->second, &done);
+  }
+  const auto failed = failed_.find(room.name);
+  const bool tries = failed == failed_.end() || SteadyClockUs() - failed->second > kFailedUs;
+  if (!config_.takes || room.state.empty() || !tries) return Status::Ok();
+  if (mine) return TakeHere(room, room.holder->epoch);
+  const auto used = static_cast<std::int32_t>(held_.size());
+  if (room.holder || used >= config_.me.capacity || !IsOurs(room.name)) return Status::Ok();
+  std::int32_t epoch = 0;
+  const Status status = directory_.TakeOver(room.name, 1, &epoch);
+  return status.ok() && epoch > 0 ? TakeHere(room, epoch) : status;
+}
+
+Status FleetMember::TakeHere(const FleetRoom& room, std::int32_t epoch) {
+  try {
+    RoomPlan plan = prepare_(room.name, epoch);
+    held_[room.name] = epoch;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ready_.push_back(std::move(plan));
+    news_.push_back("room " + room.name + ": taken over in epoch " + std::to_string(epoch));
+  } catch (const OperatorError& error) {
+    failed_[room.name] = SteadyClockUs();
+    held_.erase(room.name);
+    Say("room " + room.name + " cannot go on here: " + error.what());
+    return directory_.GiveUp(room.name, epoch);  // others may
+  }
+  return Status::Ok();
+}
+
+bool FleetMember::IsOurs(const std::string& room) const {
+  return !ListSnapshots(config_.folder, room).empty();
+}
+
+Redirect FleetMember::Move(const std::string& room, const std::string& to, std::int32_t epoch) {
+  Redirect nowhere;
+  FleetListing listing;
+  if (!directory_.me().draining) {
+    FleetServer me = directory_.me();
+    me.draining = true;
+    if (!directory_.Register(me).ok()) return nowhere;
+  }
+  const auto held = held_.find(room);
+  if (held == held_.end() || !directory_.List(&listing).ok()) return nowhere;
+  const FleetServer* server = nullptr;
+  if (to.empty()) {
+    OsEntropy entropy;
+    Random random(entropy.Next());
+    server = PlaceRoom(listing.servers, config_.me.protocol, config_.me.id, random);
+  } else {
+    for (const FleetServer& each : listing.servers) {
+      if (each.address == to) server = &each;
+    }
+  }
+  if (server == nullptr) return nowhere;
+  std::int32_t next = 0;
+  if (!directory_.Move(room, held->second, *server, &next).ok() || next == 0) return nowhere;
+  held_.erase(held);
+  return To(room, {server->id, server->address, std::max(next, epoch)});
+}
+
+void FleetMember::Release(const std::string& room) {
+  const auto held = held_.find(room);
+  if (held == held_.end()) return;
+  (void)directory_.Release(room, held->second);
+  held_.erase(held);
+}
+
+std::vector<RoomPlan> FleetMember::TakeReady() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(ready_, {});
+}
+
+std::vector<Redirect> FleetMember::TakeLost() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(lost_, {});
+}
+
+std::vector<std::string> FleetMember::TakeReports() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(news_, {});
+}
+
+std::optional<Redirect> FleetMember::Find(const std::string& room) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const FleetRoom& each : listing_.rooms) {
+    const bool asked = each.name == room || room.empty();
+    if (asked && each.holder && each.holder->server != config_.me.id) {
+      return To(each.name, *each.holder);
+    }
+  }
+  return std::nullopt;
+}
+
+void FleetMember::Say(const std::string& line) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  news_.push_back(line);
+}
+
+}  // namespace seam
