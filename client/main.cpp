@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 
 #include "client/client.h"
 #include "client/cpu_throttle.h"
@@ -23,6 +24,7 @@
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
+#include "common/fleet/room_watch.h"
 #include "common/net/farewell.h"
 #include "common/net/impair.h"
 #include "common/net/udp.h"
@@ -54,6 +56,8 @@ struct Flags {
   std::string record;
   bool force = false;
   std::string room;  // "": the server's first
+  std::string directory;
+  std::string fleet = "main";
   std::string lcm_url;
   std::string publish = "auto";
   bool quiet = false;
@@ -93,6 +97,10 @@ void Define(Command& app, Flags& f) {
   app.Option("--record", f.record, "write an LCM log of the bus to this file");
   app.Switch("--force", f.force, "replace the --record file");
   app.Option("--room", f.room, "the room to join (default: the server's first)");
+  app.Option("--directory", f.directory,
+             "find the room's server in this directory of a fleet, file:FOLDER or "
+             "etcd:HOST:PORT,...; also when it moves (then no server need be given)");
+  app.Option("--fleet", f.fleet, "name of the fleet in the directory");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.Option("--publish", f.publish,
              "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
@@ -155,7 +163,8 @@ ClientConfig Configure(const Flags& f) {
   if (std::isnan(f.throttle)) throw OperatorError("--cpu-throttle must be a number");
   if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
   ClientConfig config;
-  config.server = ParseAddress(f.server, 7777);
+  if (!f.directory.empty()) CheckName("--fleet", f.fleet);
+  config.server = ParseAddress(f.server.empty() ? "127.0.0.1:7777" : f.server, 7777);
   if (config.server.port == 0) {
     throw OperatorError("address \"" + f.server + "\": no server has port 0");
   }
@@ -203,7 +212,7 @@ Input Both(const Input& a, const Input& b) {
 }
 
 int Play(const Flags& f) {
-  if (f.server.empty()) {
+  if (f.server.empty() && f.directory.empty()) {
     throw OperatorError("which server? for example: seam-client 127.0.0.1:7777");
   }
   ClientConfig config = Configure(f);
@@ -223,6 +232,8 @@ int Play(const Flags& f) {
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
   Sink sink(f.lcm_url, f.record, f.force, f.room.empty() ? "main" : f.room);
   OsEntropy entropy;
+  std::unique_ptr<RoomWatch> rooms;
+  if (!f.directory.empty()) rooms = std::make_unique<RoomWatch>(f.directory, f.fleet, config.room);
   Client client(config, net, sink, entropy);
   const std::string hint = f.hint.empty() ? "" : "; " + f.hint;
   StopOnSignals();
@@ -239,6 +250,9 @@ int Play(const Flags& f) {
       client.SetLiveInput(lines != nullptr ? Both(keys, lines->Poll()) : keys);
       if (keyboard != nullptr && keyboard->quit()) break;
     }
+    const std::optional<FleetHolder> holder = rooms != nullptr ? rooms->newest() : std::nullopt;
+    Address at;
+    if (holder && ReadAddress(holder->address, &at)) client.Suggest(at, holder->epoch);
     client.Tick(now, static_cast<std::int64_t>(static_cast<double>(CpuUs()) * f.throttle));
     throttle.Slow();
     if (key_file != nullptr && client.key() != key_file->key()) key_file->Write(client.key());
@@ -258,7 +272,7 @@ int Play(const Flags& f) {
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
       throw OperatorError((client.sessions() == 0 ? "no answer from " : "lost the server ") +
-                          ToString(config.server) + "; gave up after " + SecondsText(f.join_s) +
+                          ToString(client.server()) + "; gave up after " + SecondsText(f.join_s) +
                           " s (--join-timeout)");
     }
     const std::string state = client.running() ? ProgressText(client, elapsed_s)

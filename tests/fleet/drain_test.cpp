@@ -21,7 +21,8 @@ struct Game : FleetRooms {
 
 TEST(Drain, ClientsGoOnAtTheOtherServerAndTheirWorldsNeverStop) {
   for (const char* impair : {"perfect", "demo", "4g", "delay=200ms"}) {
-    for (const std::int64_t down_us : {std::int64_t{0}, std::int64_t{300000}, std::int64_t{4000000}}) {
+    for (const std::int64_t down_us :
+         {std::int64_t{0}, std::int64_t{300000}, std::int64_t{4000000}}) {
       Game game(impair);
       const std::int64_t begin_us = game.now_us, tick = game.a.server->tick();
       game.a.server->GiveAway(2);
@@ -63,10 +64,11 @@ TEST(Drain, ClientsGoOnAtTheOtherServerAndTheirWorldsNeverStop) {
         EXPECT_EQ(guest->client->rejoins(), 1);
         EXPECT_EQ(guest->client->epoch(), 2);
       }
-      std::printf("%s, the other server there after %.1f s: all play again after %.2f s, longest "
-                  "stand of a client's world %.2f s\n",
-                  impair, static_cast<double>(down_us) * 1e-6, gap_s,
-                  static_cast<double>(longest_us) * 1e-6);
+      std::printf(
+          "%s, the other server there after %.1f s: all play again after %.2f s, longest "
+          "stand of a client's world %.2f s\n",
+          impair, static_cast<double>(down_us) * 1e-6, gap_s,
+          static_cast<double>(longest_us) * 1e-6);
       EXPECT_LT(gap_s - static_cast<double>(down_us) * 1e-6, 3.5) << impair;
     }
   }
