@@ -192,7 +192,8 @@ void Client::Follow(std::int64_t now_us, const Redirect& redirect) {
     ++stats_.dropped_malformed;
     return;
   }
-  if (++redirects_ > kRedirectsMax) {
+  const bool again = to == away_ && redirect.epoch == epoch_;  // the same answer, asked once more
+  if (!again && ++redirects_ > kRedirectsMax) {
     fatal_ = "the servers redirect again and again, now to " + redirect.address;
     return;
   }
@@ -225,8 +226,10 @@ void Client::TryElsewhere(std::int64_t now_us) {
   }
   if (now_us - begun_us_ <= (offers_.empty() ? kElsewhereUs : kLostUs)) return;
   // No answer: the other server that we know, if there is one.
-  const bool away = away_.port != 0 && config_.server == home_;
-  if (!known && (away || config_.server != home_)) return Move(now_us, away ? away_ : home_);
+  const bool at_home = config_.server == home_;
+  const Address& other = at_home ? away_ : home_;
+  const bool sent_on = moving_ && other == at_;  // by that one
+  if (!known && other.port != 0 && other != config_.server && !sent_on) return Move(now_us, other);
   if (moving_ && !offers_.empty()) BeginJoin(now_us);
 }
 

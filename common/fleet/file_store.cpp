@@ -27,10 +27,10 @@ class FolderLock {
  public:
   explicit FolderLock(const std::string& path)
       : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
-    for (int waited = 0; fd_ >= 0 && !locked_ && waited < kStoreWaitS * 1000; ++waited) {
-      locked_ = flock(fd_, LOCK_EX | LOCK_NB) == 0;
-      if (!locked_ && errno != EWOULDBLOCK && errno != EINTR) return;
-      if (!locked_) SleepUs(1000);
+    // Blocks, so that the kernel serves those who wait in turn; nobody holds it for long.
+    while (fd_ >= 0 && !locked_) {
+      locked_ = flock(fd_, LOCK_EX) == 0;
+      if (!locked_ && errno != EINTR) return;
     }
   }
   ~FolderLock() {

@@ -1,7 +1,7 @@
 #pragma once
 /// Keys with values, leases and transactions, as etcd has them: all that a fleet's Directory needs
-/// of a store. Calls block for at most kStoreWaitS and are not thread-safe; each failure is one
-/// line.
+/// of a store. Calls to hosts block for at most kStoreWaitS; those to a folder as long as another
+/// process has its lock, a few ms. Not thread-safe; each failure is one line.
 
 #include <cstdint>
 #include <memory>

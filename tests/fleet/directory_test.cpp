@@ -77,7 +77,7 @@ class EachDirectory : public ::testing::TestWithParam<const char*> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Fleet, EachDirectory, ::testing::Values("file", "etcd"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& each) { return std::string(each.param); });
 
 TEST_P(EachDirectory, ARoomHasOneHolderAndItsEpochGrowsWithEach) {
   const auto a = Open("a"), b = Open("b");
@@ -200,6 +200,7 @@ TEST_P(EachDirectory, AnEpochIsNeverGivenTwiceToServersThatRace) {
         for (int round = 0; round < kRounds;) {
           const std::int32_t epoch = Claimed(*directory, "red");
           if (epoch < 0) return;
+          usleep(static_cast<useconds_t>(500 * (1 + process + kProcesses * t)));
           if (epoch == 0) continue;
           each[static_cast<std::size_t>(t)].push_back(epoch);
           EXPECT_TRUE(directory->GiveUp("red", epoch).ok());
