@@ -12,6 +12,7 @@
 #include "common/codec/event.h"
 #include "common/codec/load.h"
 #include "common/codec/message_limits.h"
+#include "common/codec/redirect.h"
 #include "common/codec/summary.h"
 
 namespace seam {
@@ -56,14 +57,6 @@ struct Welcome {
   std::int64_t key = 0;         ///< secret of this player; for its next Join
   std::int32_t epoch = 1;       ///< of the room: grows when another server goes on with it
   std::int64_t proof = 0;       ///< EpochProof of that epoch, for the next Join
-};
-
-/// Server -> client, in a session: the room goes on at another server.
-struct Redirect {
-  std::int64_t utime = 0;
-  std::string address;     ///< as ToString(Address)
-  std::string room;        ///< name of the room there
-  std::int32_t epoch = 1;  ///< of the room there; no lower one is to be joined
 };
 
 /// Client -> server, reliable: the client has loaded the room and its clock has settled.

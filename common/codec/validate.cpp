@@ -108,11 +108,6 @@ bool Valid(const Welcome& m) {
          Within(m.room_bytes, 1, kPackedRoomBytesMax) && m.epoch >= 1;
 }
 
-bool Valid(const Redirect& m) {
-  return Time(m.utime) && !m.address.empty() && IsPrintable(m.address, kLabelBytesMax) &&
-         IsName(m.room) && m.epoch >= 1;
-}
-
 bool Valid(const Chunk& m) {
   return Time(m.utime) && Within(m.offset_bytes, 0, kPackedRoomBytesMax) &&
          Within(m.data.size(), 1, kChunkBytesMax) &&

@@ -6,7 +6,7 @@
 namespace seam {
 
 std::string ToBase64(const std::string& bytes);
-/// Returns false if the text is not what ToBase64 makes.
+/// Returns false for any other text than those of ToBase64.
 bool FromBase64(const std::string& text, std::string* bytes);
 
 }  // namespace seam

@@ -22,7 +22,7 @@
 
 namespace seam {
 
-/// Time after which a server that does not renew is gone, with what it holds, s.
+/// Time after which a server that does not renew is gone, with the rooms that it holds, s.
 constexpr int kFleetLeaseS = 5;
 /// Most bytes of a value, and most entries of a listing that are read.
 constexpr std::size_t kFleetValueBytesMax = 65536, kFleetEntriesMax = 200000;
@@ -85,7 +85,7 @@ class Directory {
   /// `least`; 0: somebody else has it or was faster.
   Status Claim(const std::string& room, const std::string& spec, std::int32_t least,
                std::int32_t* epoch);
-  /// Takes a room whose holder is gone, and that has a spec; else as Claim.
+  /// Takes a room that has a spec and no holder any more; else as Claim.
   Status TakeOver(const std::string& room, std::int32_t least, std::int32_t* epoch);
   /// Holds the room again in the same epoch, after the lease had ended, if nobody has taken it.
   Status TakeBack(const std::string& room, std::int32_t epoch, bool* done);

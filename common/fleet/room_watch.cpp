@@ -6,7 +6,7 @@ namespace seam {
 namespace {
 
 /// Time between two looks, ms.
-constexpr int kLookMs = 250;
+constexpr int kRoomLookMs = 250;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void RoomWatch::Run() {
       newest_ = room.holder;
       break;
     }
-    wake_.wait_for(lock, std::chrono::milliseconds(kLookMs), [this] { return stop_; });
+    wake_.wait_for(lock, std::chrono::milliseconds(kRoomLookMs), [this] { return stop_; });
   }
 }
 

@@ -183,7 +183,7 @@ TEST_F(Fleet, FlagsThatDoNotGoTogetherAreOneLine) {
       {{"crossing", "--drain-to", "10.0.0.1"}, "--drain-to: the other server goes on with"},
       {{"--gateway", "crossing"}, "--gateway has no rooms"},
       {{"--gateway", "--fleet", "a b"}, "--fleet takes"},
-      {{"crossing", "--bind", "[::]"}, "--advertise"}};
+      {{"crossing", "--advertise", "[::]"}, "--advertise"}};
   for (const auto& [flags, text] : wrong) {
     const auto server = Server("a", flags);
     ASSERT_TRUE(server->Wait(kPatience)) << server->Story();

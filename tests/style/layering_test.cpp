@@ -188,7 +188,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"server/sessions", "server/interest"},
       {"server/load", "server"},
       {"server/saved", "server"},
-      {"server/fleet", "server/(hub|saved)"},
+      {"server/fleet", "server(/hub|/saved)?"},
       {"server/hub", "server(/load|/sessions|/saved)?"},
       {"server/script", "none"},
       {"server/token", "none"},
