@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "common/base/base64.h"
 #include "common/base/check.h"
-#include "common/fleet/base64.h"
 #include "common/fleet/http_post.h"
 #include "common/fleet/key_store.h"
 

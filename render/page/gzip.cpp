@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include "common/base/base64.h"
 #include "common/base/check.h"
 
 namespace seam {
@@ -23,20 +24,7 @@ PageBytes Gzip(const PageBytes& bytes) {
 }
 
 std::string Base64(const PageBytes& bytes) {
-  static const char kBase64Digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = bytes.size() - i;
-    const unsigned a = bytes[i], b = count > 1 ? bytes[i + 1] : 0, c = count > 2 ? bytes[i + 2] : 0;
-    const unsigned group = a << 16 | b << 8 | c;
-    text += kBase64Digits[group >> 18];
-    text += kBase64Digits[group >> 12 & 63];
-    text += count > 1 ? kBase64Digits[group >> 6 & 63] : '=';
-    text += count > 2 ? kBase64Digits[group & 63] : '=';
-  }
-  return text;
+  return ToBase64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace seam

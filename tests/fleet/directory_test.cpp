@@ -8,10 +8,10 @@
 #include <set>
 #include <thread>
 
+#include "common/base/base64.h"
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/codec/messages.h"
-#include "common/fleet/base64.h"
 #include "common/fleet/directory_values.h"
 #include "tests/fleet/etcd_here.h"
 

@@ -1,4 +1,4 @@
-#include "common/fleet/base64.h"
+#include "common/base/base64.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,8 +11,9 @@ constexpr char kDigits64[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwx
 
 }  // namespace
 
-std::string ToBase64(const std::string& bytes) {
+std::string ToBase64(std::string_view bytes) {
   std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t at = 0; at < bytes.size(); at += 3) {
     std::uint32_t group = 0;
     for (std::size_t i = 0; i < 3; ++i) {
