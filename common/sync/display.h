@@ -42,6 +42,11 @@ class Display {
 
   /// Reports that the simulated state of `body` changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
+  /// Reports that a replay has put `body` elsewhere by this much at the world's tick. A body that
+  /// is shown in the past comes to that tick later; its view glides then.
+  void MovedInPast(int body, const BodyState& by);
+  /// Call when a replay begins after `tick`: forgets what earlier ones reported of later ticks.
+  void ReplayedFrom(std::int64_t tick);
   /// Calls `call(body, by)` for each correction: a Moved by more than the wire's rounding.
   void OnCorrected(std::function<void(int, const BodyState&)> call) {
     on_corrected_ = std::move(call);
@@ -57,6 +62,11 @@ class Display {
   View MakeView(const Roles& roles, bool all) const;
 
  private:
+  /// A move of a body by other than physics, in the step to a tick.
+  struct PastMove {
+    std::int64_t tick = 0;
+    BodyState by;
+  };
   /// The past moment at which a body is displayed.
   struct Shown {
     bool past = false;         // false: it is displayed in the present
@@ -65,12 +75,14 @@ class Display {
     BodyState then;            // its state at that moment, as known when displayed
     std::int64_t edited = -1;  // tick in which an edit moved it that is not displayed yet
     BodyState jump;            // by that edit
+    std::vector<PastMove> moves;  // by corrections, not displayed yet; ascending
   };
   void Edited(const BodyRemap& change);
   /// Returns the state that is displayed of a body but for its visual offset: now, or in the past.
   BodyState Base(int body) const;
   BodyState PastAt(const Roles& roles, int body, double moment) const;
   void ShowPast(const Roles& roles, int body, double due);
+  void HidePastMoves(int body);
   void ShowPresent(int body);
   void ShowOthers(const Roles& roles, std::int64_t missing);
   bool IsDelayed(const Roles& roles, int body) const;
@@ -105,6 +117,7 @@ class Display {
   ShowAge ages_;
   std::vector<ShownMechanism> shown_mechanisms_;  // memory for ShowOthers, rebuilt each tick
   BodyColumn<Shown> shown_;
+  bool any_moves_ = false;  // shown_ may have some
   std::function<void(int, const BodyState&)> on_corrected_ = [](int, const BodyState&) {};
   std::int64_t glides_ = 0;                        // number of Glide calls
   MechanismColumn<std::int64_t> corrected_until_;  // in glides: joints may be torn until then

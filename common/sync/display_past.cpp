@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
@@ -72,6 +73,9 @@ BodyState Display::PastAt(const Roles& roles, int body, double moment) const {
   const std::int64_t next = static_cast<std::int64_t>(low) + 1;
   BodyState after = *memory_.history().At(next, body);
   if (next == shown_[body].edited) after = Minus(after, shown_[body].jump);
+  for (const PastMove& move : shown_[body].moves) {
+    if (move.tick == next) after = Minus(after, move.by);
+  }
   return PlusScaled(*before, Minus(after, *before), static_cast<float>(moment - low));
 }
 
@@ -101,6 +105,36 @@ void Display::ShowPast(const Roles& roles, int body, double due) {
   smoother_.Moved(body, Visible(body, jump));
 }
 
+/// Lets the view glide over the moves that the body's moment has come to.
+void Display::HidePastMoves(int body) {
+  Shown& shown = shown_[body];
+  const auto come = [&](const PastMove& move) {
+    return shown.moment >= static_cast<double>(move.tick);
+  };
+  for (const PastMove& move : shown.moves) {
+    if (come(move)) smoother_.Moved(body, move.by);
+  }
+  shown.moves.erase(std::remove_if(shown.moves.begin(), shown.moves.end(), come),
+                    shown.moves.end());
+}
+
+void Display::MovedInPast(int body, const BodyState& by) {
+  Shown& shown = shown_[body];
+  // What is displayed by now is compared as a whole, by ShowPast.
+  if (!shown.past || static_cast<double>(world_.tick()) <= shown.moment) return;
+  shown.moves.push_back({world_.tick(), Visible(body, by)});
+  any_moves_ = true;
+}
+
+void Display::ReplayedFrom(std::int64_t tick) {
+  if (!std::exchange(any_moves_, false)) return;
+  for (int body = 0; body < shown_.size(); ++body) {
+    std::vector<PastMove>& moves = shown_[body].moves;
+    while (!moves.empty() && moves.back().tick > tick) moves.pop_back();
+    any_moves_ = any_moves_ || !moves.empty();
+  }
+}
+
 /// Displays a body in the present from now on.
 void Display::ShowPresent(int body) {
   Shown& shown = shown_[body];
@@ -108,6 +142,7 @@ void Display::ShowPresent(int body) {
   smoother_.Moved(body, Visible(body, Minus(world_.Read(body), shown.then)));
   shown.past = false;
   shown.edited = -1;
+  shown.moves.clear();
 }
 
 /// True if the world itself has the body in the past, between received states.
@@ -173,6 +208,7 @@ void Display::ShowOthers(const Roles& roles, std::int64_t missing) {
         smoother_.Moved(body, shown.jump);
         shown.edited = -1;
       }
+      HidePastMoves(body);
       shown.then = PastAt(roles, body, shown.moment);
     }
   }

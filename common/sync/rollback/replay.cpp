@@ -53,7 +53,7 @@ Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const
   RecordSeats();
 }
 
-bool Replay::Agrees(const BodyState& d) const {
+bool Replay::Agrees(const BodyState& d) {
   if (Negligible(d)) return true;
   return d.position.norm() < kAgreesPosition && d.velocity.norm() < kAgreesVelocity &&
          std::fabs(d.angle) < kAgreesAngle && std::fabs(d.spin) < kAgreesSpin;
@@ -185,6 +185,7 @@ void Replay::WriteKnownStates(int body) {
     if (!Agrees(Minus(state, local))) {
       memory_.NoteDiffering(world_.mechanism(body));  // by all inputs known by now
       world_.Write(body, WithinLimits(state, world_.scene().speed_limit), moves);
+      display_.MovedInPast(body, Apart(world_.Read(body), local));
     }
   }
   *past = world_.Read(body);
@@ -257,6 +258,7 @@ bool Replay::Depart(std::int64_t from, bool all) {
   }
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
+  display_.ReplayedFrom(world_.tick());
   RestoreDormant();
   for (const int body : world_.present()) {
     if (RestsAsCopy(body) && world_.tick() >= memory_.track(body).heard_tick) {

@@ -89,6 +89,8 @@ class Replay {
   /// The tick at which GoOn will end; the world's tick outside a replay.
   std::int64_t now() const { return journey_ ? journey_->now : world_.tick(); }
 
+  /// True if a difference is too small to correct.
+  static bool Agrees(const BodyState& difference);
   std::int64_t ticks_stepped_again() const { return stepped_again_; }
   /// Number of Run calls that left their replay to the next call.
   std::int64_t deferred() const { return deferred_; }
@@ -139,8 +141,6 @@ class Replay {
   bool SimulateFrom(int body, std::int64_t tick);
   bool FollowsHistory(int body, std::int64_t tick) const;
   bool IsFact(int body, std::int64_t tick) const;
-  /// True if a difference is too small to correct.
-  bool Agrees(const BodyState& difference) const;
   void WriteKnownStates();
   void WriteKnownStates(int body);
   void ReplayTick();
