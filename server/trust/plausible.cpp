@@ -49,6 +49,7 @@ Plausible::Plausible(const Scene& scene, const Replica& replica)
       accepted_(replica.table(), BodyRule::kSame),
       memory_(replica.table(), BodyRule::kOrigin),
       strikers_(replica.world(), [this](int body) { return SpeedOfLate(body); }),
+      drift_(replica),
       note_begun_(replica.table(), [this](const BodyRemap& change) { NoteBegun(change); }) {
   for (int body = 0; body < memory_.size(); ++body) NoteBegun(body);
 }
@@ -124,6 +125,7 @@ bool Plausible::Judge(int body, std::int64_t tick, int revision, const BodyState
     BodyState off = Minus(state, *copy);
     off.angle = WrapAngle(off.angle);
     if (!whole) off.velocity = Vec2(0, 0), off.spin = 0;
+    if (whole && !Settles()) drift_.Add(body, tick, *copy, off);
     believed = JudgeByCopy(body, tick, state, off);
   } else {
     believed = JudgeByWay(body, tick, state, whole);
@@ -135,13 +137,17 @@ bool Plausible::Judge(int body, std::int64_t tick, int revision, const BodyState
   return believed;
 }
 
+/// A holder that has not applied the newest edit yet, or has just gone back for it, differs.
+bool Plausible::Settles() const { return Seconds(replica_.tick() - edited_) < kSettlesS; }
+
 bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off) {
   Memory& memory = memory_[body];
   const float way = Way(off), kick = Kick(off);
-  if (way <= kAgrees && kick <= kAlikeVelocity) return true;
-  // A holder that has not applied the newest edit yet, or has just gone back for it, differs.
-  const bool settles = Seconds(replica_.tick() - edited_) < kSettlesS;
-  if (settles && way <= kGross && kick <= kGrossVelocity) return true;
+  if (way <= kAgrees && kick <= kAlikeVelocity) {
+    if (drift_.Lies(body)) NoteDoubt(body, tick, state, Minus(state, off), false);
+    return true;
+  }
+  if (Settles() && way <= kGross && kick <= kGrossVelocity) return true;
   const float forgotten = std::min(
       1.0f, Seconds(std::max<std::int64_t>(0, replica_.tick() - memory.forgotten)) / kForgetS);
   memory.forgotten = replica_.tick();

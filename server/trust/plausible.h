@@ -5,7 +5,8 @@
 /// A server that simulates a body knows the inputs that move it, so that an honest holder tells the
 /// state of the copy, up to the rounding of the wire. Where honest copies part, after late inputs
 /// in chaos, the told state is believed against the copy, but only for a bounded sum of distances
-/// and velocities (Allowance).
+/// and velocities. Differences that are too small for that are summed with their directions
+/// (Drift).
 
 #include <cstdint>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "common/codec/messages.h"
 #include "common/sync/replica.h"
 #include "common/sync/table/body_column.h"
+#include "server/trust/drift.h"
 #include "server/trust/strikers.h"
 
 namespace seam {
@@ -59,6 +61,8 @@ class Plausible {
     std::int64_t judged = 0, by_copy = 0, doubted = 0, refused = 0;
   };
   const Counts& counts() const { return counts_; }
+  /// See Drift::greatest.
+  float greatest_drift() const { return drift_.greatest(); }
   /// Returns the doubts since the last call.
   std::vector<Doubt> TakeDoubts() { return std::exchange(doubts_, {}); }
 
@@ -88,6 +92,7 @@ class Plausible {
   void NoteDoubt(int body, std::int64_t tick, const BodyState& told, const BodyState& expected,
                  bool refused);
   float Seconds(std::int64_t ticks) const;
+  bool Settles() const;
   void NoteBegun(int body);
   void NoteBegun(const BodyRemap& change);
   void NoteSpeed(int body, std::int64_t tick, float speed);
@@ -102,6 +107,7 @@ class Plausible {
   int revision_ = 0;             // edits as of the last judgement
   std::int64_t edited_ = -1000;  // tick at which it was first seen
   Strikers strikers_;
+  Drift drift_;
   EditHook note_begun_;
 };
 

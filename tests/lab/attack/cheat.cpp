@@ -1,6 +1,7 @@
 #include "tests/lab/attack/cheat.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/base/check.h"
@@ -36,9 +37,9 @@ double WayX(const WireBody& body, const WireBody& from) {
 
 const std::vector<std::string>& AttackNames() {
   static const std::vector<std::string> names = {
-      "none", "silence", "firstword", "x1.05", "x1.2",    "x1.5", "speed1.2",
-      "ram",  "vel10",   "fly",       "lift",  "freeze",  "tear", "spin",
-      "rest", "exact",   "impact",    "break", "withhold"};
+      "none",   "silence", "firstword", "x1.05",   "x1.2",    "x1.5",    "speed1.2", "ram",
+      "vel10",  "fly",     "lift",      "freeze",  "tear",    "spin",    "rest",     "exact",
+      "impact", "break",   "withhold",  "gain0.1", "gain0.2", "gain0.5", "bounce1.2"};
   return names;
 }
 
@@ -47,7 +48,8 @@ Cheat::Cheat(const std::string& attack, const Scene& scene)
       attack_(attack),
       honest_(MotionOf(scene)),
       lying_(MotionOf(scene)),
-      first_(scene.parts.size()) {
+      first_(scene.parts.size()),
+      ahead_(scene.parts.size()) {
   ChooseLies(attack);
 }
 
@@ -76,6 +78,10 @@ void Cheat::ChooseLies(const std::string& attack) {
   if (attack == "x1.2") change_ = factor(1.2, false);
   if (attack == "x1.5") change_ = factor(1.5, false);
   if (attack == "speed1.2") change_ = factor(1.2, true);
+  if (attack == "gain0.1") change_ = Gain(0.1);
+  if (attack == "gain0.2") change_ = Gain(0.2);
+  if (attack == "gain0.5") change_ = Gain(0.5);
+  if (attack == "bounce1.2") change_ = Bounce(1.2);
   if (attack == "silence") {
     change_ = [this](std::int64_t tick, WireBody* body) {
       if (!IsCar(body->id)) return true;
@@ -134,6 +140,37 @@ void Cheat::ChooseLies(const std::string& attack) {
       return true;
     };
   }
+}
+
+Cheat::Change Cheat::Gain(double rate) {
+  return [this, rate](std::int64_t tick, WireBody* body) {
+    if (!IsCar(body->id)) return true;
+    Ahead& ahead = ahead_[static_cast<std::size_t>(body->id)];
+    const double speed = MpsOf(body->vx);
+    const double s = ahead.tick < 0 ? 0 : static_cast<double>(tick - ahead.tick) / 60;
+    if (std::fabs(speed) > 0.5) ahead.speed += (speed > 0 ? rate : -rate) * s;
+    ahead.way += ahead.speed * s;
+    ahead.tick = tick;
+    Shift(ahead.way, 0, body);
+    body->vx = Speed(speed + ahead.speed);
+    return true;
+  };
+}
+
+Cheat::Change Cheat::Bounce(double share) {
+  return [this, share](std::int64_t tick, WireBody* body) {
+    if (!IsCar(body->id)) return true;
+    Ahead& ahead = ahead_[static_cast<std::size_t>(body->id)];
+    const double speed = MpsOf(body->vx), blow = speed - ahead.was;
+    const double s = ahead.tick < 0 ? 0 : static_cast<double>(tick - ahead.tick) / 60;
+    if (ahead.tick >= 0 && std::fabs(blow) > 1) ahead.speed += (share - 1) * blow;
+    ahead.way += ahead.speed * s;
+    ahead.tick = tick;
+    ahead.was = speed;
+    Shift(ahead.way, 0, body);
+    body->vx = Speed(speed + ahead.speed);
+    return true;
+  };
 }
 
 void Cheat::NoteLie(std::int64_t tick) {

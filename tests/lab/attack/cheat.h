@@ -40,6 +40,10 @@ class Cheat {
   void RewriteOther(Bytes* message);
   void NoteLie(std::int64_t tick);
   bool IsCar(std::int32_t id) const;
+  /// Lies that are small in each message: a car that gains `rate` m/s in each second along its way,
+  /// as by a stronger engine or less friction; one that keeps `share` more of each blow's speed.
+  Change Gain(double rate);
+  Change Bounce(double share);
 
   const Scene& scene_;
   std::string attack_;
@@ -48,6 +52,13 @@ class Cheat {
   StatesUnpacker honest_;
   StatesPacker lying_;
   std::vector<WireBody> first_;  // by id: the honest state of the first lie
+  /// Of a car's part, by Gain and Bounce: how far its told state is ahead.
+  struct Ahead {
+    std::int64_t tick = -1;
+    double way = 0, speed = 0;  // m, m/s
+    double was = 0;             // honest speed of that tick
+  };
+  std::vector<Ahead> ahead_;     // by id
   std::int64_t tick_ = 0;        // newest told
   std::int64_t first_tick_ = -1, lies_ = 0;
   std::int32_t revision_ = 0;  // newest told

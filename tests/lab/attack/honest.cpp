@@ -34,7 +34,9 @@ HonestOutcome RunHonest(ClusterConfig config, bool shown) {
     }
   };
   cluster.Run();
-  const Plausible::Counts& counts = ServerTestAccess::PlausibleOf(cluster.server()).counts();
+  const Plausible& plausible = ServerTestAccess::PlausibleOf(cluster.server());
+  const Plausible::Counts& counts = plausible.counts();
+  outcome.drift = plausible.greatest_drift();
   outcome.judged = counts.judged;
   outcome.by_copy = counts.by_copy;
   outcome.doubted = counts.doubted;

@@ -14,6 +14,7 @@ struct HonestOutcome {
   std::int64_t refused = 0;  ///< of them
   float score = 0;           ///< highest of any client's ladder
   int step = 0;              ///< highest TrustStep of any client
+  float drift = 0;           ///< greatest Drift of a body, as a share of the one that counts
   std::int64_t breaks_refused = 0;    ///< proposed breaks without a load
   std::int64_t impacts_accepted = 0;  ///< reported and counted
   std::int64_t impacts_refused = 0;   ///< reported, and not explained

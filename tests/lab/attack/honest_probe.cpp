@@ -12,6 +12,7 @@ Values HonestValues(const HonestOutcome& o) {
                      Count("refused", o.refused),
                      {"step", ToString(static_cast<TrustStep>(o.step))},
                      Decimals("score", static_cast<double>(o.score), 2),
+                     Decimals("drift", static_cast<double>(o.drift), 3),
                      Count("breaks_refused", o.breaks_refused),
                      Count("impacts_accepted", o.impacts_accepted),
                      Count("impacts_refused", o.impacts_refused)});

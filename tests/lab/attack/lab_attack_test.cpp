@@ -70,6 +70,60 @@ TEST(Attack, ASlightlyFasterCarIsFoundWithinHalfAMinute) {
   }
 }
 
+/// Two ships in empty space: nothing but their engines moves them, by 5 m/s in each second.
+const char* const kShips = R"(
+gravity = [0, 0]
+duration = 20
+[[player]]
+name = "ann"
+vehicle = "ann-ship"
+script = [[0, {drive = 1}], [3, {drive = -1}], [9, {drive = 1}], [15, {drive = -1}]]
+[[player]]
+name = "bob"
+vehicle = "bob-ship"
+script = [[0, {drive = -1}], [3, {drive = 1}], [9, {drive = -1}]]
+[[part]]
+name = "ann-ship"
+box = [2, 1]
+owner = "ann"
+[[part]]
+name = "bob-ship"
+box = [2, 1]
+position = [0, 30]
+owner = "bob"
+[[thrust]]
+name = "ann-engine"
+part = "ann-ship"
+force = [10, 0]
+player = "ann"
+axis = "drive"
+[[thrust]]
+name = "bob-engine"
+part = "bob-ship"
+force = [10, 0]
+player = "bob"
+axis = "drive"
+)";
+
+/// An engine that is 2 % too strong differs by 3 mm/s in each message: only the sum shows it.
+TEST(Attack, AnEngineThatIsALittleTooStrongIsFound) {
+  for (const char* impair : {"perfect", "4g", "terrible"}) {
+    for (int seed = 1; seed <= Soak(1); ++seed) {
+      ClusterConfig config = Room(impair, seed);
+      config.scene = "ships";
+      config.scene_text = kShips;
+      EXPECT_EQ(RunAttack(config, "none").step, 0) << impair;
+      for (const char* attack : {"gain0.1", "gain0.2", "gain0.5"}) {
+        SCOPED_TRACE(std::string(attack) + " over " + impair);
+        const AttackOutcome outcome = RunAttack(config, attack);
+        EXPECT_GT(outcome.lies, 5);
+        EXPECT_LT(ActedAfterS(outcome), 10);
+        EXPECT_EQ(outcome.others_step, 0);
+      }
+    }
+  }
+}
+
 TEST(Attack, GlueWithoutALoadDoesNotBreak) {
   const AttackOutcome outcome = RunAttack(Room("demo", 1), "break");
   EXPECT_GT(outcome.lies, 5);
@@ -191,6 +245,7 @@ TEST(Attack, NoHonestStateIsRefused) {
     EXPECT_EQ(outcome.breaks_refused, 0);
     EXPECT_LE(outcome.step, static_cast<int>(TrustStep::kWatched));
     EXPECT_LE(outcome.impacts_refused * 100, outcome.impacts_accepted);
+    EXPECT_LT(outcome.drift, 0.5) << "of the sum that is doubted";
   }
 }
 

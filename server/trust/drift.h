@@ -1,0 +1,54 @@
+#pragma once
+/// Sums the differences between told states and the server's copies, each too small for a doubt. A
+/// copy goes on from the last told state, so that an engine that is 2 % too strong differs by
+/// millimetres in each message. Honest differences have no direction and cancel; a lie adds up.
+///
+///   sum = sum exp(-dt / kForgetS) + difference       along the motion, and along each axis
+
+#include <cstdint>
+
+#include "common/sync/replica.h"
+#include "common/sync/table/body_column.h"
+
+namespace seam {
+
+class Drift {
+ public:
+  /// `replica` must outlive this.
+  explicit Drift(const Replica& replica);
+
+  /// Adds the difference `off` of a told state from the server's copy of that tick; requires
+  /// ascending ticks of a body.
+  void Add(int body, std::int64_t tick, const BodyState& copy, const BodyState& off);
+  /// True if the sum is more than chance explains.
+  bool Lies(int body) const;
+  /// Greatest sum of a body so far, as a share of the one that counts.
+  float greatest() const { return greatest_; }
+
+  /// Time constant of the sums, s. Longer finds smaller lies, later.
+  static constexpr float kForgetS = 10;
+  /// Sums that count, m and m/s: ten times the greatest of honest clients.
+  static constexpr float kMost = 0.15f, kMostVelocity = 0.3f;
+
+ private:
+  /// Sums along the motion and along x and y.
+  struct Sums {
+    float along = 0;
+    Vec2 axes{0, 0};
+  };
+  struct Track {
+    int holder = -1;
+    std::int64_t tick = 0;  // of the newest difference
+    BodyState left;         // that difference, if it is too small to correct the copy
+    Sums moved, kicked;     // m, m/s
+  };
+
+  static float Greatest(const Sums& sums);
+  float Share(const Track& track) const;
+
+  const Replica& replica_;
+  BodyColumn<Track> tracks_;
+  float greatest_ = 0;
+};
+
+}  // namespace seam
