@@ -15,6 +15,7 @@
 #include "common/codec/version_line.h"
 #include "common/measure/contents/contents.h"
 #include "common/measure/contents/doubts.h"
+#include "common/measure/contents/log_audit.h"
 #include "common/measure/contents/partial_views.h"
 #include "common/measure/handover_list.h"
 #include "common/measure/limit/held_inputs.h"
@@ -42,6 +43,7 @@ struct Options {
   bool floor = false;
   bool limit = false;
   bool trust = false;
+  bool audit = false;
   bool losses = false;
   std::string losses_csv;
   bool list = false;
@@ -241,6 +243,11 @@ void Run(const Options& options) {
     std::printf("\ndoubts of %s\n%s", runs[i].run.c_str(),
                 FormatDoubts(recording, RecordedScene(recording.room)).c_str());
   }
+  for (std::size_t i = 0; options.audit && i < runs.size(); ++i) {
+    const Recording recording = ReadLog(options, i);
+    std::printf("\naudit of %s\n%s", runs[i].run.c_str(),
+                FormatAudit(AuditRecording(recording), recording).c_str());
+  }
   if (options.losses || !options.losses_csv.empty()) ReportLosses(options);
   if (options.floor) PrintFloor(ReadLog(options, 0));
   if (options.limit) PrintLimit(ReadLog(options, 0));
@@ -269,6 +276,8 @@ void Define(Command& app, Options& options) {
              "also print when and where something was lost, by channel");
   app.Option("--losses-csv", options.losses_csv, "write the losses of the log as CSV to this file");
   app.Switch("--trust", options.trust, "also list the server's doubts about clients");
+  app.Switch("--audit", options.audit,
+             "also step the bodies of each client again: who gained speed beside physics?");
   app.Switch("--list", options.list, "say what is in the logs, and measure nothing");
   app.Switch("--more", options.more, "print the further measures");
   app.Switch("--wide", options.wide, "at a terminal too, print one line a run, as into a pipe");
