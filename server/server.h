@@ -53,7 +53,7 @@ struct ServerConfig {
   /// Limit for UDP payload to each client; 0: none.
   double client_bytes_per_s = kClientBytesPerS;
   Publish publish = Publish::kAll;
-  TrustMode trust = TrustMode::kOff;  ///< doubts about clients (docs/trust.md)
+  TrustMode trust = TrustMode::kAct;  ///< doubts about clients (docs/trust.md)
   /// The server's lasting keys, the same in all its rooms; nullptr: drawn from its entropy.
   std::shared_ptr<const KeyPair> identity;
   /// Key of the operator whose connect tokens are demanded; nullptr: anybody may join. With it the

@@ -38,7 +38,7 @@ struct ServerFlags {
   int workers = 0;
   std::string bus_rooms = "first";
   int metrics_port = 0;
-  std::string trust = "off";
+  std::string trust = "act";
   std::string identity, token_key, log_key;
   std::string drain_to;   // address at which the rooms go on after SIGTERM; "fleet": any server's
   std::string directory;  // of the fleet; "": none

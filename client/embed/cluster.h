@@ -33,7 +33,7 @@ struct ClusterConfig {
   int players = 0;                  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
   float smooth_rate = kSmoothRate;
-  TrustMode trust = TrustMode::kOff;  ///< of the server
+  TrustMode trust = TrustMode::kAct;  ///< of the server
   std::optional<int> show_age_ticks;  ///< of all clients; nullopt: the scene's
   Recorder* recorder = nullptr;       ///< also gets every message, at now_us()
   /// Duration of a server tick, us of virtual time, by tick; nullptr: 0.

@@ -98,21 +98,20 @@ AuthoritySource::ReportCounts LieAboutImpacts(const char* impair, TrustMode trus
   config.scene_text = kOwn;
   config.impair = impair;
   config.trust = trust;
-  std::int64_t told = 0;  // lies, of states and of impacts
+  std::int64_t reported = 0;  // impacts
   RewrittenStates rewritten(ParseScene(kOwn, "own.toml"));
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
     if (client != 0) return net;
     return std::unique_ptr<Net>(
         std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
-          rewritten.Rewrite(message, [&told, velocities](States* states) {
+          rewritten.Rewrite(message, [velocities](States* states) {
             if (!velocities) return;
-            told += static_cast<std::int64_t>(states->vx.size());
             for (auto& vx : states->vx) vx = static_cast<std::int16_t>(110 * kQuantaPerSpeed);
           });
           AnyMessage any = Decode(*message);
           if (auto* report = std::get_if<ImpactReport>(&any)) {
             for (float& dv : report->dv) dv = 150;
-            told += static_cast<std::int64_t>(report->dv.size());
+            reported += static_cast<std::int64_t>(report->dv.size());
             *message = Encode(*report);
           }
           return true;
@@ -120,7 +119,7 @@ AuthoritySource::ReportCounts LieAboutImpacts(const char* impair, TrustMode trus
   };
   Cluster cluster(config);
   cluster.Run();
-  EXPECT_GT(told, 1) << impair;
+  EXPECT_GT(reported, 1) << impair;
   return ServerTestAccess::RuleSourceOf(cluster.server())->counts();
 }
 
