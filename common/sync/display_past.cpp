@@ -122,7 +122,10 @@ void Display::MovedInPast(int body, const BodyState& by) {
   Shown& shown = shown_[body];
   // What is displayed by now is compared as a whole, by ShowPast.
   if (!shown.past || static_cast<double>(world_.tick()) <= shown.moment) return;
-  shown.moves.push_back({world_.tick(), Visible(body, by)});
+  // A replay may begin at a barrier that lacks the move.
+  const bool again = !shown.moves.empty() && shown.moves.back().tick == world_.tick();
+  if (!again) shown.moves.emplace_back();
+  shown.moves.back() = {world_.tick(), Visible(body, by)};
   any_moves_ = true;
 }
 

@@ -85,7 +85,5 @@ TEST(PastMove, TheViewGlidesOverACorrectionAheadOfItsMoment) {
 
 TEST(PastMove, TheViewGlidesOverSeveralCorrections) { EXPECT_LT(JumpSeen({4, 3, 4}, 0.9f), 0.15f); }
 
-TEST(PastMove, TheViewGlidesOverACorrectionOfWhatIsShown) { EXPECT_LT(JumpSeen({20}, 0.9f), 0.1f); }
-
 }  // namespace past_move_test
 }  // namespace seam

@@ -16,8 +16,9 @@ namespace {
 
 /// Slower than this a mechanism has no direction, m/s.
 constexpr double kAuditedSpeed = 0.5;
-/// Greatest gain of one window that counts, m/s: chaos makes a few that are great.
-constexpr double kGainMost = 0.2;
+/// Greatest gain of one window that counts, m/s: chaos, and inputs that came late, make a few that
+/// are great.
+constexpr double kGainMost = 0.05;
 
 /// Sums of the gains of one peer's mechanisms, m/s.
 struct Gains {

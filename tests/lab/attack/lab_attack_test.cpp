@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "common/measure/contents/log_audit.h"
 #include "server/trust/trust_ladder.h"
 #include "tests/lab/attack/attack.h"
 #include "tests/lab/attack/cheat.h"
@@ -120,6 +121,30 @@ TEST(Attack, AnEngineThatIsALittleTooStrongIsFound) {
         EXPECT_LT(ActedAfterS(outcome), 10);
         EXPECT_EQ(outcome.others_step, 0);
       }
+    }
+  }
+}
+
+/// Without the server's doubts, afterwards.
+TEST(Attack, ARecordingShowsWhoseEngineIsTooStrong) {
+  for (const char* attack : {"none", "gain0.5"}) {
+    for (const char* impair : {"demo", "4g", "terrible"}) {
+      SCOPED_TRACE(std::string(attack) + " over " + impair);
+      ClusterConfig config = Room(impair, 1);
+      config.scene = "ships";
+      config.scene_text = kShips;
+      config.trust = TrustMode::kOff;
+      const Scene scene = ParseScene(kShips, "ships");
+      Cheat cheat(attack, scene);
+      config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
+        return client == 0 ? cheat.Around(std::move(net)) : std::move(net);
+      };
+      Cluster cluster(config);
+      cluster.Run();
+      const std::vector<AuditedPeer> peers = AuditRecording(cluster.recording());
+      ASSERT_EQ(peers.size(), 2u);
+      EXPECT_EQ(peers[0].lies(), std::string(attack) != "none") << peers[0].gain_mps2;
+      EXPECT_FALSE(peers[1].lies()) << peers[1].gain_mps2;
     }
   }
 }
