@@ -36,7 +36,7 @@ void Drift::Add(int body, std::int64_t tick, const BodyState& copy, const BodySt
   if (holder != track.holder || seconds > kSilence) track = Track{};
   track.holder = holder;
   track.tick = tick;
-  const float keep = std::exp(-seconds / kForgetS);
+  const float keep = std::exp(-seconds / kDriftForgetS);
   const bool moves = copy.velocity.norm() > kMoves;
   const Vec2 along = moves ? Vec2(copy.velocity.normalized()) : Vec2(0, 0);
   const auto add = [&](const Vec2& by, Sums* sums) {
@@ -55,7 +55,7 @@ float Drift::Greatest(const Sums& sums) {
 }
 
 float Drift::Share(const Track& track) const {
-  return std::max(Greatest(track.moved) / kMost, Greatest(track.kicked) / kMostVelocity);
+  return std::max(Greatest(track.moved) / kDriftWay, Greatest(track.kicked) / kDriftVelocity);
 }
 
 bool Drift::Lies(int body) const { return Share(tracks_[body]) > 1; }

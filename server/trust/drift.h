@@ -3,7 +3,7 @@
 /// copy goes on from the last told state, so that an engine that is 2 % too strong differs by
 /// millimetres in each message. Honest differences have no direction and cancel; a lie adds up.
 ///
-///   sum = sum exp(-dt / kForgetS) + difference       along the motion, and along each axis
+///   sum = sum exp(-dt / kDriftForgetS) + difference       along the motion, and along each axis
 
 #include <cstdint>
 
@@ -26,9 +26,9 @@ class Drift {
   float greatest() const { return greatest_; }
 
   /// Time constant of the sums, s. Longer finds smaller lies, later.
-  static constexpr float kForgetS = 10;
+  static constexpr float kDriftForgetS = 10;
   /// Sums that count, m and m/s: ten times the greatest of honest clients.
-  static constexpr float kMost = 0.15f, kMostVelocity = 0.3f;
+  static constexpr float kDriftWay = 0.15f, kDriftVelocity = 0.3f;
 
  private:
   /// Sums along the motion and along x and y.
