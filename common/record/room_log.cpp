@@ -73,7 +73,7 @@ void RoomLog::EndTick(const std::string& channel, const LogSeal& seal, bool kept
 }
 
 void RoomLog::Flush() {
-  Pin();
+  KeepSeal();
   if (!starts_.empty() && !room_.empty()) {
     LogSeal seal;
     seal.utime = last_utime_;
@@ -92,7 +92,13 @@ void RoomLog::Flush() {
 }
 
 LogPlace RoomLog::Pin() {
-  if (seal_.empty()) return end_;
+  KeepSeal();
+  Sync(true);
+  return end_;
+}
+
+void RoomLog::KeepSeal() {
+  if (seal_.empty()) return;
   end_.bytes += static_cast<std::int64_t>(seal_.size());
   end_.number += 1;
   end_.crc = seal_crc_;
@@ -100,7 +106,6 @@ LogPlace RoomLog::Pin() {
   if (keyed_) keyed_.emplace(*key_, seal_keyed_);
   unsealed_ = 0;
   seal_.clear();
-  return end_;
 }
 
 /// Writes the events and the seal, in the place of the last seal unless that was kept.
@@ -139,8 +144,8 @@ void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
   seal_crc_ = seal_crc;
   buffer_.clear();
   starts_.clear();
-  if (kept) Pin();
-  Sync();
+  if (kept) KeepSeal();
+  Sync(false);
 }
 
 /// Fills in the keyed hash of the events and the seal in buffer_.
@@ -180,11 +185,14 @@ void RoomLog::Fail(int error) {
   if (CutOff(end_.bytes) != 0 || WriteAt(end_.bytes, seal_) != 0) ++failures_;
 }
 
-void RoomLog::Sync() {
+/// Nothing that is synced is written over: what the disk has of that is not known without power.
+void RoomLog::Sync(bool at_once) {
   if (disk_ == nullptr) return;
   const std::int64_t now_us = SteadyClockUs();
-  if (now_us - synced_us_ < kSyncUs || file_->syncing.exchange(true)) return;
+  const bool due = now_us - synced_us_ >= kSyncUs && !file_->syncing.exchange(true);
+  if (!due && !at_once) return;
   synced_us_ = now_us;
+  KeepSeal();
   disk_->Do([file = file_] {
     if (fdatasync(fileno(file->stream)) != 0) file->sync_error = errno;
     file->syncing = false;
