@@ -1,13 +1,37 @@
 #include "render/log/log_check.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <variant>
 
+#include "common/base/check.h"
 #include "common/codec/codec.h"
 #include "common/record/damage.h"
 #include "common/record/log_file.h"
+#include "common/record/recording.h"
 
 namespace seam {
+namespace {
+
+/// Returns the number of messages that are missing in all sessions, as their readers count them.
+std::int64_t CountMissing(const std::string& path, const LogCheck& check) {
+  std::int64_t missing = 0;
+  for (const auto& [room, sessions] : check.rooms) {
+    for (const auto& [id, span] : sessions) {
+      char session[17] = "";
+      const auto number = static_cast<unsigned long long>(id);
+      if (id != 0) std::snprintf(session, sizeof session, "%016llx", number);
+      try {
+        missing += ReadRecording(path, room, session).bus_gaps;
+      } catch (const OperatorError&) {
+        continue;  // without its room or scene no reader takes it
+      }
+    }
+  }
+  return missing;
+}
+
+}  // namespace
 
 LogCheck CheckLog(const std::string& path, const Secret* key) {
   LogCheck check;
@@ -43,6 +67,7 @@ LogCheck CheckLog(const std::string& path, const Secret* key) {
   }
   check.skipped_bytes = reader.skipped_bytes();
   check.damage = reader.damage();
+  if (check.damaged()) check.missing = CountMissing(path, check);
   return check;
 }
 
@@ -51,6 +76,7 @@ std::vector<std::string> LinesOf(const LogCheck& check) {
   found.skipped_bytes = check.skipped_bytes;
   found.undecodable = check.undecodable;
   found.damage = check.damage;
+  found.bus_gaps = check.missing;
   return DamageLines(found);
 }
 

@@ -166,6 +166,29 @@ TEST_F(LogProgram, DamageIsNotCopiedUnderNewChecksums) {
   Run({"merge", At("bad.lcm"), At("run.lcm"), "-o", At("both2.lcm")}, 2);
 }
 
+/// Returns the number in "... N messages missing".
+int MissingIn(const std::string& text) {
+  const std::size_t end = text.find(" messages missing");
+  if (end == std::string::npos) return -1;
+  return std::atoi(text.c_str() + text.rfind(' ', end - 1));
+}
+
+TEST_F(LogProgram, AllCountTheSameMessagesAsMissing) {
+  const std::string whole = files_->Read("run.lcm");
+  int most = 0;
+  for (const std::size_t bytes : {1, 500, 5000, 20000}) {
+    std::string bad = whole;
+    bad.erase(bad.size() / 3, bytes);
+    files_->Write("bad.lcm", bad);
+    const int by_verify = MissingIn(Run({"verify", At("bad.lcm")}, 1));
+    EXPECT_EQ(by_verify, MissingIn(Run({"stats", At("bad.lcm")}, 1, true))) << bytes;
+    EXPECT_EQ(by_verify, MissingIn(Run({"cut", At("bad.lcm"), "-o", At("cut3.lcm")}, 2, true)));
+    EXPECT_EQ(by_verify, static_cast<int>(ReadRecording(At("bad.lcm")).bus_gaps));
+    most = std::max(most, by_verify);
+  }
+  EXPECT_GT(most, 10);
+}
+
 TEST_F(LogProgram, CapturesOfOtherMachinesMergeIntoTheWholeWithoutDuplicates) {
   // Each logger missed others; one has a clock that is 7 s ahead.
   Capture("a.lcm", 0, [](std::int64_t n) { return n < 10 || n % 5 != 0; });
