@@ -1,10 +1,12 @@
 #include "server/sessions/place_table.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "common/base/names.h"
 #include "common/base/state_archive.h"
 #include "common/codec/message_limits.h"
+#include "common/net/keyed_hash.h"
 
 namespace seam {
 namespace {
@@ -25,31 +27,73 @@ PlaceTable::Answer PlaceTable::Claim(std::int64_t now_us, const std::string& nam
   const int own = FindName(name);
   if (own > 0) {
     Place& place = At(own);
-    if (place.key == key) {
+    if (place.key_hash == KeyHash(key)) {
       // A late or replayed Join of an ended session must not end the session that came after it.
       if (session == place.previous) return {};
-      place.key_known = true;
-      return {own, ""};
+      NoteKnown(own);
+      return {own, key, ""};
     }
     if (IsHeld(place, now_us)) {
-      return {-1, "the name " + name + " is in use; " + FreeNames(now_us)};
+      return {-1, 0, "the name " + name + " is in use; " + FreeNames(now_us)};
     }
-    place = Place();
+    Free(own);
   }
-  int player = -1;
-  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
-    if (scene_.players[p].name == name) player = static_cast<int>(p);
-  }
+  const int player = PlayerOf(name);
   const int peer = ChoosePeer(player);
-  if (peer < 0) return {-1, "the room is full"};
+  if (peer < 0) return {-1, 0, "the room is full"};
+  Free(peer);
   Place& place = At(peer);
-  place = Place();
   place.name = name;
   place.player = player;
-  do {
-    place.key = entropy_.Next();
-  } while (place.key == 0);
-  return {peer, ""};
+  std::uint64_t drawn = 0;
+  while (drawn == 0) drawn = entropy_.Next();
+  place.key_hash = KeyHash(drawn);
+  return {peer, drawn, ""};
+}
+
+std::uint64_t PlaceTable::KeyHash(std::uint64_t key) {
+  HashKey secret{};
+  std::memcpy(secret.data(), &key, sizeof key);
+  return std::max<std::uint64_t>(1, KeyedHash(secret, TextBytes("place")));
+}
+
+void PlaceTable::Free(int peer) {
+  Place& place = At(peer);
+  if (place.key_known) changes_.push_back({peer, place.name, 0});
+  place = Place();
+}
+
+void PlaceTable::NoteKnown(int peer) {
+  Place& place = At(peer);
+  if (std::exchange(place.key_known, true)) return;
+  changes_.push_back({peer, place.name, place.key_hash});
+}
+
+void PlaceTable::Assume(std::int64_t now_us, int peer, const std::string& name,
+                        std::uint64_t key_hash) {
+  if (peer < 1 || peer >= kPeersMax) return;
+  const int elsewhere = FindName(name);
+  if (elsewhere > 0) At(elsewhere) = Place();
+  At(peer) = Place();
+  if (key_hash == 0) return;
+  Place& place = At(peer);
+  place.name = name;
+  place.key_hash = key_hash;
+  place.player = PlayerOf(name);
+  place.heard_us = now_us;
+  place.key_known = true;
+}
+
+void PlaceTable::NoteBack(int peer, std::int64_t now_us) {
+  if (peer < 1 || peer >= kPeersMax || at(peer).name.empty()) return;
+  At(peer).heard_us = now_us;
+}
+
+int PlaceTable::PlayerOf(const std::string& name) const {
+  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
+    if (scene_.players[p].name == name) return static_cast<int>(p);
+  }
+  return -1;
 }
 
 int PlaceTable::Abandoned(std::int64_t now_us, const std::string& name, std::uint64_t key) const {
@@ -57,12 +101,12 @@ int PlaceTable::Abandoned(std::int64_t now_us, const std::string& name, std::uin
   if (own < 0) return -1;
   const Place& place = at(own);
   const bool silent = place.occupied && now_us - place.heard_us >= kKeylessUs;
-  return silent && !place.key_known && place.key != key ? own : -1;
+  return silent && !place.key_known && place.key_hash != KeyHash(key) ? own : -1;
 }
 
 bool PlaceTable::IsOwner(const std::string& name, std::uint64_t key) const {
   const int own = FindName(name);
-  return own > 0 && at(own).key == key;
+  return own > 0 && at(own).key_hash == KeyHash(key);
 }
 
 bool PlaceTable::IsReserved(std::int64_t now_us, int player) const {
@@ -117,7 +161,7 @@ void PlaceTable::Enter(int peer, std::int64_t now_us) {
 
 void PlaceTable::Heard(int peer, std::int64_t now_us, bool ready) {
   At(peer).heard_us = now_us;
-  At(peer).key_known = At(peer).key_known || ready;
+  if (ready) NoteKnown(peer);
 }
 
 void PlaceTable::Leave(int peer, std::uint64_t session, bool goodbye) {
@@ -125,7 +169,7 @@ void PlaceTable::Leave(int peer, std::uint64_t session, bool goodbye) {
   place.occupied = false;
   place.previous = session;
   // An owner that never received the key could not come back with it.
-  if (goodbye || !place.key_known) place = Place();
+  if (goodbye || !place.key_known) Free(peer);
 }
 
 void PlaceTable::Persist(StateArchive& a, std::int64_t now_us) {
@@ -145,13 +189,13 @@ void PlaceTable::Persist(StateArchive& a, std::int64_t now_us) {
     a.Int(&saved->peer, 1, kPeersMax - 1);
     a.Int(&saved->age_us, 0, INT64_MAX);
     a.Text(&place.name, kNameBytesMax);
-    a.Word(&place.key);
+    a.Word(&place.key_hash);
     a.Int(&place.player, -1, static_cast<std::int64_t>(scene_.players.size()) - 1);
     a.Flag(&place.occupied);
     a.Flag(&place.key_known);
     a.Word(&place.previous);
     if (!a.reading() || !a.ok()) return;
-    a.Require(IsName(place.name) && FindName(place.name) < 0 && place.key != 0 &&
+    a.Require(IsName(place.name) && FindName(place.name) < 0 && place.key_hash != 0 &&
                   at(saved->peer).name.empty(),
               "a place is wrong");
     // Who never learned the key could not come back with it.

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/base/entropy.h"
 #include "common/base/limits.h"
@@ -16,7 +18,7 @@ class StateArchive;
 
 struct Place {
   std::string name;            ///< "": free
-  std::uint64_t key = 0;       ///< never 0 in a taken place
+  std::uint64_t key_hash = 0;  ///< KeyHash of its key; never 0 in a taken place
   int player = -1;             ///< index in the scene, -1: a spectator
   std::int64_t heard_us = 0;   ///< newest authenticated datagram of a session in it
   bool occupied = false;       ///< has a session
@@ -39,6 +41,7 @@ class PlaceTable {
 
   struct Answer {
     int peer = -1;        ///< the place, or -1: refused
+    std::uint64_t key = 0;  ///< of the place
     std::string refusal;  ///< for people; "": send no answer
   };
   /// Finds the place for a client with this name and key (0: none) in a new session of number
@@ -61,6 +64,22 @@ class PlaceTable {
   /// Ends the session of this number. `goodbye`: the owner said so; the place becomes free.
   void Leave(int peer, std::uint64_t session, bool goodbye);
 
+  /// A place of which the owner has the key now, or has not any more.
+  struct Change {
+    int peer = 0;
+    std::string name;
+    std::uint64_t key_hash = 0;  ///< 0: nobody has it
+  };
+  /// Returns the changes since the last call, in their order.
+  std::vector<Change> TakeChanges() { return std::exchange(changes_, {}); }
+  /// Makes such a change again, as a log has it; the owner is counted as heard now.
+  void Assume(std::int64_t now_us, int peer, const std::string& name, std::uint64_t key_hash);
+  /// Counts the owner of the place, if there is one, as heard now.
+  void NoteBack(int peer, std::int64_t now_us);
+  /// Returns the only trace of a key that this keeps, and that a log has: nobody can find the key
+  /// by it. Never 0.
+  static std::uint64_t KeyHash(std::uint64_t key);
+
   /// Saves the taken places and how long ago their owners were heard. Reading: no place has a
   /// session, and the owner of one that had is counted as heard now.
   void Persist(StateArchive& a, std::int64_t now_us);
@@ -73,12 +92,17 @@ class PlaceTable {
 
  private:
   int FindName(const std::string& name) const;
+  /// Returns the index in the scene of the player of this name; -1: a spectator.
+  int PlayerOf(const std::string& name) const;
+  void Free(int peer);
+  void NoteKnown(int peer);
   /// Returns a peer number for a new place of `player`; -1: the room is full.
   int ChoosePeer(int player) const;
   Place& At(int peer) { return places_[static_cast<std::size_t>(peer)]; }
 
   const Scene& scene_;
   Entropy& entropy_;
+  std::vector<Change> changes_;
   std::array<Place, static_cast<std::size_t>(kPeersMax)> places_{};  // by peer; 0 is the server's
 };
 

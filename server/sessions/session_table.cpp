@@ -97,7 +97,7 @@ SessionTable::Verdict SessionTable::OnStranger(std::int64_t now_us, const Sessio
   const PlaceTable::Answer answer = places_.Claim(now_us, join.name, key, id.number);
   if (answer.peer > 0) {
     handshake_.NoteGranted(now_us, join);
-    Admit(now_us, id, join.keys, answer.peer)->path.Receive(datagram.size(), 0);
+    Admit(now_us, id, join.keys, answer)->path.Receive(datagram.size(), 0);
   } else if (!answer.refusal.empty()) {
     handshake_.Refuse(now_us, id.address, id.number, datagram.size(), answer.refusal, true);
   }
@@ -119,7 +119,8 @@ std::string SessionTable::NoEntry(const JoinRequest& join) const {
 }
 
 Session* SessionTable::Admit(std::int64_t now_us, const SessionId& id, const SealKeys& keys,
-                             int peer) {
+                             const PlaceTable::Answer& answer) {
+  const int peer = answer.peer;
   if (const Session* old = Find(peer)) {
     const SessionId was = old->id;
     Drop(was, "replaced by a new session with its key");
@@ -142,7 +143,7 @@ Session* SessionTable::Admit(std::int64_t now_us, const SessionId& id, const Sea
   welcome.peer = peer;
   welcome.player = place.player;
   welcome.room_bytes = static_cast<std::int32_t>(room_.size());
-  welcome.key = static_cast<std::int64_t>(place.key);
+  welcome.key = static_cast<std::int64_t>(answer.key);
   welcome.epoch = door_.epoch;
   welcome.proof = epoch_proof_;
   session->link.SendReliable(Encode(welcome));

@@ -143,7 +143,8 @@ class SessionTable {
   Verdict OnStranger(std::int64_t now_us, const SessionId& id, const Bytes& datagram);
   /// Returns why a client that has proved its address may not come in, or "".
   std::string NoEntry(const JoinRequest& join) const;
-  Session* Admit(std::int64_t now_us, const SessionId& id, const SealKeys& keys, int peer);
+  Session* Admit(std::int64_t now_us, const SessionId& id, const SealKeys& keys,
+                 const PlaceTable::Answer& answer);
   Verdict OnSession(std::int64_t now_us, Session& session, const Address& from,
                     const Bytes& datagram, const Deliver& deliver);
   std::string TooLong(std::int64_t now_us, const Session& session);
