@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +52,7 @@ class Chronicle {
   void Publish(std::int64_t now_us, const Summary& summary);
   /// Completes the last sum of the session that was killed, by the world that is resumed, and
   /// publishes it. `present`: the players that were in the room.
-  void SumKilled(std::int64_t now_us, Summary last, const std::map<int, bool>& present,
+  void SumKilled(std::int64_t now_us, Summary last, const std::vector<int>& present,
                  const Rules* rules);
 
   /// Keeps events for TakeEvents.

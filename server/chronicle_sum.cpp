@@ -69,7 +69,7 @@ void Chronicle::Publish(std::int64_t now_us, const Summary& summary) {
   if (summary.ended != 0) ended_.push_back(summary);
 }
 
-void Chronicle::SumKilled(std::int64_t now_us, Summary last, const std::map<int, bool>& present,
+void Chronicle::SumKilled(std::int64_t now_us, Summary last, const std::vector<int>& present,
                           const Rules* rules) {
   std::istringstream names(last.names);
   for (std::string name; names >> name;) sessions_.accounts().Of(name).known = true;
@@ -80,8 +80,7 @@ void Chronicle::SumKilled(std::int64_t now_us, Summary last, const std::map<int,
   last.ticks += more;
   last.ended = static_cast<std::int8_t>(Ended::kKilled);
   for (std::size_t i = 0; i < last.player.size(); ++i) {
-    const auto found = present.find(last.player[i]);
-    const bool here = last.player[i] >= 0 && found != present.end() && found->second;
+    const bool here = std::count(present.begin(), present.end(), last.player[i]) > 0;
     if (here) last.present_ticks[i] += more;
     if (rules != nullptr) last.score[i] = ScoreOf(rules, last.player[i]);
   }

@@ -125,7 +125,9 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     sessions_.ReadAccounts(&stats_.connections);
   }
   if (started() && chronicle_->SumIsDue(now_us)) chronicle_->Publish(now_us, Sum(now_us));
-  if (replica_.tick() != before || !started()) {
+  // No client gets a key of a place that the log does not have.
+  const bool places = NotePlaces(now_us);
+  if (replica_.tick() != before || !started() || places) {
     broadcast_.EndTick(now_us, replica_.tick() != before);
   }
   broadcast_.SendWaiting(now_us, replica_.tick() != before);

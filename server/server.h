@@ -37,7 +37,6 @@ class Rules;
 class SavedRoom;
 class ServerCommands;
 struct LogTail;
-struct LogTick;
 struct TickMessages;
 
 /// Most datagrams taken in one call: a flood must not keep rooms from stepping.
@@ -78,9 +77,12 @@ class Server {
   /// the bytes are damaged; the server must then not be used any more.
   Status Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail = nullptr);
   /// Does the next tick of the room's log again, as it was. Requires the ticks in their order, from
-  /// the first one on, and no clients. Returns false if the rules come to other values than the
-  /// log's, which then count.
-  bool Replay(const TickMessages& log);
+  /// the first one or the saved one on, and no clients. Returns false if the rules come to other
+  /// values than the log's, which then count.
+  bool Replay(std::int64_t now_us, const TickMessages& log);
+  /// Returns the first tick of Resume's `tail` after which the world had another hash than in the
+  /// log; -1: none.
+  std::int64_t unlike_log() const { return unlike_log_; }
   /// Publishes a tick of the log with the bytes of its own session, as it was; to be called after
   /// its Replay.
   void Republish(const TickMessages& log);
@@ -183,11 +185,12 @@ class Server {
   void TakeAllBack(std::int64_t now_us);
 
   // server_replay.cpp
-  /// `players`: those that were in the room.
-  void ReplayTail(std::int64_t now_us, const LogTail& tail, const std::vector<int>& players);
-  void ReplayTick(std::int64_t now_us, const LogTick& log);
-  void TakeLogged(const AnyMessage& message);
-  void TakeLogged(const Accepted& accepted);
+  /// Does the ticks of the log again, and takes what it has of the next. `present`: the players in
+  /// the room before, then after them.
+  void ReplayTail(std::int64_t now_us, const LogTail& tail, std::vector<int>* present);
+  /// Takes a message of the log that precedes or follows the step of its tick.
+  void TakeLogged(std::int64_t now_us, const AnyMessage& message);
+  void TakeLogged(std::int64_t now_us, const Accepted& accepted);
   bool RunRulesAgain(const std::vector<Meta>& values);
 
   // server_receive.cpp
@@ -246,6 +249,8 @@ class Server {
   /// Tick of a room that is over.
   void AnswerOnly(std::int64_t now_us);
   // server.cpp
+  /// Puts places that were taken or given up into the log. Returns false if there are none.
+  bool NotePlaces(std::int64_t now_us);
   /// Acts on the events of sessions: joined, ready, left.
   void FollowSessions(std::int64_t now_us);
   /// Sends edits, grants, states and values: all that a peer needs to rebuild the server's world. A
@@ -329,6 +334,7 @@ class Server {
   std::vector<int> inputs_due_;        // players with new inputs
   std::int64_t inputs_due_tick_ = -1;  // tick of the last RelayInputs
   std::vector<int> replayed_present_;  // players in the room, in a replay
+  std::int64_t unlike_log_ = -1;
   std::vector<Inputs> newest_inputs_;  // by player, to be relayed; without ticks: not looked up
   // Used while inputs are relayed to one session.
   InputsPacker inputs_packer_;

@@ -5,7 +5,6 @@
 #include <variant>
 
 #include "common/codec/codec.h"
-#include "common/record/tick_splitter.h"
 #include "server/authority_source.h"
 #include "server/chronicle.h"
 #include "server/rules/rules.h"
@@ -15,58 +14,20 @@
 
 namespace seam {
 
-/// Does the ticks of the log again, as they were: with the accepted inputs and states, the grants
-/// and the edits of the log. What rules and scripts decide anew agrees with the log, which has the
-/// last word about edits and values.
-void Server::ReplayTail(std::int64_t now_us, const LogTail& tail, const std::vector<int>& players) {
-  broadcast_.Mute(true);
-  if (commands_ != nullptr) commands_->AssumePresent(players);
-  for (const auto& [tick, log] : tail.ticks) {
-    if (tick > replica_.tick()) break;
-    for (const Inputs& inputs : log.inputs) replica_.RecordInputs(inputs);
+void Server::ReplayTail(std::int64_t now_us, const LogTail& tail, std::vector<int>* present) {
+  replayed_present_ = *present;
+  for (const TickMessages& tick : tail.ticks) {
+    Replay(now_us, tick);
+    const auto hash = static_cast<std::uint16_t>(replica_.world().Hash());
+    if (unlike_log_ < 0 && tick.hash && hash != *tick.hash) unlike_log_ = tick.tick;
   }
-  const LogTick nothing;
-  while (replica_.tick() < tail.last_tick) {
-    const auto found = tail.ticks.find(replica_.tick() + 1);
-    ReplayTick(now_us, found == tail.ticks.end() ? nothing : found->second);
-  }
-  if (commands_ != nullptr) {
-    commands_->AssumePresent({});
-    commands_->TakeSaid();
-  }
+  for (const AnyMessage& message : tail.begun) TakeLogged(now_us, message);
+  *present = replayed_present_;
+  if (commands_ != nullptr) commands_->AssumePresent({});
   broadcast_.Mute(false);
 }
 
-void Server::ReplayTick(std::int64_t now_us, const LogTick& log) {
-  for (const Inputs& inputs : log.inputs) replica_.RecordInputs(inputs);
-  for (const States& states : log.states) {
-    replica_.Receive(states);
-    if (rule_source_ != nullptr) rule_source_->NoteStates(states);
-  }
-  for (const EditOrder& order : log.edits) {
-    if (replica_.Queue(order)) edits_->NoteOrdered(order);
-  }
-  ApplyQueued(now_us);
-  replica_.Step();
-  ApplyQueued(now_us);
-  for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);
-  replica_.TakeDiffering();
-  RunSeats(now_us);
-  RemoveOutside(now_us);
-  for (const Grants& grants : log.grants) {
-    replica_.ApplyGrants(grants);
-    replica_.TakeReleased();
-  }
-  replica_.TakeStates();
-  replica_.rest().Take();
-  RunRules(now_us);
-  for (const Meta& meta : log.values) {
-    if (rules_ != nullptr) rules_->Correct(meta);
-  }
-}
-
-/// Takes a message of the log that precedes or follows the step of its tick.
-void Server::TakeLogged(const AnyMessage& message) {
+void Server::TakeLogged(std::int64_t now_us, const AnyMessage& message) {
   if (const auto* inputs = std::get_if<Inputs>(&message)) {
     replica_.RecordInputs(*inputs);
   } else if (const auto* states = std::get_if<States>(&message)) {
@@ -76,11 +37,11 @@ void Server::TakeLogged(const AnyMessage& message) {
   } else if (const auto* order = std::get_if<EditOrder>(&message)) {
     if (replica_.Queue(*order)) edits_->NoteOrdered(*order);
   } else if (const auto* accepted = std::get_if<Accepted>(&message)) {
-    TakeLogged(*accepted);
+    TakeLogged(now_us, *accepted);
   }
 }
 
-void Server::TakeLogged(const Accepted& accepted) {
+void Server::TakeLogged(std::int64_t now_us, const Accepted& accepted) {
   const AnyMessage any = Decode(accepted.data);
   if (const auto* rest = std::get_if<Rest>(&any)) {
     replica_.Receive(*rest);
@@ -88,39 +49,42 @@ void Server::TakeLogged(const Accepted& accepted) {
     replica_.TakeOver(*exact);
   } else if (const auto* grants = std::get_if<Grants>(&any)) {
     authority_.Assume(*grants);
+  } else if (const auto* owner = std::get_if<Join>(&any)) {
+    sessions_.places().Assume(now_us, accepted.peer, owner->name,
+                              static_cast<std::uint64_t>(owner->token));
+  } else if (std::holds_alternative<Ready>(any)) {
+    sessions_.places().NoteBack(accepted.peer, now_us);
+    if (accepted.player < 0) return;
+    replayed_present_.push_back(accepted.player);
+    if (rules_ != nullptr) rules_->OnJoin(accepted.player);
+  } else if (std::holds_alternative<Bye>(any)) {
+    std::vector<int>& in = replayed_present_;
+    in.erase(std::remove(in.begin(), in.end(), accepted.player), in.end());
+    if (rules_ != nullptr && accepted.player >= 0) rules_->OnLeave(accepted.player);
   } else if (rule_source_ == nullptr) {
     return;
   } else if (const auto* impacts = std::get_if<ImpactReport>(&any)) {
     rule_source_->NoteReport(accepted.peer, *impacts);
   } else if (const auto* touches = std::get_if<TouchReport>(&any)) {
     rule_source_->NoteReport(accepted.peer, *touches);
-  } else if (accepted.player < 0) {
-    return;
-  } else if (std::holds_alternative<Ready>(any)) {
-    replayed_present_.push_back(accepted.player);
-    rules_->OnJoin(accepted.player);
-  } else if (std::holds_alternative<Bye>(any)) {
-    std::vector<int>& in = replayed_present_;
-    in.erase(std::remove(in.begin(), in.end(), accepted.player), in.end());
-    rules_->OnLeave(accepted.player);
   }
 }
 
-bool Server::Replay(const TickMessages& log) {
+bool Server::Replay(std::int64_t now_us, const TickMessages& log) {
   broadcast_.Mute(true);
-  for (const AnyMessage& message : log.before) TakeLogged(message);
-  ApplyQueued(0);
+  for (const AnyMessage& message : log.before) TakeLogged(now_us, message);
+  ApplyQueued(now_us);
   replica_.Step();
-  ApplyQueued(0);
+  ApplyQueued(now_us);
   std::vector<Meta> values;
   for (const AnyMessage& message : log.after) {
-    TakeLogged(message);
+    TakeLogged(now_us, message);
     if (const auto* meta = std::get_if<Meta>(&message)) values.push_back(*meta);
   }
   for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);
   replica_.TakeDiffering();
-  RunSeats(0);
-  RemoveOutside(0);
+  RunSeats(now_us);
+  RemoveOutside(now_us);
   replica_.TakeStates();
   replica_.rest().Take();
   return rules_ == nullptr || RunRulesAgain(values);

@@ -31,6 +31,18 @@ int PushingButtons(const Scene& scene, int player) {
 
 }  // namespace
 
+bool Server::NotePlaces(std::int64_t now_us) {
+  const std::vector<PlaceTable::Change> changes = sessions_.places().TakeChanges();
+  for (const PlaceTable::Change& change : changes) {
+    Join owner;
+    owner.name = change.name;
+    owner.token = static_cast<std::int64_t>(change.key_hash);
+    owner.exchange.resize(kJoinExchangeBytes);
+    broadcast_.NoteAccepted(now_us, change.peer, -1, owner);
+  }
+  return !changes.empty();
+}
+
 void Server::FollowSessions(std::int64_t now_us) {
   for (const SessionEvent& event : sessions_.TakeEvents()) {
     const std::string peer = "peer " + std::to_string(event.peer);

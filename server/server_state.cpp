@@ -23,23 +23,24 @@ Bytes Server::CopyState(std::int64_t now_us, std::size_t expected_bytes) {
 }
 
 Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail) {
-  std::vector<int> gone;
-  Status status = State().Load(saved, now_us, &gone);
+  std::vector<int> present;
+  Status status = State().Load(saved, now_us, &present);
   if (!status.ok()) return status;
   if (tail != nullptr && started()) {
-    ReplayTail(now_us, *tail, gone);
+    ReplayTail(now_us, *tail, &present);
     clock_.GoOn(now_us, replica_.tick());
   }
   if (commands_ != nullptr) commands_->TakeSaid();  // scripts have run their code once more
   if (tail != nullptr && tail->summary) {
-    std::map<int, bool> present = tail->here;
-    for (const int player : gone) present.emplace(player, true);
     chronicle_->SumKilled(now_us, *tail->summary, present, rules_.get());
   }
   chronicle_->SayResumed(now_us);
+  // The log has all of it, so that a server that goes on from it does the same.
   TakeAllBack(now_us);
-  for (const int player : gone) {
+  NoteAuthority(now_us);
+  for (const int player : present) {
     if (rules_ != nullptr) rules_->OnLeave(player);
+    broadcast_.NoteAccepted(now_us, 0, player, Bye());
     LetGo(now_us, player, 0);
   }
   return status;

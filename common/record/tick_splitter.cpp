@@ -38,17 +38,12 @@ std::vector<TickMessages> TickSplitter::End(const LogSeal& seal) {
     tick.after = Take(static_cast<std::size_t>(after));
     all.push_back(std::move(tick));
   }
-  if (all.empty()) carried_ = messages_.size();
+  carried_ = messages_.size();
   return all;
 }
 
-std::vector<TickMessages> TickSplitter::End(const TickChain& chain) {
-  std::vector<TickMessages> all;
-  if (chain.messages < 0) return all;
-  carried_ = 0;
-  all.emplace_back().tick = last_tick_ = chain.tick;
-  all.back().before = Take(messages_.size());
-  return all;
+std::vector<AnyMessage> TickSplitter::begun() const {
+  return {messages_.begin(), messages_.begin() + static_cast<std::ptrdiff_t>(carried_)};
 }
 
 }  // namespace seam

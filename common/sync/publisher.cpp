@@ -40,6 +40,7 @@ void Publisher::Number(Message& message) {
 }
 
 void Publisher::NoteTick(std::uint64_t hash) {
+  ticked_ = true;
   const std::int32_t before = std::exchange(before_step_, 0);
   const std::int32_t after = NewMessages() - before;
   ticks_.push_back({0, before, after, static_cast<std::uint16_t>(hash)});
@@ -49,7 +50,9 @@ void Publisher::NoteTick(std::uint64_t hash) {
 void Publisher::EndTick(std::int64_t utime, int peer, std::int64_t tick, bool keep) {
   if (!recorder_.listening()) return;
   pending_ = false;
-  if (!ticks_.empty()) {  // what came after the step is the last tick's
+  // What came after the step is the last tick's; what came in a call without a step, the next
+  // one's.
+  if ((std::exchange(ticked_, false) || keep) && !ticks_.empty()) {
     ticks_.back().after += NewMessages();
     sealed_ += NewMessages();
   }

@@ -54,6 +54,7 @@ class Publisher {
   std::vector<SealedTick> ticks_;  // since then
   std::int32_t sealed_ = 0;        // messages of these
   std::int32_t before_step_ = 0;
+  bool ticked_ = false;  // a tick has ended since the last call of EndTick
   int unkept_ = 0;  // calls of EndTick since then
   bool pending_ = false;
 };

@@ -68,6 +68,9 @@ void HostedRoom::GoOn(const ResumedRoom& resumed) {
                 static_cast<long long>(server_->tick() - resumed.saved_tick),
                 static_cast<double>(SteadyClockUs() - begin_us) * 1e-3);
   news_.push_back(line);
+  if (server_->unlike_log() < 0) return;
+  news_.push_back("tick " + std::to_string(server_->unlike_log()) +
+                  " of the log came out otherwise than it was: bodies may be elsewhere");
 }
 
 Status HostedRoom::trouble() const {

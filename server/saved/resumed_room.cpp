@@ -76,7 +76,8 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
   }
   resumed.log = StateLogOf(folder, room, log_epoch);
   resumed.epoch = std::max({epoch, resumed.saved->epoch(), log_epoch});
-  const Status read = ReadLogTail(resumed.log, room, from, log_key, &resumed.tail);
+  const Status read =
+      ReadLogTail(resumed.log, room, from, resumed.saved_tick, log_key, &resumed.tail);
   const std::string damage = read.ok() ? resumed.tail.damage : read.why();
   if (resumed.epoch > log_epoch) {
     if (!damage.empty()) resumed.notes.push_back(damage);

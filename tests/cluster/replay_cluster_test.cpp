@@ -133,5 +133,31 @@ TEST(ReplayCluster, ALogWithoutItsBeginningIsRefused) {
   EXPECT_THROW(ReadLoggedRoom(late.path(), ""), OperatorError);
 }
 
+TEST(ReplayCluster, ALogThatIsCutOffIsNotTakenForAnOldOne) {
+  TemporaryFile file;
+  ClusterConfig config;
+  config.duration_s = 1;
+  Play(config, file.path());
+  const Bytes whole = file.Read();
+  std::size_t seal = whole.size();  // the first that is kept
+  LogReader reader(file.path());
+  std::size_t at = 0;
+  for (LogEvent event; reader.Next(&event) && seal == whole.size();) {
+    if (std::holds_alternative<LogSeal>(Decode(event.data))) seal = at;
+    at = static_cast<std::size_t>(reader.place_bytes());
+  }
+  ASSERT_LT(seal, whole.size());
+  for (const std::size_t bytes : {seal, seal + 20, seal - 100}) {
+    file.Write(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(bytes)));
+    try {
+      ReadLoggedRoom(file.path(), "");
+      ADD_FAILURE() << "has no hash of a tick";
+    } catch (const OperatorError& error) {
+      const std::string why = error.what();
+      EXPECT_NE(why.find("is cut off before the first hash of a tick"), std::string::npos) << why;
+    }
+  }
+}
+
 }  // namespace replay_cluster_test
 }  // namespace seam

@@ -3,39 +3,31 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "client/embed/cluster.h"
 #include "common/sync/method.h"
 #include "server/room_state.h"
 #include "server/rules/rules.h"
 #include "server/saved/log_tail.h"
+#include "tests/lab/chaos/kept_log.h"
 #include "tests/support/arena.h"
 #include "tests/support/temporary_file.h"
 
 namespace seam {
 namespace resume_cluster_test {
 
-/// The server of a cluster at its death, and what has come of it.
-struct Revived {
-  std::int64_t saved_tick = 0, killed_tick = 0;
-  std::unique_ptr<Server> server;
-  double farthest_m = 0;  ///< of the bodies, from the dead server's
-};
-
-/// Keeps the server's messages alone, as the log of its process has no others: a client's tick
-/// would take the place of the server's last seal.
+/// The log of the server alone, as --state writes it.
 class ServerLog : public Recorder {
  public:
-  explicit ServerLog(RoomLog& log) : log_(log) {}
+  explicit ServerLog(const std::string& path) : log(path, true, nullptr) {}
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override {
-    if (PublisherOfChannel(channel) == 0) log_.Publish(channel, utime, message);
+    if (PublisherOfChannel(channel) == 0) log.Publish(channel, utime, message);
   }
   void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override {
-    if (PublisherOfChannel(channel) == 0) log_.EndTick(channel, seal, kept);
+    if (seal.peer == 0) log.EndTick(channel, seal, kept);
   }
-
- private:
-  RoomLog& log_;
+  RoomLog log;
 };
 
 /// Plays to `tick` with a snapshot at `saved_tick`, and resumes the room from its log.
@@ -43,19 +35,19 @@ class Killed {
  public:
   Killed(ClusterConfig config, std::int64_t saved_tick, std::int64_t tick) {
     config.keep = false;
-    RoomLog log(file_.path(), true, nullptr);
-    ServerLog servers(log);
-    config.recorder = &servers;
+    ServerLog kept(file_.path());
+    config.recorder = &kept;
     cluster_ = std::make_unique<Cluster>(config);
     cluster_->RunToTick(saved_tick);
     EXPECT_EQ(cluster_->server().tick(), saved_tick);
-    const LogPlace place = log.Pin();
+    const LogPlace place = kept.log.Pin();
     const Bytes bytes = cluster_->server().Save(cluster_->now_us());
     cluster_->RunToTick(tick);
-    Status status = ReadLogTail(file_.path(), "main", place, nullptr, &tail);
+    Status status = ReadLogTail(file_.path(), "main", place, saved_tick, nullptr, &tail);
     EXPECT_TRUE(status.ok()) << status.why();
     EXPECT_EQ(tail.damage, "");
-    EXPECT_EQ(tail.last_tick, tick) << "the tick is in the log before its datagrams leave";
+    EXPECT_EQ(tail.ticks.empty() ? -1 : tail.ticks.back().tick, tick)
+        << "in the log before its datagrams leave";
     const std::unique_ptr<const SavedRoom> saved = SavedRoom::Read(bytes, &status);
     EXPECT_TRUE(saved != nullptr) << status.why();
     if (saved == nullptr) return;
@@ -121,6 +113,22 @@ TEST(ResumeCluster, TheWorldIsWhereItWas) {
   }
 }
 
+TEST(ResumeCluster, NoBodyJumpsFarAfterLateInputsAndStates) {
+  for (const char* scene :
+       {"crossing", "seesaw", "rally", "wall", "derby", "playground", "arena", "ragdolls"}) {
+    for (const int seed : {11, 12}) {
+      ClusterConfig config;
+      config.scene = scene;
+      config.seed = seed;
+      config.drive = Drive::kBot;
+      Killed room(config, 120, 240);
+      ASSERT_TRUE(room.server != nullptr);
+      std::printf("%s %d: jump %.2e m\n", scene, seed, room.Jump());
+      EXPECT_LT(room.Jump(), 0.05) << scene << " " << seed;
+    }
+  }
+}
+
 TEST(ResumeCluster, ScoresScriptsAndEditsAreThoseOfTheDeadServer) {
   ClusterConfig config;
   config.scene_text = kArena;
@@ -133,6 +141,40 @@ TEST(ResumeCluster, ScoresScriptsAndEditsAreThoseOfTheDeadServer) {
     EXPECT_EQ(room.server->rules()->metadata().values(), room.dead().rules()->metadata().values());
     EXPECT_LT(room.Jump(), 0.01);
   }
+}
+
+/// Plays with bob's client gone and back between the snapshot and the death of the server, and
+/// expects both players back soon after.
+void ExpectBothBack(const std::function<void(Cluster*)>& leave, int restarts) {
+  KeptLog kept;
+  ClusterConfig config;
+  config.keep = false;
+  config.recorder = &kept;
+  Cluster cluster(config);
+  cluster.each_instant = [&] { kept.Look(cluster); };
+  cluster.RunToTick(310);  // a snapshot is of tick 300
+  leave(&cluster);
+  cluster.RunToTick(340);
+  cluster.Revive(1);
+  cluster.RunToTick(450);
+  ASSERT_EQ(cluster.server().player_count(), 2);
+  std::vector<std::string> broken;
+  for (int i = 0; i < restarts; ++i) {
+    ASSERT_TRUE(kept.Restart(cluster, 100000, &broken));
+    cluster.RunToTick(cluster.server().tick() + 30);
+  }
+  cluster.RunToTick(cluster.server().tick() + 180);
+  EXPECT_EQ(cluster.server().player_count(), 2);
+  for (const std::string& line : broken) ADD_FAILURE() << line;
+}
+
+TEST(ResumeCluster, APlaceTakenSinceTheSnapshotIsItsOwners) {
+  ExpectBothBack([](Cluster* cluster) { cluster->Leave(1); }, 1);  // another key
+  ExpectBothBack([](Cluster* cluster) { cluster->Kill(1); }, 1);   // the same key
+}
+
+TEST(ResumeCluster, AServerThatDiesAgainBeforeASnapshotLosesNoPlace) {
+  ExpectBothBack([](Cluster* cluster) { cluster->Leave(1); }, 3);
 }
 
 }  // namespace resume_cluster_test

@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "server/rules/rules.h"
+#include "server/saved/snapshot_file.h"
 
 namespace seam {
 namespace {
@@ -53,23 +54,25 @@ void KeptLog::Look(Cluster& cluster) {
   Server& server = cluster.server();
   const std::int64_t every = kSnapshotEveryS * cluster.scene().solver.tick_hz;
   if (!server.started() || server.tick() < 1 || server.tick() % every != 0) return;
-  if (server.tick() == saved_tick_) return;
-  saved_tick_ = server.tick();
-  place_ = log_->Pin();
-  snapshot_ = server.Save(cluster.now_us());
+  if (!saved_.empty() && server.tick() == saved_.back().tick) return;
+  const LogPlace place = log_->Pin();
+  saved_.push_back({server.tick(), place, server.Save(cluster.now_us())});
+  if (saved_.size() > static_cast<std::size_t>(kSnapshotsKept)) saved_.erase(saved_.begin());
 }
 
 bool KeptLog::Restart(Cluster& cluster, std::int64_t down_us, std::vector<std::string>* broken) {
-  if (snapshot_.empty()) return false;
+  if (saved_.empty()) return false;
+  const Saved& from = files_ % 3 == 2 ? saved_.front() : saved_.back();
   const Accepts was(cluster.server());
   // A killed process writes nothing more: another file has what was written.
   const std::string path = folder_ + "/" + std::to_string(++files_) + ".lcm";
   fs::copy_file(path_, path);
   LogTail tail;
-  Status status = ReadLogTail(path, cluster.server().room().room, place_, nullptr, &tail);
+  Status status =
+      ReadLogTail(path, cluster.server().room().room, from.place, from.tick, nullptr, &tail);
   if (status.ok() && !tail.damage.empty()) status = Status::Error(tail.damage);
   std::unique_ptr<const SavedRoom> saved;
-  if (status.ok()) saved = SavedRoom::Read(snapshot_, &status);
+  if (status.ok()) saved = SavedRoom::Read(from.room, &status);
   if (!status.ok()) throw OperatorError(status.why());
   log_ = std::make_unique<RoomLog>(path, tail.end, nullptr);
   path_ = path;

@@ -24,7 +24,8 @@ class KeptLog : public Recorder {
   /// Takes a snapshot when that is due. To be called after every virtual instant.
   void Look(Cluster& cluster);
   /// Kills the server; another goes on with what is in the log. Returns false, and does nothing,
-  /// before the first snapshot. `broken` gets a line for each accepted thing that is lost.
+  /// before the first snapshot. Each third time the newest snapshot is taken for damaged. `broken`
+  /// gets a line for each accepted thing that is lost.
   bool Restart(Cluster& cluster, std::int64_t down_us, std::vector<std::string>* broken);
 
   /// Time between snapshots, s.
@@ -33,9 +34,12 @@ class KeptLog : public Recorder {
  private:
   std::string folder_, path_;
   std::unique_ptr<RoomLog> log_;
-  LogPlace place_;
-  Bytes snapshot_;  // empty: none yet
-  std::int64_t saved_tick_ = 0;
+  struct Saved {
+    std::int64_t tick = 0;
+    LogPlace place;
+    Bytes room;
+  };
+  std::vector<Saved> saved_;  // the last two snapshots, ascending
   int files_ = 0;
 };
 

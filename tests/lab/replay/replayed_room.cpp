@@ -37,6 +37,7 @@ LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session) {
   const Room& room = logged.recording.room;
   LogReader reader(path);
   TickSplitter splitter;
+  bool accepts = false;  // as servers of 0.26 and later say
   for (LogEvent event; reader.Next(&event);) {
     const bool ours = RoomOfChannel(event.channel) == room.room &&
                       PublisherOfChannel(event.channel) == 0 &&
@@ -44,19 +45,22 @@ LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session) {
     if (!ours) continue;
     AnyMessage any = Decode(event.data);
     const auto* seal = std::get_if<LogSeal>(&any);
+    accepts = accepts || std::holds_alternative<Accepted>(any);
     if (seal == nullptr) {
       splitter.Add(std::move(any));
       continue;
     }
     for (TickMessages& tick : splitter.End(*seal)) logged.ticks.push_back(std::move(tick));
   }
-  const std::string why = logged.ticks.empty()
-                              ? "has no hashes of its ticks: record it with --record, --state or "
-                                "seam-lab run, of version 0.26 or later"
-                          : logged.ticks.front().tick != 1
-                              ? "begins with tick " + std::to_string(logged.ticks.front().tick) +
-                                    " of the room: a room is done again from its first tick on"
-                              : "";
+  const std::string why =
+      logged.ticks.empty()
+          ? accepts ? "is cut off before the first hash of a tick"
+                    : "has no hashes of its ticks: record it with --record, --state or "
+                      "seam-lab run, of version 0.26 or later"
+      : logged.ticks.front().tick != 1
+          ? "begins with tick " + std::to_string(logged.ticks.front().tick) +
+                " of the room: a room is done again from its first tick on"
+          : "";
   if (!why.empty()) throw OperatorError(path + ": " + why);
   for (std::size_t i = 1; i < logged.ticks.size(); ++i) {
     if (logged.ticks[i].tick == logged.ticks[i - 1].tick + 1) continue;
@@ -83,7 +87,7 @@ ReplayedRoom::~ReplayedRoom() = default;
 
 ReplayedRoom::Tick ReplayedRoom::Step() {
   const TickMessages& tick = logged_.ticks[next_++];
-  const bool same_values = server_->Replay(tick);
+  const bool same_values = server_->Replay(0, tick);
   if (out_ != nullptr) server_->Republish(tick);
   const auto hash = static_cast<std::uint16_t>(server_->replica().world().Hash());
   if (tick.hash && hash != *tick.hash) return Tick::kOtherWorld;
