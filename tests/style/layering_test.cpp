@@ -80,8 +80,8 @@ const std::vector<Room>& Rooms() {
       {"client/embed", with({"server", "client"})},
       {"client/python", with({"server", "client", "client/embed"})},
       {"render", common},
-      {"tests/support", with({"server", "client", "render", "tests/lab"})},
-      {"tests/lab", with({"server", "client", "tests/support"})},
+      {"tests/support", with({"server", "client", "client/embed", "render", "tests/lab"})},
+      {"tests/lab", with({"server", "client", "client/embed", "tests/support"})},
       {"tests",
        with({"server", "client", "client/embed", "render", "tests/support", "tests/lab"})}};
   return rooms;

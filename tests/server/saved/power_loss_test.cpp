@@ -178,7 +178,7 @@ std::int64_t LastTick(const LogTail& tail) {
   return tail.ticks.empty() ? 60 : tail.ticks.back().tick;
 }
 
-TEST_F(PowerLoss, WhatWasSyncedIsThereWhateverBecameOfTheRest) {
+TEST_F(PowerLoss, SyncedTicksAreThereWhateverBecameOfTheRest) {
   Play(kArena, 240);
   ASSERT_GT(losses_.size(), 20u);
   Random random(3);
