@@ -87,9 +87,15 @@ Status Directory::Register(const FleetServer& me) {
     const Status status = store_->Grant(kFleetLeaseS, &lease_);
     if (!status.ok()) return status;
   }
+  FleetListing listing;
+  Status status = List(&listing);
+  if (!status.ok()) return status;
+  const FleetServer* const there = listing.FindServer(me.id);
+  if (there != nullptr && there->address != me.address) {
+    return Status::Error("the server " + me.id + " is at " + there->address + ": not this one");
+  }
   bool done = false;
-  const Status status =
-      store_->Commit({}, {{prefix_ + "servers/" + me.id, ServerText(me), lease_}}, &done);
+  status = store_->Commit({}, {{prefix_ + "servers/" + me.id, ServerText(me), lease_}}, &done);
   if (!status.ok()) lease_ = 0;
   return status;
 }
@@ -152,10 +158,28 @@ Status Directory::Take(const std::string& room, const std::string* spec, std::in
 }
 
 Status Directory::TakeBack(const std::string& room, std::int32_t epoch, bool* done) {
+  const std::string holder = RoomKey(room, "holder"), mine = HolderText(me_.id, me_.address, epoch);
+  const KeyCondition nobody{holder, Is::kAbsent, "", 0}, before{holder, Is::kValue, mine, 0};
+  for (const KeyCondition& held : {nobody, before}) {
+    const Status status =
+        store_->Commit({held,
+                        {RoomKey(room, "epoch"), Is::kValue, std::to_string(epoch), 0},
+                        {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}},
+                       {{holder, mine, lease_}}, done);
+    if (!status.ok() || *done) return status;
+  }
+  return Status::Ok();
+}
+
+Status Directory::Restore(const std::string& room, std::int32_t epoch, const std::string& spec,
+                          bool* done) {
   return store_->Commit({{RoomKey(room, "holder"), Is::kAbsent, "", 0},
-                         {RoomKey(room, "epoch"), Is::kValue, std::to_string(epoch), 0},
+                         {RoomKey(room, "epoch"), Is::kAbsent, "", 0},
                          {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}},
-                        {{RoomKey(room, "holder"), HolderText(me_.id, me_.address, epoch), lease_}},
+                        {{RoomKey(room, "epoch"), std::to_string(epoch), 0},
+                         {RoomKey(room, "spec"), spec, 0},
+                         {RoomKey(room, "state"), spec, 0},
+                         {RoomKey(room, "holder"), HolderText(me_.id, me_.address, epoch), lease_}},
                         done);
 }
 

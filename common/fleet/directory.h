@@ -77,7 +77,8 @@ class Directory {
   Status Watch(int wait_ms, FleetListing* listing);
 
   // For a server. Each of the following needs Register before.
-  /// Puts the server into the directory, with a new lease if it has none.
+  /// Puts the server into the directory, with a new lease if it has none. An error if a server of
+  /// this id is there at another address.
   Status Register(const FleetServer& me);
   /// Keeps the lease. `kept` false: it has ended, and everything that went with it; Register again.
   Status Renew(bool* kept);
@@ -87,8 +88,11 @@ class Directory {
                std::int32_t* epoch);
   /// Takes a room that has a spec and no holder any more; else as Claim.
   Status TakeOver(const std::string& room, std::int32_t least, std::int32_t* epoch);
-  /// Holds the room again in the same epoch, after the lease had ended, if nobody has taken it.
+  /// Holds the room again in the same epoch, with the present lease: after the one before had
+  /// ended, if nobody has taken it, or while that of a process which is gone goes on.
   Status TakeBack(const std::string& room, std::int32_t epoch, bool* done);
+  /// Puts a room back that is held here and that the directory has lost altogether.
+  Status Restore(const std::string& room, std::int32_t epoch, const std::string& spec, bool* done);
   /// Gives the room to another server, in the next epoch. `next` 0: it is not ours any more, or
   /// that server is gone.
   Status Move(const std::string& room, std::int32_t epoch, const FleetServer& to,

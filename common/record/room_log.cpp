@@ -21,8 +21,33 @@ namespace seam {
 
 static_assert(kLogKeyedBytes == std::tuple_size<KeyedChain::Hash>::value);
 
+namespace {
+
+/// Throws OperatorError if another process writes the log.
+void LockLog(const std::string& path, std::FILE* stream) {
+  if (flock(fileno(stream), LOCK_EX | LOCK_NB) != 0)
+    throw OperatorError(path + ": another program goes on with it");
+}
+
+/// Opens a new log, or one in place of a log that nobody writes.
+std::FILE* OpenUnused(const std::string& path, bool force) {
+  if (force) RequireUnused(path);
+  return LogWriter::Open(path, force);
+}
+
+}  // namespace
+
+void RequireUnused(const std::string& path) {
+  std::FILE* const stream = std::fopen(path.c_str(), "rb");
+  if (stream == nullptr) return;
+  const bool used = flock(fileno(stream), LOCK_EX | LOCK_NB) != 0;
+  std::fclose(stream);
+  if (used) throw OperatorError(path + ": another program goes on with it");
+}
+
 RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key)
-    : path_(path), disk_(disk), file_(std::make_shared<File>(LogWriter::Open(path, force))) {
+    : path_(path), disk_(disk), file_(std::make_shared<File>(OpenUnused(path, force))) {
+  LockLog(path, file_->stream);
   if (key != nullptr) key_ = *key, keyed_.emplace(*key);
 }
 
@@ -35,9 +60,7 @@ RoomLog::RoomLog(const std::string& path, const LogPlace& place, DiskThread* dis
     throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
   }
   file_ = std::make_shared<File>(stream);
-  if (flock(fileno(stream), LOCK_EX | LOCK_NB) != 0) {
-    throw OperatorError(path + ": another program goes on with it");
-  }
+  LockLog(path, stream);
   if (ftruncate(fileno(stream), static_cast<off_t>(place.bytes)) != 0) {
     throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
   }

@@ -30,6 +30,9 @@ namespace seam {
 
 class DiskThread;
 
+/// Throws OperatorError if a process writes this log now.
+void RequireUnused(const std::string& path);
+
 class RoomLog : public Recorder {
  public:
   /// Begins a log. `disk` syncs it, and must outlive this; nullptr: nothing does. `key`:

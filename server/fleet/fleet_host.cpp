@@ -43,6 +43,9 @@ void CheckFleetFlags(const ServerFlags& f) {
   if (!f.directory.empty() && !IsName(f.fleet)) {
     throw OperatorError("--fleet takes 1 to 32 letters, digits, - or _");
   }
+  if (f.directory.empty() && (!f.server_id.empty() || !f.advertise.empty())) {
+    throw OperatorError("--id and --advertise are for a fleet: --directory");
+  }
   if (!f.server_id.empty() && !IsName(f.server_id)) {
     throw OperatorError("--id takes 1 to 32 letters, digits, - or _");
   }
@@ -59,6 +62,8 @@ void PrepareFolders(const ServerFlags& f) {
 FleetMember::Config MemberOf(const ServerFlags& f, const Address& local) {
   Address reached = local;
   if (!f.advertise.empty()) reached = ParseAddress(f.advertise, local.port);
+  if (reached.port == 0)
+    throw OperatorError("--advertise " + f.advertise + ": no server has port 0");
   Address any = kAnyAddress;
   any.port = reached.port;
   if (reached == any || reached == Address{0, reached.port}) {
@@ -99,7 +104,12 @@ void DrainRooms(const ServerFlags& f, FleetMember* member, Hub& hub) {
   if (f.drain_to != kAnyOfFleet) to = ToString(ParseAddress(f.drain_to, 7777));
   if (member != nullptr) member->Stop();
   hub.Drain([&](const std::string& room, std::int32_t epoch) {
-    if (member != nullptr) return member->Move(room, to, epoch);
+    if (member != nullptr) {
+      const Redirect moved = member->Move(room, to, epoch);
+      if (moved.address.empty())
+        PrintError("seam-server", "room " + room + ": no server to go on with it; it is kept");
+      return moved;
+    }
     Redirect redirect;
     redirect.address = to;
     redirect.room = room;

@@ -43,12 +43,10 @@ FleetMember::~FleetMember() {
 
 std::int32_t FleetMember::Claim(const std::string& room, std::int32_t least) {
   std::int32_t epoch = 0;
-  Status status =
-      directory_.Claim(room, "{\"folder\": " + JsonText(config_.folder) + "}", least, &epoch);
+  Status status = directory_.Claim(room, SpecOfRooms(), least, &epoch);
   bool saved = false;
   if (status.ok() && epoch > 0 && !config_.folder.empty()) {
-    status =
-        directory_.SaveState(room, epoch, "{\"folder\": " + JsonText(config_.folder) + "}", &saved);
+    status = directory_.SaveState(room, epoch, SpecOfRooms(), &saved);
   }
   if (!status.ok()) throw OperatorError("--directory " + config_.directory + ": " + status.why());
   if (epoch == 0) {
@@ -62,6 +60,10 @@ std::int32_t FleetMember::Claim(const std::string& room, std::int32_t least) {
   }
   held_[room] = epoch;
   return epoch;
+}
+
+std::string FleetMember::SpecOfRooms() const {
+  return "{\"folder\": " + JsonText(config_.folder) + "}";
 }
 
 bool FleetMember::Knows(const std::string& room) {
@@ -125,6 +127,13 @@ Status FleetMember::Round() {
     status = LookAt(room);
     if (!status.ok()) return status;
   }
+  for (const auto& [room, epoch] : held_) {
+    bool done = false;
+    if (listing.FindRoom(room) != nullptr) continue;
+    status = directory_.Restore(room, epoch, SpecOfRooms(), &done);
+    if (!status.ok()) return status;
+    if (done) Say("room " + room + ": the directory had lost it, and has it again");
+  }
   return status;
 }
 
@@ -148,7 +157,11 @@ Status FleetMember::LookAt(const FleetRoom& room) {
   const auto failed = failed_.find(room.name);
   const bool tries = failed == failed_.end() || SteadyClockUs() - failed->second > kFailedUs;
   if (!config_.takes || room.state.empty() || !tries) return Status::Ok();
-  if (mine) return TakeHere(room, room.holder->epoch);
+  if (mine) {
+    bool done = false;
+    const Status status = directory_.TakeBack(room.name, room.holder->epoch, &done);
+    return status.ok() && done ? TakeHere(room, room.holder->epoch) : status;
+  }
   const auto used = static_cast<std::int32_t>(held_.size());
   if (room.holder || used >= config_.me.capacity || !IsOurs(room.name)) return Status::Ok();
   std::int32_t epoch = 0;

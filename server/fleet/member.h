@@ -73,6 +73,8 @@ class FleetMember {
   Status LookAt(const FleetRoom& room);
   Status TakeHere(const FleetRoom& room, std::int32_t epoch);
   bool IsOurs(const std::string& room) const;
+  /// Returns the spec and state of the rooms here: their folder.
+  std::string SpecOfRooms() const;
   void Say(const std::string& line);
 
   const Config config_;

@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/names.h"
+#include "common/record/room_log.h"
 #include "server/saved/snapshot_file.h"
 
 namespace seam {
@@ -104,12 +105,17 @@ void PrepareStateFolder(const std::string& folder, const std::string& room, bool
       logs.push_back(entry.path());
     }
   }
-  if (!force && (!logs.empty() || !snapshots.empty())) {
+  for (const fs::path& log : logs) RequireUnused(log);
+  // Without a snapshot there is nothing to go on with: it was killed before it began.
+  if (!force && !snapshots.empty()) {
     throw OperatorError(folder + ": has a room " + room + ": --resume " + folder +
                         " goes on with it, --force removes it");
   }
   for (const SnapshotName& file : snapshots) fs::remove(file.path, error);
-  for (const fs::path& log : logs) fs::remove(log, error);
+  for (const fs::path& log : logs) {
+    if (force) fs::remove(log, error);
+    if (!force) PutAside(log);
+  }
 }
 
 }  // namespace seam

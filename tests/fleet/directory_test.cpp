@@ -8,7 +8,6 @@
 #include <set>
 #include <thread>
 
-#include "common/base/base64.h"
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/codec/messages.h"
@@ -134,7 +133,43 @@ TEST_P(EachDirectory, AHolderThatWasAwayTakesBackARoomThatNobodyTook) {
   EXPECT_TRUE(done);
   EXPECT_EQ(Listed(*a).FindRoom("red")->holder->epoch, 1);
   ASSERT_TRUE(a->TakeBack("red", 1, &done).ok());
-  EXPECT_FALSE(done) << "it has it";
+  EXPECT_TRUE(done) << "its own, now with the present lease";
+  const auto b = Open("b");
+  ASSERT_TRUE(b->TakeBack("red", 1, &done).ok());
+  EXPECT_FALSE(done) << "another's";
+}
+
+TEST_P(EachDirectory, AServerThatComesBackHoldsItsRoomByItsNewLease) {
+  const auto dead = Open("a");
+  ASSERT_EQ(Claimed(*dead, "red"), 1);
+  const auto back = Open("a");  // at the same address, after a kill -9
+  bool done = false;
+  ASSERT_TRUE(back->TakeBack("red", 1, &done).ok());
+  EXPECT_TRUE(done);
+  ASSERT_TRUE(dead->Leave().ok());  // the old lease ends
+  ASSERT_NE(Listed(*back).FindRoom("red"), nullptr);
+  EXPECT_TRUE(Listed(*back).FindRoom("red")->holder);
+}
+
+TEST_P(EachDirectory, OneIdIsNotTwoServers) {
+  const auto a = Open("a");
+  Directory other(OpenKeyStore(text_), "test");
+  FleetServer elsewhere = ServerOf("a");
+  elsewhere.address = "127.0.0.9:7999";
+  EXPECT_FALSE(other.Register(elsewhere).ok());
+  EXPECT_EQ(Listed(*a).FindServer("a")->address, ServerOf("a").address);
+}
+
+TEST_P(EachDirectory, ARoomThatTheDirectoryHasLostIsPutBackInItsEpoch) {
+  const auto a = Open("a"), b = Open("b");
+  bool done = false;
+  ASSERT_TRUE(a->Restore("red", 3, kSpec, &done).ok());
+  EXPECT_TRUE(done);
+  EXPECT_EQ(Listed(*b).FindRoom("red")->epoch, 3);
+  EXPECT_EQ(Listed(*b).FindRoom("red")->holder->server, "a");
+  EXPECT_EQ(Claimed(*b, "red"), 0) << "held";
+  ASSERT_TRUE(b->Restore("red", 3, kSpec, &done).ok());
+  EXPECT_FALSE(done) << "it is there";
 }
 
 TEST_P(EachDirectory, AMoveGivesTheRoomWithTheNextEpochToAServerThatIsThere) {
@@ -303,47 +338,6 @@ TEST(DirectoryEtcd, OneThatIsNotThereIsOneErrorInTime) {
   for (const char* text : {"", "etcd", "etcd:", "file:", "zoo:keeper", "etcd:a,,b"}) {
     EXPECT_THROW(OpenKeyStore(text), OperatorError) << text;
   }
-}
-
-TEST(Base64, IsThatOfTheRfcAndNothingElse) {
-  const std::pair<const char*, const char*> rfc[] = {{"", ""},
-                                                     {"f", "Zg=="},
-                                                     {"fo", "Zm8="},
-                                                     {"foo", "Zm9v"},
-                                                     {"foob", "Zm9vYg=="},
-                                                     {"fooba", "Zm9vYmE="},
-                                                     {"foobar", "Zm9vYmFy"}};
-  for (const auto& [bytes, text] : rfc) {
-    std::string back;
-    EXPECT_EQ(ToBase64(bytes), text);
-    EXPECT_TRUE(FromBase64(text, &back));
-    EXPECT_EQ(back, bytes);
-  }
-  std::string back;
-  for (const char* text : {"Z", "Zg=", "Zg==Zg==", "Zh==", "Z===", "Zm9v\n", "Zm=v", "===="}) {
-    EXPECT_FALSE(FromBase64(text, &back)) << text;
-  }
-}
-
-TEST(PlaceRoom, TakesTheEmptierOfTwoOfTheSameProtocolThatAreNotDraining) {
-  std::vector<FleetServer> servers;
-  for (const char* id : {"a", "b", "c", "d", "e"}) servers.push_back(ServerOf(id));
-  servers[0].protocol = kProtocolVersion - 1;
-  servers[1].draining = true;
-  servers[2].used = servers[2].capacity;
-  servers[3].used = 4;
-  servers[4].used = 1;
-  Random random(1);
-  int emptier = 0;
-  for (int i = 0; i < 400; ++i) {
-    const FleetServer* const placed = PlaceRoom(servers, kProtocolVersion, "", random);
-    ASSERT_NE(placed, nullptr);
-    ASSERT_TRUE(placed->id == "d" || placed->id == "e") << placed->id;
-    emptier += placed->id == "e" ? 1 : 0;
-  }
-  EXPECT_NEAR(emptier, 300, 40) << "all draws but d and d";
-  EXPECT_EQ(PlaceRoom(servers, kProtocolVersion, "e", random)->id, "d");
-  EXPECT_EQ(PlaceRoom(servers, 3, "", random), nullptr);
 }
 
 }  // namespace directory_test

@@ -122,5 +122,27 @@ TEST(SnapshotFile, AFolderWithARoomIsNotWrittenOver) {
   EXPECT_THROW(RoomsIn(folder / "none"), OperatorError);
 }
 
+TEST(SnapshotFile, ARoomThatWasKilledBeforeItBeganIsBegunAnew) {
+  Workspace folder;
+  const std::string log = StateLogOf(folder.path(), "main", 1);
+  WriteBytes(log, Bytes(100, 7));
+  PrepareStateFolder(folder.path(), "main", false);
+  EXPECT_FALSE(std::filesystem::exists(log));
+  EXPECT_TRUE(std::filesystem::exists(log + ".damaged-1")) << "nothing is thrown away";
+}
+
+TEST(SnapshotFile, ALogThatIsWrittenNowIsNobodyElses) {
+  Workspace folder;
+  const std::string path = StateLogOf(folder.path(), "main", 1);
+  {
+    RoomLog running(path, false, nullptr);
+    EXPECT_THROW(PrepareStateFolder(folder.path(), "main", true), OperatorError);
+    EXPECT_TRUE(std::filesystem::exists(path));
+    EXPECT_THROW(RoomLog(path, LogPlace(), nullptr), OperatorError);
+    EXPECT_THROW(RoomLog(path, true, nullptr), OperatorError);
+  }
+  EXPECT_NO_THROW(PrepareStateFolder(folder.path(), "main", true));
+}
+
 }  // namespace snapshot_file_test
 }  // namespace seam
