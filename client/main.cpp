@@ -271,6 +271,8 @@ int Play(const Flags& f) {
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
+      if (rooms != nullptr && !holder && f.server.empty())
+        throw OperatorError("--directory " + f.directory + ": " + rooms->trouble());
       throw OperatorError((client.sessions() == 0 ? "no answer from " : "lost the server ") +
                           ToString(client.server()) + "; gave up after " + SecondsText(f.join_s) +
                           " s (--join-timeout)");

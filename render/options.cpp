@@ -108,7 +108,6 @@ void CheckShots(const RenderOptions& o) {
   if (!(o.camera.zoom >= 0.01f && o.camera.zoom <= 1000))
     throw OperatorError("--zoom must be 0.01 to 1000");
   if (!(o.speed >= 0.001 && o.speed <= 1000)) throw OperatorError("--speed must be 0.001 to 1000");
-  if (o.sheet < 0 || o.sheet > 100) throw OperatorError("--sheet must be 1 to 100 moments");
   if (o.sheet > 0 && (o.strobe || !o.video.empty()))
     throw OperatorError("--sheet is one picture: not with --strobe or --video");
   const bool shots = o.sheet > 0 || !o.around.empty() || o.speed != 1;
@@ -205,7 +204,8 @@ void DefineRenderOptions(Command* app, RenderOptions* options) {
   app->Option("--layers", o.layers_text,
               "trails,parts,ghosts,vectors,heat,names or none (trails,ghosts)");
   app->Option("--speed", o.speed, "of the sequence: 0.1 is slow motion (1)");
-  app->Option("--sheet", o.sheet, "so many moments in one picture: -o is a .png file");
+  app->Option("--sheet", o.sheet, "so many moments in one picture: -o is a .png file")
+      .Range(1, 100);
   app->Option("--every", o.every_ticks, "--strobe: ticks between exposures");
   app->Option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
   app->Option("--room", o.room, "which room, if there are several");

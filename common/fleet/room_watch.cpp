@@ -30,8 +30,10 @@ void RoomWatch::Run() {
   while (!stop_) {
     lock.unlock();
     FleetListing listing;
-    up_ = directory_.List(&listing).ok();
+    const Status status = directory_.List(&listing);
     lock.lock();
+    trouble_ = !status.ok() ? status.why()
+                            : "no server has " + (room_.empty() ? "a room" : "the room " + room_);
     for (const FleetRoom& room : listing.rooms) {
       if (!room.holder || (room.name != room_ && !room_.empty())) continue;
       newest_ = room.holder;
@@ -39,6 +41,11 @@ void RoomWatch::Run() {
     }
     wake_.wait_for(lock, std::chrono::milliseconds(kRoomLookMs), [this] { return stop_; });
   }
+}
+
+std::string RoomWatch::trouble() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return trouble_;
 }
 
 std::optional<FleetHolder> RoomWatch::newest() const {

@@ -1,7 +1,6 @@
 #pragma once
 /// Follows which server has a room, in a thread of its own, for a client.
 
-#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -22,18 +21,18 @@ class RoomWatch {
 
   /// Returns the newest holder of the room; nullopt: none was seen yet.
   std::optional<FleetHolder> newest() const;
-  /// True if the directory answered last.
-  bool up() const { return up_; }
+  /// Returns why no holder was seen yet: the directory does not answer, or nobody has the room.
+  std::string trouble() const;
 
  private:
   void Run();
 
   const std::string room_;
   Directory directory_;
-  std::atomic<bool> up_{true};
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable wake_;
   std::optional<FleetHolder> newest_;
+  std::string trouble_;
   bool stop_ = false;
   std::thread thread_;
 };
