@@ -118,7 +118,9 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
   const bool same = with(crc_) == written || with(own_crc_) == written;
   const bool good = same && !skipped_ && events_ + 1 == seal.log_events;
   const bool keyed = KeyedAsWritten(header, event, seal);
-  sealed_ = sealed_ || good;  // in a log of another logger none is: it has numbers of its own
+  // In a log of another logger none is: it has numbers of its own, and a filter leaves out messages
+  // of ticks.
+  sealed_ = sealed_ || (good && seal.tick > 0);
   channels_.insert(event.channel);
   if (good && keyed) {
     CloseDamage(seal.first_tick - 1);
