@@ -143,6 +143,7 @@ bool Client::OnSealed(std::int64_t now_us, const Bytes& datagram) {
   const std::uint64_t session = SessionOfDatagram(datagram);
   Link* link = link_ != nullptr && link_->session() == session ? link_.get() : nullptr;
   if (link == nullptr) {
+    if (peer_ >= 0 && !moving_) return false;  // a late answer to an earlier join
     PublicKey identity{};
     const SealKeys* const keys = offers_.Find(session, &identity);
     if (keys == nullptr) return false;

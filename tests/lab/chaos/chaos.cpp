@@ -31,7 +31,8 @@ void LookAtTheEnd(Cluster& cluster, std::vector<std::string>* broken) {
     const Client* const client = cluster.client(c);
     const std::string who = "at the end: client " + std::to_string(c);
     if (client == nullptr || !client->running()) {
-      broken->push_back(who + " does not play");
+      const std::string why = client == nullptr ? "its process is gone" : client->fatal();
+      broken->push_back(who + " does not play: " + (why.empty() ? "it joins" : why));
     } else if (client->replica()->revision() == server.revision() &&
                client->replica()->world().composition().hash != server.world().composition().hash) {
       broken->push_back(who + " has another composition");
