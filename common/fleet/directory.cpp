@@ -82,11 +82,6 @@ Status Directory::Watch(int wait_ms, FleetListing* listing) {
 
 Status Directory::Register(const FleetServer& me) {
   SEAM_ASSERT(IsName(me.id));
-  me_ = me;
-  if (lease_ == 0) {
-    const Status status = store_->Grant(kFleetLeaseS, &lease_);
-    if (!status.ok()) return status;
-  }
   FleetListing listing;
   Status status = List(&listing);
   if (!status.ok()) return status;
@@ -94,9 +89,21 @@ Status Directory::Register(const FleetServer& me) {
   if (there != nullptr && there->address != me.address) {
     return Status::Error("the server " + me.id + " is at " + there->address + ": not this one");
   }
+  const std::string key = prefix_ + "servers/" + me.id;
+  std::int64_t changed = 0;
+  for (const KeyValue& each : seen_) {
+    if (each.key == key) changed = each.changed;
+  }
+  if (lease_ == 0) status = store_->Grant(kFleetLeaseS, &lease_);
+  if (!status.ok()) return status;
   bool done = false;
-  status = store_->Commit({}, {{prefix_ + "servers/" + me.id, ServerText(me), lease_}}, &done);
+  status =
+      store_->Commit({{key, Is::kChangedAt, "", changed}}, {{key, ServerText(me), lease_}}, &done);
+  if (status.ok() && !done) {
+    status = Status::Error("the server " + me.id + " is another one, which was faster");
+  }
   if (!status.ok()) lease_ = 0;
+  if (status.ok()) me_ = me;
   return status;
 }
 
@@ -112,9 +119,8 @@ std::string Directory::RoomKey(const std::string& room, const char* what) const 
   return prefix_ + "rooms/" + room + "/" + what;
 }
 
-std::string Directory::HolderText(const std::string& server, const std::string& address,
-                                  std::int32_t epoch) const {
-  return HolderTextOf({server, address, epoch});
+std::string Directory::MyHolderText(std::int32_t epoch) const {
+  return HolderTextOf({me_.id, me_.address, epoch});
 }
 
 Status Directory::Claim(const std::string& room, const std::string& spec, std::int32_t least,
@@ -143,9 +149,8 @@ Status Directory::Take(const std::string& room, const std::string* spec, std::in
       {RoomKey(room, "holder"), Is::kAbsent, "", 0},
       {RoomKey(room, "epoch"), Is::kChangedAt, "", known == nullptr ? 0 : known->epoch_changed},
       {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}};
-  std::vector<KeyWrite> writes = {
-      {RoomKey(room, "epoch"), std::to_string(next), 0},
-      {RoomKey(room, "holder"), HolderText(me_.id, me_.address, next), lease_}};
+  std::vector<KeyWrite> writes = {{RoomKey(room, "epoch"), std::to_string(next), 0},
+                                  {RoomKey(room, "holder"), MyHolderText(next), lease_}};
   if (spec != nullptr) {
     writes.push_back({RoomKey(room, "spec"), *spec, 0});
   } else {
@@ -158,7 +163,7 @@ Status Directory::Take(const std::string& room, const std::string* spec, std::in
 }
 
 Status Directory::TakeBack(const std::string& room, std::int32_t epoch, bool* done) {
-  const std::string holder = RoomKey(room, "holder"), mine = HolderText(me_.id, me_.address, epoch);
+  const std::string holder = RoomKey(room, "holder"), mine = MyHolderText(epoch);
   const KeyCondition nobody{holder, Is::kAbsent, "", 0}, before{holder, Is::kValue, mine, 0};
   for (const KeyCondition& held : {nobody, before}) {
     const Status status =
@@ -179,7 +184,7 @@ Status Directory::Restore(const std::string& room, std::int32_t epoch, const std
                         {{RoomKey(room, "epoch"), std::to_string(epoch), 0},
                          {RoomKey(room, "spec"), spec, 0},
                          {RoomKey(room, "state"), spec, 0},
-                         {RoomKey(room, "holder"), HolderText(me_.id, me_.address, epoch), lease_}},
+                         {RoomKey(room, "holder"), MyHolderText(epoch), lease_}},
                         done);
 }
 
@@ -189,10 +194,10 @@ Status Directory::Move(const std::string& room, std::int32_t epoch, const FleetS
   if (epoch == std::numeric_limits<std::int32_t>::max()) return Status::Ok();
   bool done = false;
   const Status status = store_->Commit(
-      {{RoomKey(room, "holder"), Is::kValue, HolderText(me_.id, me_.address, epoch), 0},
+      {{RoomKey(room, "holder"), Is::kValue, MyHolderText(epoch), 0},
        {prefix_ + "servers/" + to.id, Is::kPresent, "", 0}},
       {{RoomKey(room, "epoch"), std::to_string(epoch + 1), 0},
-       {RoomKey(room, "holder"), HolderText(to.id, to.address, epoch + 1), to.lease}},
+       {RoomKey(room, "holder"), HolderTextOf({to.id, to.address, epoch + 1}), to.lease}},
       &done);
   if (status.ok() && done) *next = epoch + 1;
   return status;
@@ -206,19 +211,17 @@ Status Directory::SaveState(const std::string& room, std::int32_t epoch, const s
 
 Status Directory::Release(const std::string& room, std::int32_t epoch) {
   bool done = false;
-  return store_->Commit(
-      {{RoomKey(room, "holder"), Is::kValue, HolderText(me_.id, me_.address, epoch), 0}},
-      {{RoomKey(room, "holder"), std::nullopt, 0},
-       {RoomKey(room, "spec"), std::nullopt, 0},
-       {RoomKey(room, "state"), std::nullopt, 0}},
-      &done);
+  return store_->Commit({{RoomKey(room, "holder"), Is::kValue, MyHolderText(epoch), 0}},
+                        {{RoomKey(room, "holder"), std::nullopt, 0},
+                         {RoomKey(room, "spec"), std::nullopt, 0},
+                         {RoomKey(room, "state"), std::nullopt, 0}},
+                        &done);
 }
 
 Status Directory::GiveUp(const std::string& room, std::int32_t epoch) {
   bool done = false;
-  return store_->Commit(
-      {{RoomKey(room, "holder"), Is::kValue, HolderText(me_.id, me_.address, epoch), 0}},
-      {{RoomKey(room, "holder"), std::nullopt, 0}}, &done);
+  return store_->Commit({{RoomKey(room, "holder"), Is::kValue, MyHolderText(epoch), 0}},
+                        {{RoomKey(room, "holder"), std::nullopt, 0}}, &done);
 }
 
 Status Directory::Leave() {

@@ -111,8 +111,7 @@ class Directory {
 
  private:
   std::string RoomKey(const std::string& room, const char* what) const;
-  std::string HolderText(const std::string& server, const std::string& address,
-                         std::int32_t epoch) const;
+  std::string MyHolderText(std::int32_t epoch) const;
   Status Take(const std::string& room, const std::string* spec, std::int32_t least,
               std::int32_t* epoch);
 

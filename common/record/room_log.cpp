@@ -38,11 +38,9 @@ std::FILE* OpenUnused(const std::string& path, bool force) {
 }  // namespace
 
 void RequireUnused(const std::string& path) {
-  std::FILE* const stream = std::fopen(path.c_str(), "rb");
-  if (stream == nullptr) return;
-  const bool used = flock(fileno(stream), LOCK_EX | LOCK_NB) != 0;
-  std::fclose(stream);
-  if (used) throw OperatorError(path + ": another program goes on with it");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(std::fopen(path.c_str(), "rb"),
+                                                            &std::fclose);
+  if (log != nullptr) LockLog(path, log.get());
 }
 
 RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key)

@@ -144,10 +144,7 @@ Status FleetMember::LookAt(const FleetRoom& room) {
     if (room.epoch > held->second && !mine) {
       held_.erase(held);
       const std::lock_guard<std::mutex> lock(mutex_);
-      Redirect to;
-      to.room = room.name;
-      to.epoch = room.epoch;
-      lost_.push_back(room.holder ? To(room.name, *room.holder) : to);
+      lost_.push_back(To(room.name, room.holder.value_or(FleetHolder{"", "", room.epoch})));
       return Status::Ok();
     }
     if (mine && room.holder->epoch > held->second) return TakeHere(room, room.holder->epoch);

@@ -33,6 +33,14 @@ std::string Box(const std::string& more) {
   return "[[part]]\nname = \"box\"\nbox = [1, 1]\n" + more + "\n";
 }
 
+/// A spring of 3 m from a post to the box.
+std::string Spring(const std::string& frequency_hz, const std::string& damping) {
+  return "[[joint]]\nname = \"spring\"\nkind = \"distance\"\na = \"post\"\nb = \"box\"\nlength = "
+         "3\n"
+         "frequency = " +
+         frequency_hz + "\ndamping_ratio = " + damping + "\n";
+}
+
 TEST(SlowWatch, NothingSleepsInTheAir) {
   for (const double g : {0.015, 0.002}) {
     const SlowRun run(
@@ -80,15 +88,7 @@ box = [0.4, 0.4]
 position = [-3, 0]
 anchored = true
 )" + Box("position = [0.3, 0]") +
-                        R"([[joint]]
-name = "spring"
-kind = "distance"
-a = "post"
-b = "box"
-length = 3
-frequency = 0.3
-damping_ratio = 10
-)",
+                        Spring("0.3", "10"),
                     60);
   EXPECT_NEAR(run.Read("box").position.x(), 0, 0.006);
   EXPECT_TRUE(run.Sleeps("box"));
@@ -187,15 +187,7 @@ box = [0.2, 0.2]
 position = [0, 3]
 anchored = true
 )" + Box("position = [0, 0.1]") +
-                        R"([[joint]]
-name = "spring"
-kind = "distance"
-a = "post"
-b = "box"
-length = 3
-frequency = 1
-damping_ratio = 0.2
-)",
+                        Spring("1", "0.2"),
                     20);
   EXPECT_TRUE(run.Sleeps("box"));
   EXPECT_NEAR(run.Read("box").position.y(), -10 / 39.48, 0.02) << "g / (2 pi f)^2 below";
