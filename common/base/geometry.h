@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "common/base/trig.h"
+
 namespace seam {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -33,7 +35,7 @@ struct Rotation {
   Rotation() = default;
   /// Takes a cosine and sine computed elsewhere.
   Rotation(Scalar c, Scalar s) : cosine(c), sine(s) {}
-  explicit Rotation(Scalar angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  explicit Rotation(Scalar angle) : cosine(Cos(angle)), sine(Sin(angle)) {}
 
   Vector operator()(const Vector& v) const {
     return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};

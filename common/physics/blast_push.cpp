@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/base/trig.h"
 #include "common/physics/stage.h"
 #include "common/physics/world_shapes.h"
 #include "common/scene/bricks.h"
@@ -33,7 +34,7 @@ class Fan {
   float width() const { return kFullTurn / static_cast<float>(count_); }  ///< rad
   b2Vec2 Direction(int ray) const {
     const float angle = (static_cast<float>(ray) + 0.5f) * width();
-    return {std::cos(angle), std::sin(angle)};
+    return {Cos(angle), Sin(angle)};
   }
 
   /// Shortens the rays that meet the box, unless the centre is in it.

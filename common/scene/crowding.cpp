@@ -9,6 +9,7 @@
 
 #include "common/base/check.h"
 #include "common/base/spatial/box_sweep.h"
+#include "common/base/trig.h"
 #include "common/scene/scene_limits.h"
 
 namespace seam {
@@ -37,7 +38,7 @@ struct Limits {
 };
 
 Vec2 InWorld(const Part& part, const Vec2& local) {
-  const float c = std::cos(part.angle), s = std::sin(part.angle);
+  const float c = Cos(part.angle), s = Sin(part.angle);
   return part.position + Vec2(c * local.x() - s * local.y(), s * local.x() + c * local.y());
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/base/geometry.h"
+#include "common/base/trig.h"
 #include "common/physics/stage.h"
 
 namespace seam {
@@ -111,8 +112,8 @@ BodyState ImposedMotions::At(int index, double tick) const {
     const Vector2d along = m.path[(leg + 1) % m.path.size()] - m.path[leg];
     // A leg of zero length lasts no longer than an instant.
     const double u = length > 0 ? std::min(1.0, (way - from) / length) : 0;
-    const double share = m.ease ? (1 - std::cos(kPi * u)) / 2 : u;
-    const double pace = m.ease ? kPi / 2 * std::sin(kPi * u) : 1;
+    const double share = m.ease ? (1 - Cos(kPi * u)) / 2 : u;
+    const double pace = m.ease ? kPi / 2 * Sin(kPi * u) : 1;
     place = m.path[leg] + share * along;
     if (length > 0) velocity = pace * m.ends.back() / m.period_s / length * along;
   }

@@ -131,6 +131,24 @@ TEST(Style, NamesOfFilesAreSnakeCase) {
   EXPECT_TRUE(offenders.empty()) << offenders;
 }
 
+/// libm's have other bits on another processor (common/base/trig.h).
+TEST(Style, SimulationsTakeTheirSinesFromTrig) {
+  const Regex libm(".*std::(sin|cos)\\(.*");
+  std::string offenders;
+  int read = 0;
+  for (const Source& source : Sources({"common/base", "common/physics", "common/scene",
+                                       "common/stages", "common/sync", "common/topology"},
+                                      {".h", ".cpp"})) {
+    if (source.path == "common/base/trig.h") continue;
+    for (const std::string& line : source.lines) {
+      if (libm.Matches(line)) offenders += source.path + ": " + line + "\n";
+    }
+    ++read;
+  }
+  EXPECT_GT(read, 300);
+  EXPECT_EQ(offenders, "");
+}
+
 /// Lines of a page that are too wide, without tables, code and generated text.
 std::string WideLines(const Source& page, std::size_t columns) {
   std::string wide;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/trig.h"
 #include "common/physics/engine_members.h"
 #include "common/scene/character.h"
 
@@ -107,8 +108,8 @@ void ExactStep::LoadMoving(ExactBody* q) {
   }
   s.turns = 0;
   q->read_a = std::nan("");
-  q->c = std::cos(q->a);
-  q->s = std::sin(q->a);
+  q->c = Cos(q->a);
+  q->s = Sin(q->a);
 }
 
 void ExactStep::LoadPoses(Found* found) {
@@ -126,8 +127,8 @@ void ExactStep::LoadPoses(Found* found) {
     ReadPose(q.body, &q);
     if (q.a != q.read_a) {  // else c and s are up to date
       q.read_a = q.w == 0 ? q.a : std::nan("");
-      q.c = std::cos(q.a);
-      q.s = std::sin(q.a);
+      q.c = Cos(q.a);
+      q.s = Sin(q.a);
     }
     island.still = island.still && SamePose(q, before) && q.vx == before.vx && q.vy == before.vy &&
                    q.w == before.w;

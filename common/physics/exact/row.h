@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "common/base/trig.h"
+
 namespace seam {
 
 /// Two numbers that are processed at once, each rounded as if alone.
@@ -35,8 +37,8 @@ struct ExactBody {
   void Turn(double d) {
     a += d;
     if (std::fabs(d) > 0.05) {
-      c = std::cos(a);
-      s = std::sin(a);
+      c = Cos(a);
+      s = Sin(a);
       return;
     }
     const double q = d * d;

@@ -7,6 +7,7 @@
 
 #include "common/base/geometry.h"
 #include "common/base/spatial/box_sweep.h"
+#include "common/base/trig.h"
 
 namespace seam {
 namespace {
@@ -196,7 +197,7 @@ class Linker {
     const bool back = piece.along.dot(next.along) < kBack;  // the other wall of a crack
     if (!meets || back) return;
     // Backwards along the outline, left and right change.
-    const double turn = std::atan2(Cross(from, along), from.dot(along)) * (after ? 1 : -1);
+    const double turn = Atan2(Cross(from, along), from.dot(along)) * (after ? 1 : -1);
     if (best->found && turn >= best->turn) return;
     *best = {true, other, next.along, begin, turn};
   }

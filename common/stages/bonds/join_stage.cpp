@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "common/base/geometry.h"
+#include "common/base/trig.h"
 #include "common/scene/connectors.h"
 #include "common/scene/mass.h"
 #include "common/stages/make_stages.h"
@@ -112,7 +113,7 @@ bool JoinStage::Meet(const Where& outlet, const Where& inlet) const {
   const bool moves = (a->GetType() == b2_dynamicBody && a->IsAwake()) ||
                      (b->GetType() == b2_dynamicBody && b->IsAwake());
   if (!moves) return false;
-  const b2Vec2 out(std::cos(outlet.angle), std::sin(outlet.angle));
+  const b2Vec2 out(Cos(outlet.angle), Sin(outlet.angle));
   if (b2Dot(out, outlet.velocity - inlet.velocity) < kJoinClosing) return false;
   const Connectors& one = *PartWith(*outlet.open).connectors;
   const Connectors& other = *PartWith(*inlet.open).connectors;

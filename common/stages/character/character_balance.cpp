@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/trig.h"
 #include "common/stages/character/character_control.h"
 #include "common/stages/character/character_gains.h"
 
@@ -27,8 +28,7 @@ void CharacterControl::Bear(const CharacterSense& s, int side, float pressure_x,
   const b2Vec2 pressure = Sole(s, side, pressure_x);
   const float height = std::max(0.2f * limbs_.shape().hip, s.hip.y - pressure.y);
   // The push goes through the hip; the upper body leans over it.
-  torso_torque -=
-      gains_.upper_share * lift * gains_.upper_height * limbs_.scale() * std::sin(s.torso);
+  torso_torque -= gains_.upper_share * lift * gains_.upper_height * limbs_.scale() * Sin(s.torso);
   Push(s, side, pressure, lift, (torso_torque - (pressure.x - s.hip.x) * lift) / height);
 }
 

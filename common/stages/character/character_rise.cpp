@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/trig.h"
 #include "common/stages/character/character_control.h"
 #include "common/stages/character/character_gains.h"
 
@@ -87,7 +88,7 @@ CharacterControl::LegPose CharacterControl::Gathered(const CharacterSense& s, fl
   const GroundPoint ground =
       limbs_.GroundBelow(b2Vec2(x, s.centre.y + 0.2f * shape.hip), 1.5f * shape.hip);
   const float y = ground.found ? ground.point.y : s.hip.y - 0.5f * shape.hip;
-  LegPose pose = PoseFor(b2Vec2(x, y + shape.ankle / std::cos(slope)) - s.hip);
+  LegPose pose = PoseFor(b2Vec2(x, y + shape.ankle / Cos(slope)) - s.hip);
   // As a joint's angle: within half a turn of straight.
   const float hip = pose.thigh - s.torso;
   pose.thigh = hip - 2 * b2_pi * std::round(hip / (2 * b2_pi));

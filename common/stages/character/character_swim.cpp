@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/trig.h"
 #include "common/scene/water.h"
 #include "common/stages/character/character_control.h"
 
@@ -16,7 +17,7 @@ namespace {
 constexpr int kTreads = 0, kStrokes = 1, kRights = 2;
 
 /// Returns a sine, `phase` in turns.
-float Sine(float phase) { return std::sin(2 * b2_pi * (phase - std::floor(phase))); }
+float Sine(float phase) { return Sin(2 * b2_pi * (phase - std::floor(phase))); }
 
 /// Returns -1 to 1 by a phase in turns: faster up than down for a `haste` of 0 to 1, slower for 0
 /// to -1. Drag grows with the square of the speed, so such a beat pushes the water one way on

@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/base/geometry.h"
+#include "common/base/trig.h"
 
 namespace seam {
 namespace {
@@ -35,7 +36,7 @@ int Cut(const Vec2d* in, int count, int axis, double limit, double sign, Vec2d* 
 AreaMoments Segment(const Vec2d& centre, double radius, double depth, const Vec2d& towards) {
   // Half the angle subtended by the chord.
   const double chord = std::sqrt(std::max(0.0, radius * radius - depth * depth));
-  const double half = std::atan2(chord, -depth);
+  const double half = Atan2(chord, -depth);
   const double r2 = radius * radius;
   AreaMoments part;
   part.area = r2 * half + depth * chord;
@@ -54,9 +55,9 @@ AreaMoments Segment(const Vec2d& centre, double radius, double depth, const Vec2
 AreaMoments DiscAsPolygon(const Vec2d& centre, double radius, const Bounds& bounds) {
   Vec2d corners[kCutCornersMax];
   const double turn = 2 * kPi / kCutCornersMax;
-  const double reach = radius * std::sqrt(turn / std::sin(turn));
+  const double reach = radius * std::sqrt(turn / Sin(turn));
   for (int i = 0; i < kCutCornersMax; ++i) {
-    corners[i] = centre + reach * Vec2d(std::cos(turn * i), std::sin(turn * i));
+    corners[i] = centre + reach * Vec2d(Cos(turn * i), Sin(turn * i));
   }
   return AreaWithin(corners, kCutCornersMax, bounds);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/geometry.h"
+#include "common/base/trig.h"
 #include "common/scene/mass.h"
 
 namespace seam {
@@ -43,12 +44,12 @@ std::vector<Vec2d> LocalCorners(const Part& part) {
 std::vector<Vec2d> CapsuleCorners(const Part& part) {
   const Vec2d ends[2] = {part.points[1].cast<double>(), part.points[0].cast<double>()};
   const double radius = static_cast<double>(part.radius);
-  const double start = std::atan2(ends[0].y() - ends[1].y(), ends[0].x() - ends[1].x()) - kPi / 2;
+  const double start = Atan2(ends[0].y() - ends[1].y(), ends[0].x() - ends[1].x()) - kPi / 2;
   std::vector<Vec2d> corners;
   for (int cap = 0; cap < 2; ++cap) {
     for (int i = 0; i <= kCapArcs; ++i) {
       const double turn = start + kPi * cap + kPi * i / kCapArcs;
-      corners.push_back(ends[cap] + radius * Vec2d(std::cos(turn), std::sin(turn)));
+      corners.push_back(ends[cap] + radius * Vec2d(Cos(turn), Sin(turn)));
     }
   }
   const AreaMoments small = AreaOf(corners.data(), static_cast<int>(corners.size()));
@@ -89,7 +90,7 @@ std::vector<WetEdge> EdgesOf(const WetPart& part) {
   if (part.disc) {
     const double turn = 2 * kPi / kArcs;
     for (int i = 0; i < kArcs; ++i) {
-      const Vec2d out(std::cos(turn * i), std::sin(turn * i));
+      const Vec2d out(Cos(turn * i), Sin(turn * i));
       const Vec2d along(-out.y(), out.x());
       const Vec2d middle = part.whole.centre + part.radius * out;
       const double half = part.radius * turn / 2;

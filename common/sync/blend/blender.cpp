@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/trig.h"
 #include "common/sync/quantize.h"
 #include "common/sync/reach/way_to.h"
 #include "common/sync/state_limits.h"
@@ -24,7 +25,7 @@ constexpr float kOtherImpact = 1;
 float GainFor(float dt, int send_hz) {
   // A pure correction delayed by d updates is stable below 2 sin(pi / (2 (2 d + 1))).
   const double d = std::ceil(static_cast<double>(dt) * send_hz);
-  const double limit = 2 * std::sin(kPi / (2 * (2 * d + 1)));
+  const double limit = 2 * Sin(kPi / (2 * (2 * d + 1)));
   constexpr double kShareOfLimit = 0.25;  // above 0.4 a tall stack never rests at 200 ms
   return static_cast<float>(std::min(1.0, kShareOfLimit * limit));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/base/trig.h"
 
 namespace seam {
 namespace {
@@ -72,8 +73,8 @@ Split SplitOffsets(const std::vector<OffsetBody>& bodies) {
     Vec2& arm = split.arms[i];
     arm -= split.middle;
     const Vec2 shown = arm + rest.position;
-    sine += m.mass * Cross(arm, shown) + m.inertia * std::sin(rest.angle);
-    cosine += m.mass * arm.dot(shown) + m.inertia * std::cos(rest.angle);
+    sine += m.mass * Cross(arm, shown) + m.inertia * Sin(rest.angle);
+    cosine += m.mass * arm.dot(shown) + m.inertia * Cos(rest.angle);
     moment += m.mass * Cross(shown, rest.velocity) + m.inertia * rest.spin;
     inertia += m.mass * shown.squaredNorm() + m.inertia;
   }
