@@ -66,7 +66,7 @@ TEST(Authority, ThereAreNeverTwoAuthoritiesUnderTwentyPercentLoss) {
   config.scene = "shuttle.toml";
   config.scene_text = kShuttle;
   config.impair = "delay=50ms,jitter=10ms,loss=20%";
-  for (std::int64_t seed = 1; seed <= Soak(5); ++seed) {
+  for (const int seed : SoakSeeds(1, 5)) {
     config.seed = seed;
     Cluster cluster(config);
     AuthorityWatch watcher;

@@ -26,7 +26,7 @@ std::vector<HandOverSeen> HandOvers(const ClusterConfig& config) {
 
 TEST(ExactHandOver, TheSuccessorBeginsAtTheHoldersLastState) {
   for (const char* rule : {"retrospect", "rollback"}) {
-    for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+    for (const int seed : SoakSeeds(1, 2)) {
       ClusterConfig config;
       config.scene = "relay";
       config.impair = "4g";

@@ -98,7 +98,7 @@ TEST_P(Freight, SixtyCratesAreOneBodyWhileTheCartRollsAndSixtyWhenItBrakes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Freight, ::testing::Range(1, 1 + Soak(2)));
+INSTANTIATE_TEST_SUITE_P(Seeds, Freight, ::testing::ValuesIn(SoakSeeds(1, 2)));
 
 }  // namespace freight_cluster_test
 }  // namespace seam

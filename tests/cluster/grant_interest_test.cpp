@@ -65,7 +65,7 @@ int Strays(Cluster& cluster, int client) {
 }
 
 TEST(GrantInterest, ADistantClientHearsLessButWithinThreeSeconds) {
-  for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+  for (const int seed : SoakSeeds(1, 2)) {
     Cluster cluster(Room("demo", seed));
     AuthorityWatch watch;
     cluster.each_instant = [&] { watch.Look(cluster); };
@@ -185,7 +185,7 @@ TEST(GrantInterest, OnlyTheHolderReceivesTheRevocation) {
 }
 
 TEST(GrantInterest, AnEditThatMergesMechanismsLeavesNobodyInAnotherEpoch) {
-  for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
+  for (const int seed : SoakSeeds(1, 3)) {
     Cluster cluster(Room("4g", seed));
     cluster.RunToTick(5 * 60 + 7 * seed);
     const PartId beam = 0;

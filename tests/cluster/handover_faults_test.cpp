@@ -144,7 +144,7 @@ void Fail(bool large, std::int64_t seed, double from_s, double for_s, const std:
 
 TEST(HandOverFaults, APausedHolderStopsNoBody) {
   for (const bool large : {false, true}) {
-    for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+    for (const int seed : SoakSeeds(1, 2)) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2.3, "paused");
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 3.6, "paused");
     }
@@ -153,7 +153,7 @@ TEST(HandOverFaults, APausedHolderStopsNoBody) {
 
 TEST(HandOverFaults, AHolderThatHearsNothingReleasesByItself) {
   for (const bool large : {false, true}) {
-    for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+    for (const int seed : SoakSeeds(1, 2)) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "hears nothing");
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2, "hears nothing");
     }
@@ -162,7 +162,7 @@ TEST(HandOverFaults, AHolderThatHearsNothingReleasesByItself) {
 
 TEST(HandOverFaults, TheServerSendsStatesForASilentHolder) {
   for (const bool large : {false, true}) {
-    for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+    for (const int seed : SoakSeeds(1, 2)) {
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "is not heard");
       Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2, "is not heard");
     }

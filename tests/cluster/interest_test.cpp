@@ -270,7 +270,7 @@ std::string Apart() {
 }
 
 TEST(Interest, DistantClientsKnowRestingBodiesExactly) {
-  for (std::int64_t seed = 1; seed <= Soak(4); ++seed) {
+  for (const int seed : SoakSeeds(1, 4)) {
     ClusterConfig config;
     config.scene = "apart";
     config.scene_text = Apart();

@@ -127,7 +127,7 @@ TEST(PressedCrate, IsDestroyedBetweenTwoAuthoritiesOnlyIfTheOracleDestroysIt) {
   ASSERT_GT(Health(oracle, kCrate), 0) << "the oracle's crate must live";
   for (const char* impair : {"demo", "delay=200ms"}) {
     for (const char* rule : {"retrospect", "rollback"}) {
-      for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
+      for (const int seed : SoakSeeds(1, 3)) {
         ClusterConfig config = With(kPress, impair, seed);
         config.reconcile = rule;
         Cluster cluster(config);
@@ -140,7 +140,7 @@ TEST(PressedCrate, IsDestroyedBetweenTwoAuthoritiesOnlyIfTheOracleDestroysIt) {
 
 TEST(PressedCrate, AnImpactBetweenTwoAuthoritiesDamagesEachBodyOnce) {
   for (const char* impair : {"demo", "4g"}) {
-    for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
+    for (const int seed : SoakSeeds(1, 3)) {
       Cluster cluster(With(kDiscs, impair, seed));
       cluster.Run();
       // 10 m/s, of which 8 hurt, 5 each.

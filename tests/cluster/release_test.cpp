@@ -166,7 +166,7 @@ TEST(Release, AHolderThatNeverHearsTheRequestKeepsItUntilItsLeaseEnds) {
 }
 
 TEST(Release, NoHonestHolderIsAccusedOnATerribleNetwork) {
-  for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+  for (const int seed : SoakSeeds(1, 2)) {
     ClusterConfig config = Shuttle("terrible");
     config.scene_text = Pendulums(60);
     config.seed = seed;
@@ -178,7 +178,7 @@ TEST(Release, NoHonestHolderIsAccusedOnATerribleNetwork) {
 }
 
 TEST(Release, LateReleasesDelayAHandOverAndNeverMakeTwoAuthorities) {
-  for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
+  for (const int seed : SoakSeeds(1, 3)) {
     ClusterConfig config = Shuttle("delay=50ms,jitter=10ms,loss=20%,reorder=5%:50ms");
     config.seed = seed;
     std::int64_t due_us = 0;
@@ -203,7 +203,7 @@ TEST(Release, LateReleasesDelayAHandOverAndNeverMakeTwoAuthorities) {
 }
 
 TEST(Release, WithholdingUnderLossAndReorderNeverMakesTwoAuthorities) {
-  for (std::int64_t seed = 1; seed <= Soak(30); ++seed) {
+  for (const int seed : SoakSeeds(1, 30)) {
     ClusterConfig config = Shuttle("delay=50ms,jitter=10ms,loss=20%,reorder=5%:50ms");
     config.seed = seed;
     int count = 0;

@@ -18,7 +18,7 @@ constexpr int kSeeds = 6;
 
 TEST(Throttle, ASlowClientSimulatesItsShareAndOthersSeeLittleOfIt) {
   std::vector<double> ratios;
-  for (int seed = 1; seed <= Soak(kSeeds); ++seed) {
+  for (const int seed : SoakSeeds(1, kSeeds)) {
     const Throttled free = MeasureThrottled(1, seed), slow = MeasureThrottled(4, seed);
     std::printf("seed %d: load %.2f with %.1f bodies; a quarter as fast: %.2f with %.1f bodies\n",
                 seed, free.load, free.steps, slow.load, slow.steps);

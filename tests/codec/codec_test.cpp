@@ -70,7 +70,7 @@ TYPED_TEST(Codec, RoundTripsRandomContents) {
 }
 
 TYPED_TEST(Codec, RejectsEveryTruncationAndEveryTrailingByte) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(Soak(5)); ++seed) {
+  for (const std::uint64_t seed : SoakSeeds(0, 5)) {
     const Bytes bytes = Encode(Small<TypeParam>(seed));
     for (std::size_t size = 0; size < bytes.size(); ++size) {
       EXPECT_TRUE(Rejected(Bytes(bytes.begin(), bytes.begin() + static_cast<long>(size))));

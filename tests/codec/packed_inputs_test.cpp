@@ -58,7 +58,7 @@ void ExpectSame(const Inputs& got, const Inputs& sent) {
 }
 
 TEST(PackedInputs, UnpackToAnyInputsThatWerePacked) {
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(200)); ++seed) {
+  for (const std::uint64_t seed : SoakSeeds(1, 200)) {
     SCOPED_TRACE(seed);
     Random random(seed);
     std::vector<Inputs> all;

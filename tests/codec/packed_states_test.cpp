@@ -108,7 +108,7 @@ Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
 }
 
 TEST(PackedStates, ArriveAsTheyWereSentOverAnyNetwork) {
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(4)); ++seed) {
+  for (const std::uint64_t seed : SoakSeeds(1, 4)) {
     SCOPED_TRACE(seed);
     Send(seed, Path{}, 200);
     Send(seed, Path{0.2, 6, 0.1}, 400);

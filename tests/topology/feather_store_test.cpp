@@ -157,7 +157,7 @@ TEST(FeatherOutline, AWallOverManyCellsHasOneLinePerCellAndNoInnerEdge) {
 }
 
 TEST(FeatherOutline, AllCellsTogetherAreTheBoundaryOfTheUnion) {
-  for (int seed = 0; seed < Soak(40); ++seed) {
+  for (const int seed : SoakSeeds(0, 40)) {
     Random random(static_cast<std::uint64_t>(seed));
     std::vector<BrickField> fields;
     for (int i = 0; i < 12; ++i) {  // also overlapping, touching at corners, reaching over borders

@@ -213,7 +213,7 @@ Status Read(const Scene& scene, const std::vector<Snapshot>& parts, Topology* ou
 TEST(TopologyFold, RebuildsTheTopologyOfAllEdits) {
   const Scene scene = ParseScene(kScene, "fold.toml");
   int applied = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(60)); ++seed) {
+  for (const std::uint64_t seed : SoakSeeds(1, 60)) {
     SCOPED_TRACE(seed);
     RandomEdits edits(seed);
     Topology now(scene);
@@ -278,7 +278,7 @@ TEST(TopologyFold, DamagedSnapshotsAreRefusedOrAreValidWorlds) {
   const std::vector<Snapshot> good = SnapshotsOf(fold, now);
   const float kWild[] = {3e38f, -3e38f, 1e6f, NAN, INFINITY, -1, 0, 1e-30f};
   int refused = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(400)); ++seed) {
+  for (const std::uint64_t seed : SoakSeeds(1, 400)) {
     RandomEdits random(seed);
     std::vector<Snapshot> bad = good;
     Snapshot& part = bad[static_cast<std::size_t>(random.Below(static_cast<int>(bad.size())))];

@@ -39,7 +39,7 @@ TEST(JumpSeen, AnotherPlayersScreenShowsAJumpWithin300Ms) {
   const std::string ann = "name = \"ann\"\n";
   text.insert(text.find(ann) + ann.size(),
               "script = [[0.0, {}], [1.5, {lift = 1.0}], [1.8, {}]]\n");
-  for (int seed = 1; seed <= Soak(6); ++seed) {
+  for (const int seed : SoakSeeds(1, 6)) {
     ClusterConfig config;
     config.scene_text = text;
     config.impair = "4g";

@@ -37,7 +37,7 @@ class AgreementCluster : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(AgreementCluster, NoPairOfPeersDiffersForTwoSecondsAfterInputsAreKnown) {
   for (const char* impair : {"delay=100ms", "delay=200ms", "4g", "terrible"}) {
-    for (int seed = 1; seed <= Soak(4); ++seed) {
+    for (const int seed : SoakSeeds(1, 4)) {
       SCOPED_TRACE(std::string(impair) + " seed " + std::to_string(seed));
       Cluster cluster(Driven(GetParam(), impair, seed));
       AgreementWatch watch(cluster);
@@ -50,7 +50,7 @@ TEST_P(AgreementCluster, NoPairOfPeersDiffersForTwoSecondsAfterInputsAreKnown) {
 
 TEST_P(AgreementCluster, APeerThatWasAwayAgreesAgainWithinTwoSeconds) {
   for (const double away_s : {1.0, 3.5}) {
-    for (int seed = 1; seed <= Soak(2); ++seed) {
+    for (const int seed : SoakSeeds(1, 2)) {
       SCOPED_TRACE(std::to_string(away_s) + " s away, seed " + std::to_string(seed));
       Cluster cluster(Driven(GetParam(), "delay=100ms", seed));
       AgreementWatch watch(cluster);

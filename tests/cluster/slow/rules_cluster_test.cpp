@@ -77,7 +77,7 @@ std::map<std::string, int> Said(const Recording& recording) {
 
 TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersAgreeAtTheEnd) {
   for (const char* mode : {"buffer", "strict", "central", "oracle"}) {
-    for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+    for (const int seed : SoakSeeds(1, 2)) {
       Cluster cluster(With(Race(Coins()), mode, "4g", seed));
       cluster.Run();
       const std::map<std::string, int> said = Said(cluster.recording());

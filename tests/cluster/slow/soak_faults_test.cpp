@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -85,10 +86,19 @@ std::string Perform(const FaultPlan& plan) {
   return out.str();
 }
 
+/// Returns SEAM_SEEDS seeds from SEAM_SEED on, or those of the soak.
+std::vector<int> Seeds(int count) {
+  if (std::getenv("SEAM_SEED") == nullptr && std::getenv("SEAM_SEEDS") == nullptr) {
+    return SoakSeeds(1, count, kRunsMax);
+  }
+  std::vector<int> seeds(static_cast<std::size_t>(FromEnvironment("SEAM_SEEDS", 1)));
+  std::iota(seeds.begin(), seeds.end(), FromEnvironment("SEAM_SEED", 1));
+  return seeds;
+}
+
 void RunSeeds(bool narrow, int count, const char* filter) {
-  const bool soak = count > kRuns;
-  const int first = FromEnvironment("SEAM_SEED", 1);
-  const int runs = FromEnvironment("SEAM_SEEDS", std::getenv("SEAM_SEED") != nullptr ? 1 : count);
+  const bool soak = Soak(count) > kRuns;
+  const std::vector<int> seeds = Seeds(count);
   FaultChoice choice;
   choice.scenes = Scenes(narrow);
   choice.seconds =
@@ -96,11 +106,11 @@ void RunSeeds(bool narrow, int count, const char* filter) {
   choice.players = static_cast<int>(kPlayersMost);
   choice.narrow = narrow;
   const auto plan = [&](std::size_t n) {
-    return DrawFaults(static_cast<std::uint64_t>(first) + n, choice);
+    return DrawFaults(static_cast<std::uint64_t>(seeds[n]), choice);
   };
   int failed = 0;
   RunJobs(
-      static_cast<std::size_t>(runs), FromEnvironment("SEAM_JOBS", 2),
+      seeds.size(), FromEnvironment("SEAM_JOBS", 2),
       [&](std::size_t n) { return Perform(plan(n)); },
       [&](std::size_t n, const JobResult& result) {
         const std::size_t end = result.text.rfind('\n');
@@ -109,22 +119,22 @@ void RunSeeds(bool narrow, int count, const char* filter) {
         if (!good || all) std::printf("%s%s\n", good ? "" : "FAILED ", result.text.c_str());
         if (!result.good) std::printf("  %s\n", plan(n).name.c_str());
         if (!good)
-          std::printf("  repeat: SEAM_SEED=%zu SEAM_SECONDS=%.0f seam-tests --gtest_filter='%s'\n",
-                      static_cast<std::size_t>(first) + n, choice.seconds, filter);
+          std::printf("  repeat: SEAM_SEED=%d SEAM_SECONDS=%.0f seam-tests --gtest_filter='%s'\n",
+                      seeds[n], choice.seconds, filter);
         std::fflush(stdout);
         failed += good ? 0 : 1;
       },
       [] { return false; });
-  EXPECT_EQ(failed, 0) << "of " << runs << " seeds";
+  EXPECT_EQ(failed, 0) << "of " << seeds.size() << " seeds";
 }
 
 TEST(SoakFaultsCluster, EverySeedKeepsItsInvariantsAtEveryInstant) {
-  RunSeeds(false, std::min(Soak(kRuns), kRunsMax), "SoakFaults*");
+  RunSeeds(false, kRuns, "SoakFaults*");
 }
 
 /// The invariants also hold with the omissions and delays of large rooms.
 TEST(SoakNarrowCluster, EverySeedKeepsItsInvariantsInLargeRoomsAndNarrowOnes) {
-  RunSeeds(true, std::min(Soak(kNarrowRuns), kRunsMax), "SoakNarrow*");
+  RunSeeds(true, kNarrowRuns, "SoakNarrow*");
 }
 
 }  // namespace soak_faults_test

@@ -131,7 +131,7 @@ TEST(SoakCluster, NothingExplodesTearsOrGetsLostInAnyScene) {
   const std::vector<std::string> scenes = Scenes();
   ASSERT_TRUE(scenes.size() > 10 || std::getenv("SEAM_SOAK_SCENE") != nullptr);
   std::vector<Session> runs;
-  for (int n = 0; n < std::min(Soak(kRuns), kRunsMax); ++n) {
+  for (const int n : SoakSeeds(0, kRuns, kRunsMax)) {
     runs.push_back(Plan(scenes, static_cast<std::size_t>(n)));
   }
   const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -80,7 +80,7 @@ void ExpectOneAuthority(Cluster* cluster) {
 class TopologyUnder : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
-  for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
+  for (const int seed : SoakSeeds(1, 3)) {
     ClusterConfig config;
     config.scene_text = kBar;
     config.reconcile = "retrospect";

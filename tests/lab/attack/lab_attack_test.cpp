@@ -35,7 +35,7 @@ double ActedAfterS(const AttackOutcome& outcome) {
 TEST(Attack, AGrossLiarLosesItsBodiesWithinFiveSeconds) {
   for (const char* attack : {"x1.2", "x1.5", "ram", "vel10", "fly", "lift", "freeze", "tear"}) {
     for (const char* impair : {"perfect", "4g"}) {
-      for (int seed = 1; seed <= Soak(1); ++seed) {
+      for (const int seed : SoakSeeds(1, 1)) {
         SCOPED_TRACE(std::string(attack) + " over " + impair);
         const AttackOutcome outcome = RunAttack(Room(impair, seed), attack);
         EXPECT_GT(outcome.lies, 10);
@@ -50,7 +50,7 @@ TEST(Attack, AGrossLiarLosesItsBodiesWithinFiveSeconds) {
 TEST(Attack, ATeleportWinsNoCoin) {
   for (const char* attack : {"silence", "firstword"}) {
     for (const char* impair : {"perfect", "demo", "terrible"}) {
-      for (int seed = 1; seed <= Soak(1); ++seed) {
+      for (const int seed : SoakSeeds(1, 1)) {
         SCOPED_TRACE(std::string(attack) + " over " + impair);
         const AttackOutcome outcome = RunAttack(Room(impair, seed), attack);
         EXPECT_GT(outcome.lies, 10);
@@ -62,7 +62,7 @@ TEST(Attack, ATeleportWinsNoCoin) {
 }
 
 TEST(Attack, ASlightlyFasterCarIsFoundWithinHalfAMinute) {
-  for (int seed = 1; seed <= Soak(1); ++seed) {
+  for (const int seed : SoakSeeds(1, 1)) {
     ClusterConfig config = Room("demo", seed);
     config.duration_s = 33;
     config.drive = Drive::kBot;
@@ -109,7 +109,7 @@ axis = "drive"
 /// An engine that is 2 % too strong differs by 3 mm/s in each message: only the sum shows it.
 TEST(Attack, AnEngineThatIsALittleTooStrongIsFound) {
   for (const char* impair : {"perfect", "4g", "terrible"}) {
-    for (int seed = 1; seed <= Soak(1); ++seed) {
+    for (const int seed : SoakSeeds(1, 1)) {
       ClusterConfig config = Room(impair, seed);
       config.scene = "ships";
       config.scene_text = kShips;
@@ -178,7 +178,7 @@ repeat = {count = 3, step = [1.5, 0]}
 
 TEST(Attack, AFalseStateAtAHandOverIsRefused) {
   for (const char* impair : {"perfect", "demo", "4g", "terrible"}) {
-    for (int seed = 1; seed <= Soak(1); ++seed) {
+    for (const int seed : SoakSeeds(1, 1)) {
       SCOPED_TRACE(impair);
       const AttackOutcome honest = RunAttack(RoomOfBalls(impair, seed), "none");
       EXPECT_EQ(honest.refused, 0);
@@ -192,7 +192,7 @@ TEST(Attack, AFalseStateAtAHandOverIsRefused) {
 
 TEST(Attack, AHolderThatDoesNotLetGoHoldsNothing) {
   for (const char* impair : {"perfect", "demo", "4g", "terrible"}) {
-    for (int seed = 1; seed <= Soak(1); ++seed) {
+    for (const int seed : SoakSeeds(1, 1)) {
       SCOPED_TRACE(impair);
       const AttackOutcome outcome = RunAttack(RoomOfBalls(impair, seed), "withhold");
       EXPECT_GT(outcome.lies, 0);

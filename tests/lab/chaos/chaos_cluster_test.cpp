@@ -22,7 +22,7 @@ TEST(ChaosCluster, EverySeedKeepsItsInvariantsThroughDeathsOfTheServer) {
   ChaosChoice choice;
   choice.seconds = kSeconds;
   int restarts = 0;
-  for (int seed = kFirst; seed < kFirst + Soak(kSeeds); ++seed) {
+  for (const int seed : SoakSeeds(kFirst, kSeeds)) {
     const ChaosOutcome outcome = RunChaos(static_cast<std::uint64_t>(seed), choice);
     restarts += outcome.restarts;
     for (const std::string& line : outcome.broken) ADD_FAILURE() << outcome.name << ": " << line;

@@ -29,7 +29,7 @@ class TitleOfScene : public ::testing::TestWithParam<Title> {
 };
 
 TEST_P(TitleOfScene, IsTrueOnEveryScreenUnder4g) {
-  for (int seed = 1; seed <= Soak(2); ++seed) {
+  for (const int seed : SoakSeeds(1, 2)) {
     EXPECT_EQ(MissedBy(GetParam(), Play(seed, 0)), "") << "seed " << seed;
   }
 }

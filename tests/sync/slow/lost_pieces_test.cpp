@@ -56,7 +56,7 @@ TEST(LostPiecesCluster, NoCorrectionTakesAPieceThroughTheGround) {
   for (const std::uint64_t seed : {39u, 42u, 45u, 46u}) {
     EXPECT_EQ(Lost(seed, "retrospect"), 0) << "seed " << seed;
   }
-  for (int seed = 1; seed <= Soak(1); ++seed) {
+  for (const int seed : SoakSeeds(1, 1)) {
     for (const char* rule : {"retrospect", "fade", "rollback"}) {
       EXPECT_EQ(Lost(static_cast<std::uint64_t>(seed), rule), 0) << rule << ", seed " << seed;
     }
@@ -102,7 +102,7 @@ at = {5}
 }
 
 TEST(LostPiecesCluster, PostsThatAreBlownApartTwiceLieOnTheGround) {
-  for (int seed = 1; seed <= Soak(2); ++seed) {
+  for (const int seed : SoakSeeds(1, 2)) {
     for (const double impulse : {6.0, 15.0, 40.0}) {
       ClusterConfig config;
       config.scene_text = Posts(impulse);
