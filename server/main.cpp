@@ -23,6 +23,7 @@
 #include "server/fleet/fleet_host.h"
 #include "server/hub/hub.h"
 #include "server/hub/progress.h"
+#include "server/metrics_page.h"
 #include "server/saved/resumed_room.h"
 #include "server/server_flags.h"
 
@@ -30,9 +31,6 @@ namespace {
 
 using namespace seam;
 using Flags = ServerFlags;
-
-/// Time between two polls for requests of the metrics page, us.
-constexpr std::int64_t kPageUs = 5000;
 
 /// Returns the key with which logs are sealed; nullptr: none.
 std::shared_ptr<const Secret> KeyOfLogs(const Flags& f) {
@@ -207,13 +205,13 @@ std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key, FleetMemb
 struct Shared {
   std::shared_ptr<const KeyPair> identity;
   std::shared_ptr<const Secret> token_key, log_key;
-  std::shared_ptr<StoreWriter> store;
+  std::vector<std::shared_ptr<SessionWriter>> writers;
 
   void GiveTo(RoomPlan* plan) const {
     plan->config.identity = identity;
     plan->config.token_key = token_key;
     plan->log_key = log_key;
-    plan->store = store;
+    plan->writers = writers;
   }
 };
 
@@ -232,7 +230,11 @@ Shared MakeShared(const Flags& f) {
   }
   if (!f.store.empty()) {
     RequirePlainFile(f.store);
-    shared.store = std::make_shared<StoreWriter>(f.store);
+    shared.writers.push_back(WriteIntoStore(f.store));
+  }
+  if (!f.events.empty()) {
+    RequirePlainFile(f.events);
+    shared.writers.push_back(WriteEvents(f.events));
   }
   return shared;
 }
@@ -287,10 +289,7 @@ int Serve(const Flags& f) {
   if (f.workers > 0 && rooms == 1 && !fleet) {
     throw OperatorError("--workers: one room has one thread");
   }
-  std::unique_ptr<HttpPage> page;
-  if (f.metrics_port > 0) {
-    page = std::make_unique<HttpPage>(static_cast<std::uint16_t>(f.metrics_port));
-  }
+  MetricsPage page(f);
   Hub hub(plans, udp, shared->identity);
   StopOnSignals();
   const int workers = f.workers > 0 ? f.workers : CoreCount();
@@ -301,15 +300,11 @@ int Serve(const Flags& f) {
     member->Start();
   }
   ProgressLine line(f.quiet);
-  std::int64_t page_us = 0;
   while (g_stop == 0 && (fleet || !hub.done())) {
     const std::int64_t now = SteadyClockUs();
     hub.Poll(now);
     if (fleet) FollowFleet(*member, hub);
-    if (page != nullptr && now - page_us >= kPageUs) {
-      page_us = now;
-      page->Poll(now, [&] { return WriteLoadPage(hub.Loads()) + FleetPage(member.get()); });
-    }
+    page.Poll(now, hub, member.get());
     for (const std::string& news : hub.TakeReports()) {
       line.End();
       PrintError("seam-server", news);
@@ -321,7 +316,7 @@ int Serve(const Flags& f) {
   if (g_stop != 0 && !f.drain_to.empty()) DrainRooms(f, member.get(), hub);
   hub.Close();
   member.reset();
-  if (shared->store != nullptr) shared->store->Finish();
+  for (const auto& writer : shared->writers) writer->Finish();
   return ReportEnd(hub, f.summary);
 }
 

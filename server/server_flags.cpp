@@ -66,6 +66,11 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
   app.Option("--metrics", f.metrics_port,
              "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
       .Range(1, 65535);
+  app.Option("--metrics-bind", f.metrics_bind,
+             "numeric address of that page, such as 10.0.0.1 or :: (default: loopback); whoever "
+             "reaches it can read it");
+  app.Option("--metrics-rooms", f.metrics_rooms,
+             "rooms on that page: all, or worst:N, the N latest ones");
   app.Option("--identity", f.identity,
              "keep the server's key in this file (mode 0600; made if there is none), so that it is "
              "the same after a restart");
@@ -101,6 +106,8 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
              "have no rooms: send each client to the server of the --directory that has its room");
   app.Option("--store", f.store,
              "put sessions, players, scores and events into this SQLite database (seam-log top)");
+  app.Option("--events", f.events,
+             "append the events of all rooms to this file, a line of JSON each, once a second");
   app.Option("--summary", f.summary,
              "write the sums of the sessions to this file at the end, as JSON");
   app.Switch("--force", f.force,

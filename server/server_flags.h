@@ -29,6 +29,7 @@ struct ServerFlags {
   std::string state;   // folder to keep the rooms in
   std::string resume;  // the same, of rooms to go on with
   std::string store;   // database of past sessions
+  std::string events;
   std::string summary;  // file for the sums of the sessions
   std::string lcm_url;
   std::string publish = "all";
@@ -38,6 +39,8 @@ struct ServerFlags {
   int workers = 0;
   std::string bus_rooms = "first";
   int metrics_port = 0;
+  std::string metrics_bind;
+  std::string metrics_rooms = "all";
   std::string trust = "act";
   std::string identity, token_key, log_key;
   std::string drain_to;   // address at which the rooms go on after SIGTERM; "fleet": any server's

@@ -66,7 +66,7 @@ bool ReadAll(int fd, std::int64_t deadline_us, std::string* text) {
 
 }  // namespace
 
-HttpPage::HttpPage(std::uint16_t port) : server_(port) {}
+HttpPage::HttpPage(std::uint16_t port, const std::string& bind) : server_(port, bind) {}
 
 void HttpPage::Poll(std::int64_t now_us, const Render& render) {
   server_.Poll(now_us, [&render](const HttpRequest& request) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Serves one page of text over HTTP to a scraper on this machine: loopback only, GET only.
+/// Serves one page of text over HTTP to a scraper, GET only.
 
 #include <cstdint>
 #include <functional>
@@ -12,8 +12,8 @@ namespace seam {
 
 class HttpPage {
  public:
-  /// Listens on 127.0.0.1 (port 0: any). Throws OperatorError ("port 9464 is in use: ...").
-  explicit HttpPage(std::uint16_t port);
+  /// Listens as HttpServer does: on loopback, or at the address `bind`. Throws OperatorError.
+  explicit HttpPage(std::uint16_t port, const std::string& bind = "");
 
   using Render = std::function<std::string()>;
   /// Answers without waiting, at `now_us`, as HttpServer::Poll does. Calls `render` for each GET of

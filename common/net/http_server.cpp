@@ -1,6 +1,6 @@
 #include "common/net/http_server.h"
 
-#include <arpa/inet.h>
+#include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -110,16 +111,24 @@ bool Parse(const std::string& text, HttpRequest* request) {
   return true;
 }
 
-/// Opens a listening socket; -1 on failure, with errno.
-int Listen(const sockaddr* address, socklen_t bytes) {
-  const int fd = socket(address->sa_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0) return -1;
-  const int yes = 1;
-  (void)setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  if (address->sa_family == AF_INET6) {
-    (void)setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &yes, sizeof yes);
+/// Opens a listening socket at a numeric address; -1 on failure, with errno. Of "::", for IPv4 too.
+int Listen(const std::string& host, std::uint16_t port) {
+  addrinfo hints{}, *found = nullptr;
+  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
+  hints.ai_socktype = SOCK_STREAM;
+  if (getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
+    errno = EADDRNOTAVAIL;
+    return -1;
   }
-  if (bind(fd, address, bytes) == 0 &&
+  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> address(found, freeaddrinfo);
+  const int fd = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd < 0) return -1;
+  const int yes = 1, no = 0;
+  (void)setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  if (found->ai_family == AF_INET6) {
+    (void)setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, host == "::" ? &no : &yes, sizeof yes);
+  }
+  if (bind(fd, found->ai_addr, found->ai_addrlen) == 0 &&
       listen(fd, static_cast<int>(HttpServer::kConnectionsMax)) == 0)
     return fd;
   const int error = errno;
@@ -131,14 +140,12 @@ int Listen(const sockaddr* address, socklen_t bytes) {
 }  // namespace
 
 struct HttpServer::Impl {
-  int doors[2] = {-1, -1};  // of IPv4 and IPv6
+  std::vector<int> doors;  // sockets that listen
   std::vector<Connection> connections;
 
   ~Impl() {
     for (const Connection& connection : connections) close(connection.fd);
-    for (const int door : doors) {
-      if (door >= 0) close(door);
-    }
+    for (const int door : doors) close(door);
   }
 
   std::size_t Streams() const {
@@ -150,7 +157,7 @@ struct HttpServer::Impl {
   /// makes a socket first.
   static bool Pending(int door) {
     pollfd waiting{door, POLLIN, 0};
-    return door >= 0 && poll(&waiting, 1, 0) > 0;
+    return poll(&waiting, 1, 0) > 0;
   }
 
   void Accept(std::int64_t now_us) {
@@ -210,23 +217,19 @@ struct HttpServer::Impl {
   }
 };
 
-HttpServer::HttpServer(std::uint16_t port) : impl_(std::make_unique<Impl>()) {
-  sockaddr_in four{};
-  four.sin_family = AF_INET;
-  four.sin_port = htons(port);
-  four.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  impl_->doors[0] = Listen(reinterpret_cast<const sockaddr*>(&four), sizeof four);
-  if (impl_->doors[0] < 0) {
-    const std::string where = "port " + std::to_string(port);
+HttpServer::HttpServer(std::uint16_t port, const std::string& bind)
+    : impl_(std::make_unique<Impl>()) {
+  const int door = Listen(bind.empty() ? "127.0.0.1" : bind, port);
+  if (door < 0) {
+    const std::string where = (bind.empty() ? "" : bind + " ") + "port " + std::to_string(port);
     throw OperatorError(errno == EADDRINUSE
                             ? where + " is in use: stop the program that has it or choose another"
                             : "cannot serve a page at " + where + ": " + std::strerror(errno));
   }
-  sockaddr_in6 six{};
-  six.sin6_family = AF_INET6;
-  six.sin6_port = htons(this->port());
-  six.sin6_addr = in6addr_loopback;
-  impl_->doors[1] = Listen(reinterpret_cast<const sockaddr*>(&six), sizeof six);
+  impl_->doors.push_back(door);
+  if (!bind.empty()) return;
+  const int six = Listen("::1", this->port());
+  if (six >= 0) impl_->doors.push_back(six);
 }
 
 HttpServer::~HttpServer() = default;
@@ -248,9 +251,8 @@ void HttpServer::Poll(std::int64_t now_us, const Handle& handle, const Next& nex
 
 void HttpServer::Wait(std::int64_t timeout_us, int other_fd) const {
   std::vector<pollfd> waiting;
-  for (const int fd : {impl_->doors[0], impl_->doors[1], other_fd}) {
-    if (fd >= 0) waiting.push_back({fd, POLLIN, 0});
-  }
+  for (const int door : impl_->doors) waiting.push_back({door, POLLIN, 0});
+  if (other_fd >= 0) waiting.push_back({other_fd, POLLIN, 0});
   for (const Connection& connection : impl_->connections) {
     const bool sends = connection.answer != nullptr && connection.sent < connection.answer->size();
     waiting.push_back({connection.fd, static_cast<short>(sends ? POLLIN | POLLOUT : POLLIN), 0});
@@ -259,10 +261,12 @@ void HttpServer::Wait(std::int64_t timeout_us, int other_fd) const {
 }
 
 std::uint16_t HttpServer::port() const {
-  sockaddr_in address{};
+  sockaddr_storage address{};
   socklen_t bytes = sizeof address;
   (void)getsockname(impl_->doors[0], reinterpret_cast<sockaddr*>(&address), &bytes);
-  return ntohs(address.sin_port);
+  // The port has the same place in addresses of both families.
+  static_assert(offsetof(sockaddr_in, sin_port) == offsetof(sockaddr_in6, sin6_port));
+  return ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
 
 bool IsLoopbackHost(const std::string& host) {

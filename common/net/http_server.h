@@ -1,6 +1,6 @@
 #pragma once
-/// A small HTTP server for programs on this machine: listens on the loopback addresses only, one
-/// request per connection, answers and endless streams of events; no call blocks.
+/// A small HTTP server, for programs on this machine unless told otherwise: one request per
+/// connection, answers and endless streams of events; no call blocks.
 
 #include <cstdint>
 #include <functional>
@@ -27,9 +27,9 @@ struct HttpResponse {
 
 class HttpServer {
  public:
-  /// Listens on 127.0.0.1 and, where there is one, on ::1 (port 0: any). Throws OperatorError
-  /// ("port 8080 is in use: ...").
-  explicit HttpServer(std::uint16_t port);
+  /// Listens on 127.0.0.1 and, where there is one, on ::1 (port 0: any), or on the one numeric
+  /// address `bind`, of which "::" stands for all. Throws OperatorError ("port 8080 is in use: ...").
+  explicit HttpServer(std::uint16_t port, const std::string& bind = "");
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;

@@ -89,6 +89,8 @@ const OfConnections kConnections[] = {
      &Connections::doubts},
     {"seam_distrusted", "gauge", "Players whose bodies the server holds for their doubts.",
      &Connections::distrusted},
+    {"seam_recording_failed", "gauge", "1: the log, a snapshot or the store cannot be written.",
+     &Connections::unkept},
 };
 
 constexpr const char* kDropped = "seam_dropped_total";

@@ -23,6 +23,7 @@ struct Connections {
   std::int64_t loadless = 0;      ///< proposed breaks of glue that bore no load
   std::int64_t doubts = 0;        ///< messages with states that differ from what is expected
   std::int64_t distrusted = 0;    ///< players whose bodies the server holds now for their doubts
+  std::int64_t unkept = 0;        ///< 1: the log, a snapshot or the store could not be written
 };
 
 struct RoomLoad {

@@ -118,12 +118,4 @@ void DrainRooms(const ServerFlags& f, FleetMember* member, Hub& hub) {
   });
 }
 
-std::string FleetPage(const FleetMember* member) {
-  if (member == nullptr) return "";
-  return std::string(
-             "# HELP seam_directory_up 1 if the directory of the fleet answered last\n"
-             "# TYPE seam_directory_up gauge\nseam_directory_up ") +
-         (member->up() ? "1\n" : "0\n");
-}
-
 }  // namespace seam

@@ -20,7 +20,5 @@ FleetMember::Config MemberOf(const ServerFlags& flags, const Address& local);
 void FollowFleet(FleetMember& member, Hub& hub);
 /// Ends the rooms here, and sends their clients to --drain-to. `member`: nullptr: no directory.
 void DrainRooms(const ServerFlags& flags, FleetMember* member, Hub& hub);
-/// Returns the fleet's part of the page of metrics; "" without a member.
-std::string FleetPage(const FleetMember* member);
 
 }  // namespace seam

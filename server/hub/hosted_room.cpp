@@ -48,7 +48,7 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
   } else {
     server_ = std::make_unique<Server>(*plan.resumed->saved, plan_.config, net, sink_, entropy_);
   }
-  if (plan.store != nullptr) server_->chronicle().Keep();
+  if (!plan.writers.empty()) server_->chronicle().Keep();
   if (plan.resumed == nullptr) return;
   GoOn(*plan.resumed);
   // In a log of its own the ticks before are not: they are in a snapshot.
@@ -76,7 +76,11 @@ void HostedRoom::GoOn(const ResumedRoom& resumed) {
 Status HostedRoom::trouble() const {
   if (!sink_.trouble().ok()) return sink_.trouble();
   if (keeper_ != nullptr && !keeper_->trouble().ok()) return keeper_->trouble();
-  return plan_.store != nullptr ? plan_.store->trouble() : Status::Ok();
+  for (const auto& writer : plan_.writers) {
+    const Status status = writer->trouble();
+    if (!status.ok()) return status;
+  }
+  return Status::Ok();
 }
 
 void HostedRoom::Run(std::int64_t now_us) {
@@ -191,12 +195,11 @@ void HostedRoom::Tell(std::int64_t now_us) {
   if (plan_.alone) watch_.NoteCpu(CpuUs() - watch_.cpu_us());
   const Load load = watch_.Tell(now_us, *server_);
   server_->PublishLoad(load);
-  if (plan_.store != nullptr) {
-    PutIntoStore(server_->Sum(now_us), server_->chronicle().TakeEvents());
-  }
+  if (!plan_.writers.empty()) Put(server_->Sum(now_us), server_->chronicle().TakeEvents());
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_.load = load;
   newest_.connections = server_->connections();
+  newest_.connections.unkept = trouble_reported_ ? 1 : 0;
 }
 
 /// Prefixes each event with its time: "12.3 s: bob is gone: left".
@@ -253,14 +256,14 @@ void HostedRoom::Close(std::int64_t now_us) {
 void HostedRoom::TakeSummaries() {
   for (Summary& summary : server_->chronicle().TakeEnded()) {
     const bool ours = summary.of == server_->room().session;
-    if (plan_.store != nullptr) {
-      PutIntoStore(summary, ours ? server_->chronicle().TakeEvents() : std::vector<Event>());
+    if (!plan_.writers.empty()) {
+      Put(summary, ours ? server_->chronicle().TakeEvents() : std::vector<Event>());
     }
     summaries_.push_back(std::move(summary));
   }
 }
 
-void HostedRoom::PutIntoStore(const Summary& summary, std::vector<Event> events) {
+void HostedRoom::Put(const Summary& summary, std::vector<Event> events) {
   StoredSession part;
   part.room = plan_.config.room;
   part.scene = plan_.scene.name;
@@ -270,7 +273,7 @@ void HostedRoom::PutIntoStore(const Summary& summary, std::vector<Event> events)
   part.now_us = WallClockUs();
   part.summary = summary;
   part.events = std::move(events);
-  plan_.store->Put(std::move(part));
+  for (const auto& writer : plan_.writers) writer->Put(part);
 }
 
 bool HostedRoom::DrainNetwork(std::int64_t now_us) {

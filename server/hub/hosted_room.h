@@ -12,7 +12,7 @@
 #include "common/net/impair.h"
 #include "common/record/load_page.h"
 #include "common/record/sink.h"
-#include "common/record/store/store.h"
+#include "common/record/store/session_writer.h"
 #include "server/hub/lanes.h"
 #include "server/hub/room_net.h"
 #include "server/load/load_watch.h"
@@ -33,7 +33,7 @@ struct RoomPlan {
   bool force = false;
   std::string state;  ///< folder in which the room is kept, with its log; "": none
   std::shared_ptr<const ResumedRoom> resumed;  ///< the room to go on with; null: it begins
-  std::shared_ptr<StoreWriter> store;          ///< that the sessions are put into; null: none
+  std::vector<std::shared_ptr<SessionWriter>> writers;  ///< that the sessions are put into
   bool alone = true;  ///< only room of the program: reports the program's CPU time
   bool news = true;   ///< reports players that come and go
 };
@@ -83,7 +83,7 @@ class HostedRoom : public Runnable {
   const Scene& scene() const { return plan_.scene; }
   const ServerConfig& config() const { return plan_.config; }
   const Sink& sink() const { return sink_; }
-  /// Returns the first failure to write the log, a snapshot or the store.
+  /// Returns the first failure to write the log, a snapshot, the store or events.
   Status trouble() const;
   /// The room's snapshots; nullptr if it is not kept.
   const RoomKeeper* keeper() const { return keeper_.get(); }
@@ -103,7 +103,7 @@ class HostedRoom : public Runnable {
   void EndIfDone(std::int64_t now_us);
   void GoOn(const ResumedRoom& resumed);
   void TakeSummaries();
-  void PutIntoStore(const Summary& summary, std::vector<Event> events);
+  void Put(const Summary& summary, std::vector<Event> events);
 
   const RoomPlan plan_;
   RoomNet net_;

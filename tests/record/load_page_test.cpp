@@ -49,7 +49,8 @@ RoomLoad RandomRoom(const std::string& name, RandomMessages* messages, Random* t
     *histogram = RandomTicks(ticks);
   }
   for (auto* n : {&connections.compositions, &connections.rests, &connections.least_line,
-                  &connections.thin_lines, &connections.doubts, &connections.distrusted}) {
+                  &connections.thin_lines, &connections.doubts, &connections.distrusted,
+                  &connections.unkept}) {
     *n = static_cast<std::int64_t>(ticks->Next() >> 30);
   }
   return {name, RandomLoad(messages), RandomTicks(ticks), RandomTicks(ticks), connections};
@@ -83,7 +84,7 @@ TEST(LoadPage, ReadsBackAWrittenPage) {
       }
       for (const auto of :
            {&Connections::compositions, &Connections::rests, &Connections::least_line,
-            &Connections::thin_lines, &Connections::doubts, &Connections::distrusted}) {
+            &Connections::thin_lines, &Connections::doubts, &Connections::distrusted, &Connections::unkept}) {
         EXPECT_EQ(back.*of, written.*of);
       }
       for (const auto of : {&RoomLoad::tick, &RoomLoad::late}) {

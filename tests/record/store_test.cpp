@@ -1,6 +1,6 @@
 /// The database of past sessions.
 
-#include "common/record/store/store.h"
+#include "common/record/store/session_writer.h"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -122,34 +122,34 @@ TEST(Store, AnOlderFileIsBroughtUpToDate) {
   EXPECT_EQ(store.Ranks("", RankBy::kScore, 10).size(), 2u);
 }
 
-TEST(StoreWriter, AFailureIsSaidOnceAndNothingIsWrittenAfterIt) {
+TEST(SessionWriter, AFailureIsSaidOnceAndNothingIsWrittenAfterIt) {
   LabWorkspace folder;
   Execute(folder / "foreign.db", "CREATE TABLE cats (name TEXT)");
-  StoreWriter writer(folder / "foreign.db");
-  writer.Put(Part(1, 1, 1, 1));
-  writer.Finish();
-  EXPECT_NE(writer.trouble().why().find("foreign.db: is not a store"), std::string::npos);
-  StoreWriter good(folder / "good.db");
-  for (int i = 0; i < 20; ++i) good.Put(Part(i, 1, 1, 1));
-  good.Finish();
-  EXPECT_TRUE(good.trouble().ok()) << good.trouble().why();
+  const auto writer = WriteIntoStore(folder / "foreign.db");
+  writer->Put(Part(1, 1, 1, 1));
+  writer->Finish();
+  EXPECT_NE(writer->trouble().why().find("foreign.db: is not a store"), std::string::npos);
+  const auto good = WriteIntoStore(folder / "good.db");
+  for (int i = 0; i < 20; ++i) good->Put(Part(i, 1, 1, 1));
+  good->Finish();
+  EXPECT_TRUE(good->trouble().ok()) << good->trouble().why();
   EXPECT_EQ(Store(folder / "good.db", Store::Use::kRead).Sessions("", 100).size(), 20u);
 }
 
-TEST(StoreWriter, PuttingDoesNotWaitForAnotherProgramThatHasTheFile) {
+TEST(SessionWriter, PuttingDoesNotWaitForAnotherProgramThatHasTheFile) {
   LabWorkspace folder;
   { Store store(folder / "a.db", Store::Use::kWrite); }
   sqlite3* other = nullptr;
   ASSERT_EQ(sqlite3_open((folder / "a.db").c_str(), &other), SQLITE_OK);
-  StoreWriter writer(folder / "a.db");
+  const auto writer = WriteIntoStore(folder / "a.db");
   ASSERT_EQ(sqlite3_exec(other, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
   const std::int64_t begin_us = SteadyClockUs();
-  writer.Put(Part(1, 1, 1, 1));
+  writer->Put(Part(1, 1, 1, 1));
   EXPECT_LT(SteadyClockUs() - begin_us, 100000);
   ASSERT_EQ(sqlite3_exec(other, "COMMIT", nullptr, nullptr, nullptr), SQLITE_OK);
   sqlite3_close(other);
-  writer.Finish();
-  EXPECT_TRUE(writer.trouble().ok()) << writer.trouble().why();
+  writer->Finish();
+  EXPECT_TRUE(writer->trouble().ok()) << writer->trouble().why();
 }
 
 }  // namespace store_test

@@ -3,14 +3,11 @@
 /// describes the tables.
 
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "common/base/status.h"
 #include "common/codec/messages.h"
-#include "common/record/disk_thread.h"
 
 struct sqlite3;
 
@@ -71,28 +68,6 @@ class Store {
 
   const std::string path_;
   sqlite3* db_ = nullptr;
-};
-
-/// Puts sessions into a store, in a thread of its own: no tick waits. All of it is thread-safe.
-class StoreWriter {
- public:
-  explicit StoreWriter(std::string path);
-  /// Queues a part.
-  void Put(StoredSession part);
-  /// Returns the first failure; nothing is written after it.
-  Status trouble() const;
-  /// Waits until everything queued is written.
-  void Finish();
-
- private:
-  struct Shared {
-    mutable std::mutex mutex;  // guards trouble
-    Status trouble;
-    std::unique_ptr<Store> store;  // used by the thread alone
-  };
-  const std::string path_;
-  std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
-  std::unique_ptr<DiskThread> thread_ = std::make_unique<DiskThread>();
 };
 
 }  // namespace seam
