@@ -66,6 +66,8 @@ DEBS_deb := dpkg-dev
 # For the tests that open a review page; without it they are skipped. It is 2 minutes, so CI alone installs it.
 DEBS_browser := chromium
 DEBS_coverage := gcovr
+# promtool, for the test of the alerts; without it that is skipped.
+DEBS_alerts := prometheus
 DEBS_spy := liblcm-java libjchart2d-java $(if $(shell command -v javac),,default-jdk)
 DEBS_format := clang-format git
 DEBS_hashes := clang
@@ -509,6 +511,9 @@ install-built:                       ## the same, of what is built: builds nothi
 	install -d '$(DEST)/share/seam2d/cluster' '$(DEST)/share/seam2d/lcmtypes'
 	install -m 755 tests/lab/shards/seam-sweep-parallel tests/lab/shards/seam-sweep.sbatch '$(DEST)/share/seam2d/cluster'
 	install -m 644 $(LCM_TYPES) '$(DEST)/share/seam2d/lcmtypes'
+	install -d '$(DEST)/share/seam2d/deploy'
+	install -m 644 server/deploy/* '$(DEST)/share/seam2d/deploy'
+	sed -i 's|/usr/local|$(PREFIX)|g' '$(DEST)/share/seam2d/deploy/seam-server@.service'
 	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
 	strip --strip-debug '$(DEST)/lib/libseam.a'
 	install -s -m 644 $(SHARED) '$(DEST)/lib'

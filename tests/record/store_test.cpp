@@ -1,14 +1,15 @@
 /// The database of past sessions.
 
-#include "common/record/store/session_writer.h"
-
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "common/base/process.h"
+#include "common/record/store/session_writer.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
@@ -134,6 +135,30 @@ TEST(SessionWriter, AFailureIsSaidOnceAndNothingIsWrittenAfterIt) {
   good->Finish();
   EXPECT_TRUE(good->trouble().ok()) << good->trouble().why();
   EXPECT_EQ(Store(folder / "good.db", Store::Use::kRead).Sessions("", 100).size(), 20u);
+}
+
+TEST(SessionWriter, EventsAreALineOfJsonEach) {
+  LabWorkspace folder;
+  const auto writer = WriteEvents(folder / "events.json");
+  StoredSession part = Part(1, 1, 1, 1);
+  part.events[1].tick = 90;
+  writer->Put(part);
+  writer->Finish();
+  EXPECT_TRUE(writer->trouble().ok()) << writer->trouble().why();
+  // A second server goes on with the file.
+  const auto second = WriteEvents(folder / "events.json");
+  second->Put(part);
+  second->Finish();
+  const std::string lines = ReadPlainFile(folder / "events.json", 1 << 20);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 4) << lines;
+  EXPECT_EQ(lines.find("{\"room\":\"main\",\"scene\":\"rally\",\"tick\":"), 0u) << lines;
+  EXPECT_NE(lines.find("\"tick\":90,\"time_s\":1.5,\"kind\":\"script\""), std::string::npos)
+      << lines;
+  EXPECT_NE(lines.find("it's \\\"gold\\\""), std::string::npos) << lines;
+  const auto nowhere = WriteEvents(folder / "none/events.json");
+  nowhere->Put(part);
+  nowhere->Finish();
+  EXPECT_NE(nowhere->trouble().why().find("events.json: cannot be written"), std::string::npos);
 }
 
 TEST(SessionWriter, PuttingDoesNotWaitForAnotherProgramThatHasTheFile) {
