@@ -22,15 +22,20 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
+/// Longest wait for the lock.
+constexpr std::int64_t kLockUs = 2000000;
+
 /// Holds the folder's lock while it lives.
 class FolderLock {
  public:
   explicit FolderLock(const std::string& path)
       : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
-    // Blocks, so that the kernel serves those who wait in turn; nobody holds it for long.
+    // Everybody holds it for milliseconds; one that does not must not hold up a server's end.
+    const std::int64_t until_us = SteadyClockUs() + kLockUs;
     while (fd_ >= 0 && !locked_) {
-      locked_ = flock(fd_, LOCK_EX) == 0;
-      if (!locked_ && errno != EINTR) return;
+      locked_ = flock(fd_, LOCK_EX | LOCK_NB) == 0;
+      if (locked_ || SteadyClockUs() > until_us) return;
+      usleep(200 + static_cast<useconds_t>(SteadyClockUs() % 800));
     }
   }
   ~FolderLock() {
@@ -206,7 +211,8 @@ class FileStore : public KeyStore {
   template <class Act>
   Status With(bool writes, const Act& act) {
     const FolderLock lock(lock_);
-    if (!lock.locked()) return Status::Error(lock_ + ": cannot be locked");
+    if (!lock.locked())
+      return Status::Error(lock_ + ": cannot be locked; another program holds it");
     FileState state;
     Status status = Read(&state);
     if (!status.ok()) return status;

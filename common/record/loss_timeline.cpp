@@ -52,8 +52,7 @@ void FindBusLosses(const std::string& path, const Room& room, std::vector<Loss>*
     if (numbers.view_tick >= 0) now_s = static_cast<double>(numbers.view_tick) / tick_hz;
     Last& last = channels[event.channel];
     const std::int64_t missing = numbers.sequence - last.sequence - 1;
-    // A number far ahead or behind comes from a publisher that was restarted.
-    if (last.sequence >= 0 && missing > 0 && missing < 100000) {
+    if (last.sequence >= 0 && missing > 0 && missing + 1 < kNumbersAheadMax) {
       losses->push_back({Loss::Kind::kBus, event.channel, last.at_s, now_s, missing});
     }
     if (numbers.sequence > last.sequence || missing < -64) last = {numbers.sequence, now_s};

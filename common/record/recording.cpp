@@ -114,7 +114,8 @@ bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int64_t sequ
   const std::uint64_t hash_before = hash;
   hash = Fnv1a(message.data, message.size);
   const std::int64_t ahead = sequence - heard.highest;
-  if (heard.highest < 0 || ahead <= -64) {  // the first, or a publisher that was restarted
+  // The first, or a publisher that was restarted.
+  if (heard.highest < 0 || ahead <= -64 || ahead >= kNumbersAheadMax) {
     heard.first = heard.highest = sequence;
     heard.mask = 1;
     return false;

@@ -65,6 +65,10 @@ std::string SessionSuffix(const Recording& recording);
 /// the last (--session chooses)"; else "".
 std::string ChosenSession(const Recording& recording);
 
+/// A number of a message that is so far ahead of the one before comes from a publisher that was
+/// restarted, or from damage: that many messages are not lost one after another.
+constexpr std::int64_t kNumbersAheadMax = 100000;
+
 /// Builds a recording message by message, from a live bus or a log. Accepts a late start,
 /// duplicates, and messages out of order; a hostile log costs memory in proportion to its size.
 class RecordingBuilder {
