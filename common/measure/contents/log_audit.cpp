@@ -149,7 +149,12 @@ std::vector<AuditedPeer> AuditRecording(const Recording& recording) {
 }
 
 std::string FormatAudit(const std::vector<AuditedPeer>& peers, const Recording& recording) {
-  if (peers.empty()) return "nothing to compare\n";
+  if (peers.empty()) {
+    return recording.room.mode == "buffer"
+               ? "nothing to compare: nobody but the server simulated anything for long enough\n"
+               : "nothing to compare: in mode " + recording.room.mode +
+                     " only the server simulates\n";
+  }
   const Scene scene = RecordedScene(recording.room);
   std::string text = "  peer  player        windows  gain m/s2  +- m/s2  largest m/s  verdict\n";
   for (const AuditedPeer& p : peers) {
