@@ -27,16 +27,19 @@ WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
 INSTRUMENT_asan := -fsanitize=address,undefined
 INSTRUMENT_tsan := -fsanitize=thread
 INSTRUMENT_coverage := --coverage
+# By clang++ alone (make fuzz).
+INSTRUMENT_fuzz := -fsanitize=fuzzer-no-link,address,undefined
 CXXFLAGS_release := -O2
 CXXFLAGS_debug := -O0 -g
 CXXFLAGS_asan := -O1 -g1 $(INSTRUMENT_asan) -fno-sanitize-recover=all -fno-omit-frame-pointer
 # The tests themselves without checks that take half of the time to compile them, and not optimised; what they test is.
 TEST_CXXFLAGS_asan := -O0 -fno-sanitize=null,alignment,object-size,vptr
+CXXFLAGS_fuzz := -O1 -g1 $(INSTRUMENT_fuzz) -fno-sanitize-recover=all -fno-omit-frame-pointer
 CXXFLAGS_tsan := -O1 -g1 $(INSTRUMENT_tsan)
 # Signals and threads end programs at any time: counters are added atomically.
 CXXFLAGS_coverage := -O1 -g1 $(INSTRUMENT_coverage) -fprofile-update=atomic
 ifeq ($(CXXFLAGS_$(BUILD)),)
-$(error BUILD must be release, debug, asan, tsan or coverage, not "$(BUILD)")
+$(error BUILD must be release, debug, asan, tsan, coverage or fuzz, not "$(BUILD)")
 endif
 EIGEN := /usr/include/eigen3
 # -ffp-contract=off is part of the determinism contract: no fused multiply-add. So is -fno-tree-slp-vectorize: with
@@ -71,11 +74,12 @@ DEBS_alerts := prometheus
 DEBS_spy := liblcm-java libjchart2d-java $(if $(shell command -v javac),,default-jdk)
 DEBS_format := clang-format git
 DEBS_hashes := clang
+DEBS_fuzz := clang
 DEBS_lint := clang-tidy git
 
 # All .cpp below a folder.
 below = $(sort $(shell find $(1) -name '*.cpp'))
-MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp client/front/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp render/view_main.cpp render/log_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp client/front/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp render/view_main.cpp render/log_main.cpp tests/lab/main.cpp tests/fuzz/fuzz_main.cpp
 SOURCES := $(call below,common server client render tests)
 
 # The objects of sources. Two thirds of a build is parsing headers, so the sources of a folder are compiled together
@@ -106,7 +110,8 @@ IMPORT := $(call obj,$(filter render/import/%,$(SOURCES))) $(EXPORT)
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 # What seam-lab has from the tests.
 LAB_SUPPORT := $(call obj,tests/support/plan/plain_scene.cpp $(filter tests/support/soak/%,$(SOURCES)))
-TEST_SOURCES := $(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES)))
+FUZZ := $(filter-out %_test.cpp $(MAINS),$(filter tests/fuzz/%,$(SOURCES)))
+TEST_SOURCES := $(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))) $(FUZZ)
 TESTS := $(call obj,$(TEST_SOURCES))
 LIBRARY := $(COMMON) $(SERVER) $(CLIENT) $(EMBED) $(PYTHON)
 # Everything that may be compiled: the units, and each source alone.
@@ -125,7 +130,7 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all check check-includes objects docs help deps demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
+.PHONY: all fuzz check check-includes objects docs help deps demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
 	lint compile_commands.json install install-built python deb clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
@@ -293,8 +298,8 @@ $(OUT)/seam-tests: $(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RE
 
 # The tests of what reads from outside and keeps it, without long simulations, programs and pictures: a little
 # more than half of the sources.
-CORE_TESTS := $(foreach f,base client codec net record scene server sync topology,$(filter \
-	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES))
+CORE_TESTS := $(foreach f,base client codec fuzz net record scene server sync topology,$(filter \
+	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES)) $(FUZZ)
 $(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(call alone,client/embed/cluster.cpp tests/lab/world/plan_worlds.cpp) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
@@ -371,6 +376,13 @@ check-fast: all $(OUT)/seam-tests-fast   ## build and run the tests that take no
 check-includes: $(GEN)/.stamp build/.deps-python   ## compile each source by itself: does it include what it needs? ten minutes
 	@$(MAKE) --no-print-directory -k UNITY=0 OUT=build/includes CXXFLAGS='$(CXXFLAGS) -fsyntax-only' objects
 objects: $(OBJECTS_ALONE)
+
+SECONDS ?= 600
+fuzz: build/.deps-fuzz               ## TARGET='scene log' SECONDS=600: fuzz what reads from outside, in out/fuzz/; HOLE=1: find planted faults
+	@$(MAKE) --no-print-directory BUILD=fuzz CXX=clang++ WARN=-w build/fuzz/seam-fuzz
+	SEAM_FUZZ_HOLE=$(HOLE) tests/fuzz/fuzz.sh build/fuzz/seam-fuzz out/fuzz$(if $(HOLE),-hole) $(SECONDS) $(TARGET)
+$(OUT)/seam-fuzz: $(call alone,tests/fuzz/fuzz_main.cpp client/embed/cluster.cpp) $(call obj,$(FUZZ)) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+	$(LINK) -fsanitize=fuzzer $(LIBS) $(SERVER_LIBS) -lgtest -o $@
 
 soak: FILTER := $(SOAKED)
 soak: tests                          ## SOAK=300: so many times the seeds of cluster and fuzz tests: half an hour
