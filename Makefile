@@ -74,7 +74,7 @@ DEBS_alerts := prometheus
 DEBS_spy := liblcm-java libjchart2d-java $(if $(shell command -v javac),,default-jdk)
 DEBS_format := clang-format git
 DEBS_hashes := clang
-DEBS_fuzz := clang
+DEBS_fuzz := clang libclang-rt-dev
 DEBS_lint := clang-tidy git
 
 # All .cpp below a folder.
