@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "tests/lab/report/dots.h"
 #include "tests/lab/report/method_look.h"
 #include "tests/lab/report/validity.h"
 
@@ -296,6 +297,8 @@ Section SweepSection(const Sweep& sweep) {
     Figure fronts = FrontsOf(sweep, group);
     const bool any = sweep.view.axis.ours && !fronts.panels.empty();
     if (any) section.items.emplace_back(std::move(fronts));
+    Figure dots = DotsOf(sweep, group);
+    if (!dots.panels.empty()) section.items.emplace_back(std::move(dots));
     const SweepMeasure& headline = HeadlineOf(sweep);
     section.items.emplace_back(AlongTable(sweep, group, headline));
     if (DelaysInputs(sweep)) {
