@@ -18,7 +18,7 @@
 namespace seam {
 
 /// Raised when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 15;
+constexpr std::int32_t kProtocolVersion = 16;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 
