@@ -7,7 +7,7 @@
 namespace seam {
 namespace {
 
-constexpr double kTurn = 0x1.921fb54442d18p+2;  // 2 pi
+constexpr double kTwoPi = 0x1.921fb54442d18p+2;  // 2 pi
 constexpr double kReducible = 1e5;              // rad
 // Half of pi as the sum of 33, 33 and 53 bits: the first two times a number of 20 bits are exact.
 constexpr double kQuarter[3] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
@@ -70,7 +70,7 @@ SinCos SineAndCosine(double angle) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     return {none, none};
   }
-  if (std::fabs(angle) > kReducible) angle = std::remainder(angle, kTurn);
+  if (std::fabs(angle) > kReducible) angle = std::remainder(angle, kTwoPi);
   const Reduced r = Reduce(angle);
   const double x = r.high, q = x * x, half = q / 2;
   const double one = 1 - half;
@@ -92,12 +92,12 @@ double Atan2(double y, double x) {
   // Both zero or both infinite: as the standard has it.
   const double ratio = least == most ? (most > 0 ? 1 : 0) : least / most;
   double angle = Arctangent(ratio);
-  constexpr double kHalf = kTurn / 2, kHalfRest = 0x1.1a62633145c07p-53;  // pi
+  constexpr double kHalfTurn = kTwoPi / 2, kHalfTurnRest = 0x1.1a62633145c07p-53;  // pi
   const double towards = std::signbit(x) ? -1 : 1;
   if (up > across) {
-    angle = kHalf / 2 - (towards * angle - kHalfRest / 2);
+    angle = kHalfTurn / 2 - (towards * angle - kHalfTurnRest / 2);
   } else if (towards < 0) {
-    angle = kHalf - (angle - kHalfRest);
+    angle = kHalfTurn - (angle - kHalfTurnRest);
   }
   return std::copysign(angle, y);
 }
