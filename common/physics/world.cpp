@@ -42,6 +42,7 @@ int World::mechanism(int body) const { return impl_->moving(body).mechanism; }
 float World::mass(int body) const { return impl_->moving(body).mass.mass; }
 std::int64_t World::tick() const { return impl_->tick; }
 void World::SetTick(std::int64_t tick) {
+  impl_->as_built = false;
   impl_->tick = tick;
   for (const auto& stage : impl_->stages) stage->TickSet();
 }
@@ -65,6 +66,8 @@ void World::Write(int body, const BodyState& state, bool wake) {
   b2Body* b = impl_->moving(body).body;
   const bool was_awake = b->IsAwake();
   const BodyState now = Read(body);
+  const bool wakes = wake && !was_awake;
+  impl_->as_built = impl_->as_built && !wakes && std::memcmp(&now, &state, sizeof now) == 0;
   // SetTransform moves the body's proxies but keeps its contacts and their impulses for as long as
   // the fattened boxes (0.1 m) still overlap.
   if (!SameBits(now.position.x(), state.position.x()) ||
@@ -77,7 +80,7 @@ void World::Write(int body, const BodyState& state, bool wake) {
     b->SetLinearVelocity(ToB2(state.velocity));
   }
   if (!SameBits(now.spin, state.spin)) b->SetAngularVelocity(state.spin);
-  if (wake && !was_awake) b->SetAwake(true);
+  if (wakes) b->SetAwake(true);
   if (!wake && !was_awake) b->SetAwake(false);
   if (IsAside(*b)) impl_->MarkAside(body);
 }
@@ -87,6 +90,7 @@ void World::SetAwake(int body, bool awake) {
   b2Body* b = impl_->moving(body).body;
   const bool sleeps = impl_->scene.solver.sleep || activity(body) != Activity::kSimulated;
   if (!awake && !sleeps) return;
+  impl_->as_built = impl_->as_built && !awake && !b->IsAwake();
   b->SetAwake(awake);
   if (IsAside(*b)) impl_->MarkAside(body);
 }
@@ -121,6 +125,7 @@ void World::SetInput(int player, const Input& input) {
 }
 
 void World::Follow(int player, const Input& input) {
+  impl_->as_built = false;
   for (Motor& motor : impl_->built.motors) {
     if (motor.player == player) motor.Drive(ShareOf(input, motor.axis));
   }
@@ -137,6 +142,7 @@ void World::Act(int player, int action) {
   if (assembly < 0) return;  // the part is gone
   impl_->built.bodies[static_cast<std::size_t>(assembly)]->ApplyLinearImpulseToCenter(
       ToB2(a.impulse), true);
+  impl_->as_built = false;
   impl_->MarkAllAside();
 }
 
@@ -145,6 +151,7 @@ void World::Step() {
   const Solver& solver = w.scene.solver;
   const float h = w.step_s();
   w.Settle();
+  w.as_built = false;
   w.meter.Clear();
   if (w.touch_log) w.touch_log->BeginTick();
   DropFarContacts(&*w.world);
@@ -194,6 +201,7 @@ std::vector<PartTouch> World::PartTouches() const {
 void World::WatchTouches() {
   Impl& w = *impl_;
   if (w.touch_log) return;
+  w.as_built = false;
   w.touch_log.emplace(w.scene, w.built);
   w.meter.Watch(&*w.touch_log);
   w.touch_log->Rebuilt(*w.world, {});

@@ -194,6 +194,7 @@ struct World::Impl {
   std::vector<BodyState>
       prescribed_from;                 // by moving body: state of a kPrescribed one before the step
   std::optional<WorldSnapshot> still;  // the state last built from, if nothing moved then
+  bool as_built = false;               // nothing has changed since the last Rebuild
   bool unsettled = false;              // a body is to come or go
   std::vector<int> present;            // moving bodies that are present, ascending
   std::vector<int> crossed;            // moving bodies that have come or gone since the last build

@@ -86,6 +86,7 @@ void World::SetActivity(int body, Activity activity) {
   const MovingBody& m = impl_->moving(body);
   Activity& stored = impl_->activities[static_cast<std::size_t>(body)];
   const Activity before = std::exchange(stored, activity);
+  impl_->as_built = impl_->as_built && before == activity;
   const bool was_there = IsPresent(before), is_there = IsPresent(activity);
   if (before == activity || (!was_there && !is_there)) return;
   touches();  // as they are after the last tick

@@ -271,6 +271,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Activ
   blocked_directions.reset();
   still.reset();
   if (AllStill()) still = snapshot;
+  as_built = true;
 }
 
 bool World::Impl::AllStill() const {
@@ -306,7 +307,7 @@ bool World::Impl::BuiltAlready(const WorldSnapshot& snapshot) const {
 
 WorldSnapshot World::Barrier() {
   WorldSnapshot snapshot = impl_->Keep();
-  if (!impl_->BuiltAlready(snapshot)) SEAM_ASSERT(Restore(snapshot).ok());
+  if (!impl_->as_built && !impl_->BuiltAlready(snapshot)) SEAM_ASSERT(Restore(snapshot).ok());
   return snapshot;
 }
 

@@ -308,6 +308,7 @@ void World::Repeat(const Edit& edit) {
 
 void World::Do(const Edit& edit) {
   Impl& w = *impl_;
+  w.as_built = false;
   const PushEdit* push = edit.As<PushEdit>();
   if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
   const BlastEdit* blast = edit.As<BlastEdit>();
