@@ -2,10 +2,39 @@
 
 namespace seam {
 
-Bytes StateArchive::Take() {
+Bytes StateDraft::Finish() {
+  if (gaps_.empty()) return std::move(bytes_);
+  Bytes all;
+  std::size_t from = 0;
+  const auto copy_to = [&](std::size_t end) {
+    const auto begin = bytes_.begin();
+    all.insert(all.end(), begin + static_cast<std::ptrdiff_t>(from),
+               begin + static_cast<std::ptrdiff_t>(end));
+    from = end;
+  };
+  for (const Gap& gap : gaps_) {
+    copy_to(gap.at);
+    StateArchive a;
+    gap.write(a);
+    const Bytes part = a.Take();
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  copy_to(bytes_.size());
+  return all;
+}
+
+StateDraft StateArchive::TakeDraft() {
+  StateDraft draft;
   to_.resize(used_);
   used_ = 0;
-  return std::exchange(to_, {});
+  draft.bytes_ = std::exchange(to_, {});
+  draft.gaps_ = std::exchange(gaps_, {});
+  return draft;
+}
+
+void StateArchive::Later(std::function<void(StateArchive&)> write) {
+  SEAM_ASSERT(!reading_);
+  gaps_.push_back({used_, std::move(write)});
 }
 
 void StateArchive::Grow(std::size_t size) {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,26 @@
 #include "common/base/status.h"
 
 namespace seam {
+
+class StateArchive;
+
+/// Bytes of which some are not written yet.
+class StateDraft {
+ public:
+  /// Writes the rest and returns all. Any thread may do so.
+  Bytes Finish();
+  /// Number of bytes that are written.
+  std::size_t size() const { return bytes_.size(); }
+
+ private:
+  friend class StateArchive;
+  struct Gap {
+    std::size_t at = 0;  // in bytes_
+    std::function<void(StateArchive&)> write;
+  };
+  Bytes bytes_;
+  std::vector<Gap> gaps_;  // ascending
+};
 
 class StateArchive {
  public:
@@ -36,7 +57,9 @@ class StateArchive {
   /// Expects so many bytes to be written.
   void Reserve(std::size_t bytes) { to_.resize(std::max(to_.size(), bytes)); }
   /// Returns the bytes written so far and begins anew.
-  Bytes Take();
+  Bytes Take() { return TakeDraft().Finish(); }
+  /// The same, but what Later has left out is still to be written.
+  StateDraft TakeDraft();
   /// Returns how many bytes have not been read.
   std::size_t left() const { return from_.size - at_; }
 
@@ -64,6 +87,14 @@ class StateArchive {
   /// A tick, or a time that is far in the past (kLongAgo).
   void Tick(std::int64_t* tick) { Int(tick, -kTickMost, kTickMost); }
   void Flag(bool* value);
+  /// Writing only: leaves the bytes of `write` to StateDraft::Finish, which may be called by
+  /// another thread. So `write` must own all that it uses, and nobody may change that any more.
+  void Later(std::function<void(StateArchive&)> write);
+  /// Bytes as they lie in memory. Reading: the caller has to check them.
+  void Raw(void* data, std::size_t size) {
+    if (!reading_) return Put(data, size);
+    if (!Get(data, size)) std::memset(data, 0, size);
+  }
   /// Any bits.
   void Word(std::uint64_t* value);
   /// A finite number of at most this magnitude.
@@ -163,6 +194,7 @@ class StateArchive {
   std::size_t at_ = 0;  // of from_
   Bytes to_;
   std::size_t used_ = 0;  // of to_, which grows by doubling
+  std::vector<StateDraft::Gap> gaps_;
   bool reading_ = false;
   const char* section_ = "";
   Status status_;

@@ -1,7 +1,7 @@
 #include "common/sync/edits/edit_order.h"
 
 #include "common/base/state_archive.h"
-#include "common/codec/codec.h"
+#include "common/codec/persist_message.h"
 
 namespace seam {
 EditOrder ToOrder(const Edit& edit) {
@@ -63,17 +63,9 @@ Edit ToEdit(const EditOrder& order) {
 }
 
 void Persist(StateArchive& a, Edit* edit) {
-  std::string bytes;
-  if (!a.reading()) {
-    const Bytes encoded = Encode(ToOrder(*edit));
-    bytes.assign(encoded.begin(), encoded.end());
-  }
-  a.Text(&bytes, kMessageBytesMax);
-  if (!a.reading()) return;
-  const AnyMessage message = Decode(Bytes(bytes.begin(), bytes.end()));
-  const auto* order = std::get_if<EditOrder>(&message);
-  a.Require(order != nullptr, "an edit is malformed");
-  *edit = order != nullptr && a.ok() ? ToEdit(*order) : Edit();
+  EditOrder order = a.reading() ? EditOrder() : ToOrder(*edit);
+  PersistMessage(a, &order, kMessageBytesMax);
+  if (a.reading()) *edit = a.ok() ? ToEdit(order) : Edit();
 }
 
 }  // namespace seam
