@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
+#include "common/scene/saved/persist_state.h"
 #include "common/sync/quantize.h"
 #include "server/rules/touch_check.h"
 
@@ -236,6 +238,49 @@ std::vector<Blow> AuthoritySource::TakeImpacts() {
     if (ToBlow(reported, &blow)) taken.push_back(blow);
   }
   return taken;
+}
+
+void AuthoritySource::Persist(StateArchive& a) {
+  trail_.Persist(a);
+  a.Section("reports");
+  a.Exactly(&holders_, [&](Holders* holders) {
+    for (Held* held : {&holders->last, &holders->before}) {
+      a.Int(&held->peer, -1, kPeersMax - 1);
+      a.Int(&held->epoch, -1, INT32_MAX);
+    }
+  });
+  PersistReports(a);
+}
+
+void AuthoritySource::PersistReports(StateArchive& a) {
+  const std::size_t parts = replica_.world().scene().parts.size();
+  const auto touch = [&](PartTouch* t) {
+    PersistPart(a, &t->a, parts);
+    PersistPart(a, &t->b, parts);
+    a.Require(t->a >= 0 && t->b >= 0, "a touch is of no part");
+  };
+  a.List(&told_, StateArchive::kListMost, [&](ToldTouch* told) {
+    touch(&told->is.touch);
+    a.Tick(&told->is.tick);
+    a.Int(&told->peer, 0, kPeersMax - 1);
+  });
+  a.List(&touches_, StateArchive::kListMost, touch);
+  for (std::vector<Reported>* reports : {&accepted_, &waiting_}) {
+    a.List(reports, StateArchive::kListMost, [&](Reported* r) {
+      PersistPart(a, &r->body, parts);
+      PersistPart(a, &r->by, parts);
+      a.Real(&r->dv, std::numeric_limits<float>::max());
+      seam::Persist(a, &r->point, std::numeric_limits<float>::max());
+      a.Tick(&r->tick);
+      a.Int(&r->revision, 0, replica_.revision());
+      a.Flag(&r->told);
+    });
+  }
+  a.Members(&counted_, StateArchive::kListMost, [&](std::tuple<std::int64_t, PartId, PartId>* of) {
+    a.Tick(&std::get<0>(*of));
+    PersistPart(a, &std::get<1>(*of), parts);
+    PersistPart(a, &std::get<2>(*of), parts);
+  });
 }
 
 }  // namespace seam

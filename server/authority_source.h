@@ -45,8 +45,8 @@ class AuthoritySource : public RuleSource {
   /// To be called after each step of the replica, with the touches that the server is to tell.
   void NoteTick(const std::vector<NewTouch>& touches);
 
-  /// Saves the newest state of each body. Reports since the last tick, or that wait, are not saved.
-  void Persist(StateArchive& a) { trail_.Persist(a); }
+  /// Saves or loads the states and the reports. Call between two ticks.
+  void Persist(StateArchive& a);
 
   bool Doubted(int body) const override { return doubted_ && !Mine(body) && doubted_(body); }
   BodyState Read(int body) const override;
@@ -91,6 +91,7 @@ class AuthoritySource : public RuleSource {
   /// True if states that may still come can explain the impact.
   bool Waits(const Reported& reported, const Blow& blow, const ImpactCheck& check) const;
   void JudgeWaiting();
+  void PersistReports(StateArchive& a);
   void Refuse(const Reported& reported, std::int64_t* reason, std::int64_t* dropped);
 
   const Replica& replica_;

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "common/base/state_archive.h"
-#include "common/codec/codec.h"
+#include "common/codec/persist_message.h"
 #include "common/sync/edits/topology_snapshot.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
@@ -44,22 +44,8 @@ std::vector<Message> Stamped(std::int64_t now_us, std::vector<Message> messages)
   return messages;
 }
 
-void PersistBytes(StateArchive& a, Bytes* bytes) {
-  std::string text(bytes->begin(), bytes->end());
-  a.Text(&text, kBusMessageBytesMax + kSceneTextBytesMax);
-  if (a.reading()) bytes->assign(text.begin(), text.end());
-}
-
-/// Reads a message of one type, or records an error.
-template <class Message>
-Message ReadMessage(StateArchive& a) {
-  Bytes bytes;
-  PersistBytes(a, &bytes);
-  AnyMessage any = Decode(bytes);
-  Message* const message = std::get_if<Message>(&any);
-  a.Require(message != nullptr, "a message is malformed");
-  return message != nullptr ? std::move(*message) : Message();
-}
+/// Most bytes of a message: a Room has the scene's text.
+constexpr std::size_t kSavedMessageMost = kBusMessageBytesMax + kSceneTextBytesMax;
 
 }  // namespace
 
@@ -86,7 +72,7 @@ std::vector<Meta> RoomState::Metadata(std::int64_t now_us) const {
   return parts_.rules->metadata().Export(now_us, parts_.replica.tick());
 }
 
-Bytes RoomState::Copy(std::int64_t now_us, std::size_t expected_bytes) {
+StateDraft RoomState::Copy(std::int64_t now_us, std::size_t expected_bytes) {
   StateArchive a;
   a.Reserve(expected_bytes);
   std::uint64_t header = 0;
@@ -94,33 +80,28 @@ Bytes RoomState::Copy(std::int64_t now_us, std::size_t expected_bytes) {
   a.Section("room");
   Room settings = parts_.room;
   settings.session = 0;  // the server that loads the room begins a session of its own
-  Bytes room = Encode(settings);
-  PersistBytes(a, &room);
+  PersistMessage(a, &settings, kSavedMessageMost);
   std::int32_t epoch = parts_.epoch;
   a.Int(&epoch, 1, INT32_MAX);
   std::vector<Snapshot> edits = Edits(0);
-  a.List(&edits, StateArchive::kListMost, [&](Snapshot* part) {
-    Bytes bytes = Encode(*part);
-    PersistBytes(a, &bytes);
-  });
+  a.List(&edits, StateArchive::kListMost,
+         [&](Snapshot* part) { PersistMessage(a, part, kSavedMessageMost); });
   std::vector<int> present;
   Persist(a, now_us, &present);
-  return a.Take();
+  return a.TakeDraft();
 }
 
-void RoomState::Finish(Bytes* copy) {
+Bytes RoomState::Finish(StateDraft copy) {
+  Bytes all = copy.Finish();
   Header header{};
   std::memcpy(header.magic, kRoomMagic, sizeof kRoomMagic);
   header.version = kRoomStateVersion;
-  header.hash = Fnv1a(copy->data() + sizeof header, copy->size() - sizeof header);
-  std::memcpy(copy->data(), &header, sizeof header);
-}
-
-Bytes RoomState::Save(std::int64_t now_us) {
-  Bytes all = Copy(now_us, 0);
-  Finish(&all);
+  header.hash = Fnv1a(all.data() + sizeof header, all.size() - sizeof header);
+  std::memcpy(all.data(), &header, sizeof header);
   return all;
 }
+
+Bytes RoomState::Save(std::int64_t now_us) { return Finish(Copy(now_us, 0)); }
 
 std::unique_ptr<const SavedRoom> SavedRoom::Read(ByteView bytes, Status* status) {
   const auto fail = [status](const std::string& why) {
@@ -142,14 +123,14 @@ std::unique_ptr<const SavedRoom> SavedRoom::Read(ByteView bytes, Status* status)
   }
   StateArchive a(rest);
   a.Section("room");
-  const Room room = ReadMessage<Room>(a);
+  Room room;
+  PersistMessage(a, &room, kSavedMessageMost);
   std::int32_t epoch = 1;
   a.Int(&epoch, 1, INT32_MAX);
   std::vector<TopologyEntry> entries;
   std::vector<Snapshot> edits;
   a.List(&edits, StateArchive::kListMost, [&](Snapshot* part) {
-    if (!a.ok()) return;
-    *part = ReadMessage<Snapshot>(a);
+    PersistMessage(a, part, kSavedMessageMost);
     if (!a.ok()) return;
     const Status read = ReadEntries(*part, &entries);
     if (!read.ok()) a.Fail(read.why());

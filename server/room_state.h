@@ -6,8 +6,9 @@
 ///   Save:  the parts --Persist--> bytes             at a barrier, between two ticks
 ///   Load:  bytes --SavedRoom--> scene, topology --> a new Server --Persist--> the parts
 ///
-/// Not in it: sessions with their send queues, the views, the past before the barrier. A loaded
-/// room continues as if every client had left at that tick.
+/// Not in it: sessions with their send queues, and the views. A loaded room continues as if every
+/// client had left at that tick. It has the past as well, as far as a replay reaches: a message of
+/// an earlier tick that comes later does at both the same.
 
 #include <cstdint>
 #include <memory>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "common/base/bytes.h"
+#include "common/base/state_archive.h"
 #include "common/base/status.h"
 #include "common/codec/messages.h"
 #include "common/scene/scene.h"
@@ -31,11 +33,10 @@ class RoomClock;
 class Rules;
 class SeatBonds;
 class SessionTable;
-class StateArchive;
 class TrustLadder;
 
 /// Version of the saved bytes. Raise it with every change of them; older ones are not read.
-constexpr std::uint32_t kRoomStateVersion = 4;
+constexpr std::uint32_t kRoomStateVersion = 5;
 
 /// The beginning of a saved room, enough to make the server that loads it.
 class SavedRoom {
@@ -99,10 +100,10 @@ class RoomState {
   /// Call between two ticks. Makes this tick a barrier of the world (World::Barrier), which the
   /// room that loads it has as well: both then continue with the same bits.
   Bytes Save(std::int64_t now_us);
-  /// The same in two steps: a copy, which another thread finishes. `expected_bytes`: of the last
-  /// one, which saves moving the bytes as they grow.
-  Bytes Copy(std::int64_t now_us, std::size_t expected_bytes);
-  static void Finish(Bytes* copy);
+  /// The same in two steps: a copy, which another thread finishes. `expected_bytes`: the size of
+  /// the last copy, which saves moving the bytes as they grow.
+  StateDraft Copy(std::int64_t now_us, std::size_t expected_bytes);
+  static Bytes Finish(StateDraft copy);
   /// Loads the bytes of Save into new parts, with a world of the topology of `saved`. Returns one
   /// line if they are damaged; the parts must then not be used any more. `gone` gets the players
   /// that were in the room.

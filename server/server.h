@@ -35,6 +35,7 @@ class Chronicle;
 class RoomState;
 class Rules;
 class SavedRoom;
+class StateDraft;
 class ServerCommands;
 struct LogTail;
 struct TickMessages;
@@ -94,7 +95,7 @@ class Server {
   /// join a room that runs.
   Bytes Save(std::int64_t now_us);
   /// Returns a copy that RoomState::Finish finishes; see RoomState::Copy.
-  Bytes CopyState(std::int64_t now_us, std::size_t expected_bytes);
+  StateDraft CopyState(std::int64_t now_us, std::size_t expected_bytes);
 
   /// Receives, steps the ticks that are due, sends. `now_us`: any clock that never runs backwards;
   /// `cpu_us`: CPU time used so far, for the record (0: unknown); used only if stats_due.

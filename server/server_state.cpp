@@ -17,7 +17,7 @@ RoomState Server::State() {
 
 Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }
 
-Bytes Server::CopyState(std::int64_t now_us, std::size_t expected_bytes) {
+StateDraft Server::CopyState(std::int64_t now_us, std::size_t expected_bytes) {
   chronicle_->SumSoon();  // the log behind the snapshot has it, for a server that goes on
   return State().Copy(now_us, expected_bytes);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "common/base/state_archive.h"
+#include "common/scene/saved/persist_state.h"
 
 namespace seam {
 namespace {
@@ -223,11 +223,33 @@ void BodyMemory::Persist(StateArchive& a) {
     a.Tick(&track->told_tick);
     a.Int(&track->changed_at, 0, world_.topology().revision());
     a.Flag(&track->at_rest);
+    a.Tick(&track->pull.arrived);
+    seam::Persist(a, &track->pull.memory.before, kSavedSpeedMost);
+    seam::Persist(a, &track->pull.memory.asked, kSavedSpeedMost);
+    a.Real(&track->pull.memory.share);
   });
   a.Exactly(&mechanisms_, [&](MechanismTrack* track) {
     a.Tick(&track->last_coupled_tick);
     a.Tick(&track->unsettled_until);
+    a.Tick(&track->differed_tick);
   });
+}
+
+std::vector<char> BodyMemory::Still() const {
+  std::vector<char> all(static_cast<std::size_t>(table_.bodies()), 0);
+  for (int body = 0; body < table_.bodies(); ++body) {
+    const Noted& noted = noted_[body];
+    const bool whole = noted.ticks == kHistory * config_.tick_hz && noted.still != 0;
+    all[static_cast<std::size_t>(body)] = whole && noted.still == world_.still(body) ? 1 : 0;
+  }
+  return all;
+}
+
+void BodyMemory::PersistPast(StateArchive& a, std::int64_t from, const std::vector<char>& still) {
+  history_.Persist(a, [&](int body) { return still[static_cast<std::size_t>(body)] != 0; });
+  a.Require(history_.newest() == world_.tick(), "it ends at another tick");
+  a.Section("heard");
+  for (int body = 0; a.ok() && body < table_.bodies(); ++body) snapshots_.Persist(a, body, from);
 }
 
 }  // namespace seam

@@ -120,8 +120,13 @@ class BodyMemory {
   /// Forgets all poses. Call when the world was set to another tick.
   void StartAnew();
   /// Requires that no body is parked. Reading: call when the world is at its tick. The past and the
-  /// states heard are not saved; both begin with the world's poses.
+  /// states heard begin with the world's poses, until PersistPast.
   void Persist(StateArchive& a);
+  /// Saves or loads the past, and the states heard of tick `from` or later. `still`: see Still.
+  void PersistPast(StateArchive& a, std::int64_t from, const std::vector<char>& still);
+  /// Returns 1 for each body that has had one pose in the whole recorded past, as far as is known
+  /// without a look at it; by body.
+  std::vector<char> Still() const;
 
  private:
   struct Noted {

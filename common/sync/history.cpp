@@ -1,9 +1,11 @@
 #include "common/sync/history.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/scene/saved/persist_state.h"
 
 namespace seam {
 
@@ -62,6 +64,49 @@ BodyState* History::At(std::int64_t tick, int body) {
 std::int64_t History::newest() const { return count_ == 0 ? -1 : newest_; }
 std::int64_t History::oldest() const { return count_ == 0 ? -1 : newest_ - count_ + 1; }
 void History::Clear() { count_ = 0; }
+
+void History::Persist(StateArchive& a, const std::function<bool(int)>& still) {
+  a.Section("history");
+  a.Int(&count_, 0, capacity_);
+  a.Int(&newest_, -1, StateArchive::kTickMost);
+  a.Require(newest_ >= count_ - 1, "it is of no such tick");
+  for (int body = 0; body < bodies_ && a.ok(); ++body) {
+    bool one = !a.reading() && count_ > 0 && still(body);
+    a.Flag(&one);
+    if (!one) {
+      PersistPieces(a, body);
+      continue;
+    }
+    BodyState pose = a.reading() ? BodyState() : *std::as_const(*this).At(newest_, body);
+    PersistStates(a, &pose, 1);
+    if (!a.reading()) continue;
+    for (std::int64_t tick = oldest(); tick <= newest_; ++tick) *At(tick, body) = pose;
+  }
+  if (!a.reading() || count_ == 0) return;
+  const int slot = static_cast<int>(newest_ % capacity_);
+  piece_ = slot / kPiece;
+  in_piece_ = slot % kPiece;
+}
+
+bool History::IsOnePose(const Piece& piece) {
+  const auto as_first = [&](const BodyState& state) {
+    return std::memcmp(&state, &piece.front(), sizeof state) == 0;
+  };
+  return std::all_of(piece.begin(), piece.end(), as_first);
+}
+
+void History::PersistPieces(StateArchive& a, int body) {
+  for (int slot = 0; slot < capacity_ && a.ok(); slot += kPiece) {
+    std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
+    bool there = piece != nullptr, one = there && !a.reading() && IsOnePose(*piece);
+    a.Flag(&there);
+    if (a.reading()) piece = there ? std::make_unique<Piece>() : nullptr;
+    if (!there) continue;
+    a.Flag(&one);
+    PersistStates(a, piece->data(), one ? 1 : piece->size());
+    if (one) piece->fill(piece->front());
+  }
+}
 
 void History::TakePast(Pieces* before, int from, int body) {
   for (int slot = 0; slot < capacity_; slot += kPiece) {

@@ -12,6 +12,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// A ring of the last `capacity` ticks. Ticks are recorded one after another. After an edit each
 /// body has the past of the body that it came from, moved rigidly; the past of a new body is filled
 /// with its state then.
@@ -34,6 +36,9 @@ class History final : public TableEntry {
   std::int64_t newest() const;  ///< -1 when empty
   std::int64_t oldest() const;  ///< -1 when empty
   void Clear();
+  /// Saves or loads the ring. `still(body)`: true if the body has one pose at all its ticks.
+  /// Reading requires a history of the same capacity and bodies.
+  void Persist(StateArchive& a, const std::function<bool(int)>& still);
 
  private:
   // A body's ticks lie together, in pieces that are allocated at the first write: in a large room
@@ -49,6 +54,8 @@ class History final : public TableEntry {
 
   using Pieces = std::vector<std::unique_ptr<Piece>>;
   void Renumber(const BodyRemap& change) override;
+  static bool IsOnePose(const Piece& piece);
+  void PersistPieces(StateArchive& a, int body);
   /// Moves the past of an unchanged body to its new number.
   void TakePast(Pieces* before, int from, int body);
 

@@ -62,10 +62,11 @@ class Replica {
   void GoOnFrom(const World& before);
   std::int64_t tick() const { return world_.tick(); }
   void Step();
-  /// Saves or loads all that decides how this copy continues without other peers: bodies, roles,
-  /// inputs, rest, edits found. Not saved: the past, states of others, the view. Call between ticks
-  /// with no edit queued. Writing makes this tick a barrier (World::Barrier). Reading requires a
-  /// new replica of the same topology and config; after an error it must not be used any more.
+  /// Saves or loads all that decides how this copy continues: bodies, roles, inputs, rest, edits
+  /// found, the past as far as a replay reaches, and the states heard. Not saved: the view. Call
+  /// between ticks with no edit queued. Writing makes this tick a barrier (World::Barrier). Reading
+  /// requires a new replica of the same topology and config; after an error it must not be used any
+  /// more.
   void Persist(StateArchive& a);
 
   const World& world() const { return world_; }

@@ -91,19 +91,31 @@ const BodyState* Replica::ComparablePast(int body, std::int64_t tick, int revisi
 }
 
 void Replica::Persist(StateArchive& a) {
-  WorldSnapshot now;
+  WorldSnapshot loaded;
+  std::shared_ptr<const WorldSnapshot> now;
+  std::vector<char> still(static_cast<std::size_t>(world_.body_count()), 0);
   if (!a.reading()) {
     SEAM_ASSERT(queue_->size() == 0);
+    still = memory_.Still();
     if (activities_.NeedAll()) {
       corrector_.FollowRoles();
       world_.Settle();
     }
     now = replay_.BarrierNow();
   }
-  seam::Persist(a, &now);
+  replay_.PersistBarriers(a);
+  if (a.reading()) {
+    seam::Persist(a, &loaded);
+    now = std::make_shared<const WorldSnapshot>(std::move(loaded));
+  } else {
+    a.Later([now](StateArchive& out) {
+      WorldSnapshot copy = *now;
+      seam::Persist(out, &copy);
+    });
+  }
   a.Section("inputs");
   for (InputTrack& track : inputs_) track.Persist(a);
-  if (a.reading() && !LoadWorld(now, a)) return;
+  if (a.reading() && !LoadWorld(*now, a)) return;
   memory_.Persist(a);
   roles_.table().Persist(a);
   activities_.Persist(a);
@@ -115,6 +127,9 @@ void Replica::Persist(StateArchive& a) {
     FollowRoles();
     for (int body = 0; body < world_.body_count(); ++body) display_.Reset(body);
   }
+  memory_.PersistPast(a, tick() - kReplayMax * config_.tick_hz, still);
+  corrector_.Persist(a);
+  touches_.Persist(a, world_.scene().parts.size());
   if (config_.policy->SendsCompleteTicks()) reach_.Look();
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/base/geometry.h"
+#include "common/scene/saved/persist_state.h"
 #include "common/sync/quantize.h"
 #include "common/sync/state_arithmetic.h"
 
@@ -94,6 +95,26 @@ Snapshots::Ring Snapshots::AfterEdit(const BodyOrigin& origin, Ring* before) {
 void Snapshots::ForgetAfter(int body, std::int64_t tick) {
   Ring& ring = rings_[body];
   while (ring.size() > 0 && ring.newest_tick() > tick) ring.DropNewest();
+}
+
+void Snapshots::Persist(StateArchive& a, int body, std::int64_t from) {
+  Ring& ring = rings_[body];
+  std::vector<Stamped> states;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    states.push_back(ring.FromNewest(k));
+    if (states.back().tick < from) break;
+  }
+  std::reverse(states.begin(), states.end());
+  bool falls = ring.falls;
+  a.List(&states, kKeptStates, [&](Stamped* each) {
+    a.Int(&each->tick, 0, StateArchive::kTickMost);
+    PersistStates(a, &each->state, 1);
+  });
+  a.Flag(&falls);
+  if (!a.reading()) return;
+  ring = Ring();
+  for (const Stamped& each : states) Add(body, each.tick, each.state);
+  ring.falls = falls;
 }
 
 const BodyState* Snapshots::At(int body, std::int64_t tick) const {

@@ -10,6 +10,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// Longest dead reckoning from a received state, s. If shorter than the age of the states, a fast
 /// body stops and jumps; longer shows more that is wrong.
 constexpr float kReckonMax = 1.0f;
@@ -29,6 +31,9 @@ class Snapshots {
   void Add(int body, std::int64_t tick, const BodyState& state, bool falls = false);
   /// Drops states after `tick`: they belong to another body.
   void ForgetAfter(int body, std::int64_t tick);
+
+  /// Saves or loads the states of a body from tick `from` on, and its newest one before.
+  void Persist(StateArchive& a, int body, std::int64_t from);
 
   bool has(int body) const { return newest_tick(body) >= 0; }
   /// -1 if there is none.

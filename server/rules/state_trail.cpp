@@ -1,6 +1,7 @@
 #include "server/rules/state_trail.h"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <utility>
 
@@ -88,17 +89,39 @@ void StateTrail::MarkProcessed() {
   }
 }
 
+/// Returns the states of a trail; those of a resting body are one run.
+std::vector<StateTrail::Run> StateTrail::RunsOf(const Trail& trail) {
+  std::vector<Run> runs;
+  for (const Seen& seen : trail) {
+    const bool on = !runs.empty() && seen.tick == runs.back().first.tick + runs.back().ticks &&
+                    std::memcmp(&seen.state, &runs.back().first.state, sizeof seen.state) == 0;
+    if (!on) runs.push_back({seen, 0});
+    ++runs.back().ticks;
+  }
+  return runs;
+}
+
 void StateTrail::Persist(StateArchive& a) {
   a.Section("trails");
   a.Exactly(&looked_, [&](std::int64_t* tick) { a.Tick(tick); });
   for (Trail& trail : trails_) {
-    std::vector<Seen> newest;
-    if (!trail.empty()) newest.push_back(trail.back());
-    a.List(&newest, 1, [&](Seen* seen) {
-      a.Tick(&seen->tick);
-      seam::Persist(a, &seen->state);
+    std::vector<Run> runs;
+    if (!a.reading()) runs = RunsOf(trail);
+    std::int64_t after = -StateArchive::kTickMost;
+    a.List(&runs, kKept, [&](Run* run) {
+      a.Int(&run->first.tick, after, StateArchive::kTickMost);
+      a.Int(&run->ticks, 1, static_cast<std::int64_t>(kKept));
+      PersistStates(a, &run->first.state, 1);
+      after = run->first.tick + run->ticks;
     });
-    if (a.reading()) trail.assign(newest.begin(), newest.end());
+    if (!a.ok()) return;
+    if (!a.reading()) continue;
+    trail.clear();
+    for (const Run& run : runs) {
+      for (int t = 0; t < run.ticks && trail.size() < kKept; ++t) {
+        trail.push_back({run.first.tick + t, run.first.state});
+      }
+    }
   }
 }
 

@@ -23,7 +23,7 @@ class StateTrail {
     BodyState state;
   };
 
-  /// Saves the newest state of each body.
+  /// Saves or loads all states.
   void Persist(StateArchive& a);
 
   explicit StateTrail(const BodyTable& table)
@@ -58,6 +58,12 @@ class StateTrail {
 
  private:
   using Trail = std::deque<Seen>;
+  /// Successive ticks with one state.
+  struct Run {
+    Seen first;
+    int ticks = 0;
+  };
+  static std::vector<Run> RunsOf(const Trail& trail);
   static Trail CarriedOn(int body, const BodyOrigin& origin, Trail* before);
   /// Returns the first tick that state `i` makes known, given the state before it.
   std::int64_t FirstOf(const Trail& trail, std::size_t i) const;

@@ -25,13 +25,15 @@ void RoomKeeper::AfterTick(Server& server, std::int64_t now_us) {
 
 void RoomKeeper::Save(Server& server, std::int64_t now_us) {
   const std::int64_t begin_us = SteadyClockUs();
-  RoomSnapshot snapshot{server.tick(), sink_.Pin(), server.CopyState(now_us, bytes_)};
+  RoomSnapshot snapshot{server.tick(), sink_.Pin(), {}};
+  StateDraft copy = server.CopyState(now_us, copied_bytes_);
   longest_us_ = std::max(longest_us_, SteadyClockUs() - begin_us);
-  bytes_ = snapshot.room.size();
+  copied_bytes_ = copy.size();
   shared_->writing = true;
   sink_.disk().Do([shared = shared_, folder = folder_, room = room_, epoch = epoch_,
-                   snapshot = std::move(snapshot)]() mutable {
-    RoomState::Finish(&snapshot.room);
+                   snapshot = std::move(snapshot), copy = std::move(copy)]() mutable {
+    snapshot.room = RoomState::Finish(std::move(copy));
+    shared->bytes = snapshot.room.size();
     const Status status = WriteSnapshot(folder, room, snapshot, epoch);
     shared->writing = false;
     const std::lock_guard<std::mutex> lock(shared->mutex);

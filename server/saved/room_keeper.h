@@ -33,7 +33,7 @@ class RoomKeeper {
   Status trouble() const;
   /// Longest time that a snapshot took in a tick, us, and bytes of the last one.
   std::int64_t longest_us() const { return longest_us_; }
-  std::size_t bytes() const { return bytes_; }
+  std::size_t bytes() const { return shared_->bytes; }
 
  private:
   /// What the thread uses, maybe after this object.
@@ -41,6 +41,7 @@ class RoomKeeper {
     std::mutex mutex;  // guards trouble
     Status trouble;
     std::atomic<bool> writing{false};
+    std::atomic<std::size_t> bytes{0};  // of the last snapshot
   };
   void Save(Server& server, std::int64_t now_us);
 
@@ -50,7 +51,7 @@ class RoomKeeper {
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   std::int64_t next_tick_ = 0;
   std::int64_t longest_us_ = 0;
-  std::size_t bytes_ = 0;
+  std::size_t copied_bytes_ = 0;  // of the last copy
 };
 
 }  // namespace seam

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 
+#include "common/base/state_archive.h"
+#include "common/physics/saved/world_saved.h"
 #include "tests/support/scripted_world.h"
 #include "tests/support/small_world.h"
 
@@ -220,7 +223,7 @@ TEST(Snapshot, PrintsTheCostOfABarrier) {
     ScriptedWorld s{std::string(name)};
     s.StepTo(60);
     const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < 200; ++i) s.world.Barrier();
+    for (int i = 0; i < 200; ++i) EXPECT_TRUE(s.world.Restore(s.world.Barrier()).ok());
     const std::chrono::duration<double> barriers = std::chrono::steady_clock::now() - begin;
     const auto middle = std::chrono::steady_clock::now();
     for (int i = 0; i < 200; ++i) s.Step();
@@ -228,6 +231,94 @@ TEST(Snapshot, PrintsTheCostOfABarrier) {
     std::printf("[          ] %s, %d bodies: barrier %.1f us, step %.1f us\n", name,
                 s.world.body_count(), barriers.count() * 5000, steps.count() * 5000);
     EXPECT_EQ(s.world.tick(), 260);
+  }
+}
+
+/// Steps a world with a barrier every other tick. `twice`: takes each twice; `times` gets the
+/// time of all first and of all second ones, us.
+std::vector<std::uint64_t> HashesWithBarriers(const Scene& scene, bool twice,
+                                              std::array<double, 2>* times) {
+  ScriptedWorld s(scene);
+  std::vector<std::uint64_t> hashes;
+  for (int t = 1; t <= 240; ++t) {
+    s.Step();
+    for (std::size_t i = 0; t % 2 == 0 && i < (twice ? 2 : 1); ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      s.world.Barrier();
+      const std::chrono::duration<double, std::micro> took =
+          std::chrono::steady_clock::now() - begin;
+      (*times)[i] += took.count();
+    }
+    hashes.push_back(s.world.Hash());
+  }
+  return hashes;
+}
+
+TEST(Snapshot, ASecondBarrierInATickChangesNothingAndCostsLess) {
+  for (const char* name : {"wall", "heap", "seesaw", "playground"}) {
+    const Scene scene = LoadScene(std::string("scenes/") + name + ".toml");
+    std::array<double, 2> once_us{}, times{};
+    const std::vector<std::uint64_t> once = HashesWithBarriers(scene, false, &once_us);
+    EXPECT_EQ(HashesWithBarriers(scene, true, &times), once) << name;
+    std::printf("%s: a barrier takes %.0f us, another one in the same tick %.0f\n", name,
+                times[0] / 120, times[1] / 120);
+    EXPECT_LT(times[1], 0.8 * times[0]) << name;
+  }
+}
+
+TEST(Snapshot, ABarrierAfterAWriteIsBuiltAnew) {
+  const Scene scene = LoadScene("scenes/wall.toml");
+  ScriptedWorld live(scene), other(scene);
+  for (ScriptedWorld* each : {&live, &other}) {
+    each->StepTo(100);
+    each->world.Barrier();
+    BodyState moved = each->world.Read(3);
+    moved.position.x() += 0.01f;
+    each->world.Write(3, moved);
+  }
+  const WorldSnapshot barrier = live.world.Barrier();
+  ASSERT_TRUE(other.world.Restore(other.world.Keep()).ok());
+  for (int t = 0; t < 60; ++t) {
+    live.world.Step();
+    other.world.Step();
+    ASSERT_EQ(live.world.Hash(), other.world.Hash()) << t;
+  }
+}
+
+TEST(Snapshot, ASeriesIsReadAsItWasWrittenInFewBytesAtRest) {
+  for (const char* name : {"wall", "heap", "seesaw"}) {
+    ScriptedWorld s{std::string(name)};
+    StateArchive out;
+    WorldSnapshot before;
+    std::vector<WorldSnapshot> all;
+    std::size_t alone = 0;
+    for (int t = 0; t < 300; t += 10) {
+      s.StepTo(t);
+      all.push_back(s.world.Barrier());
+      PersistAfter(out, before, &all.back());
+      before = all.back();
+      StateArchive one;
+      Persist(one, &before);
+      alone += one.Take().size();
+    }
+    const Bytes bytes = out.Take();
+    std::printf("%s: %zu bytes instead of %zu\n", name, bytes.size(), alone);
+    EXPECT_LE(bytes.size(), alone);
+    StateArchive in(bytes);
+    before = WorldSnapshot();
+    for (const WorldSnapshot& was : all) {
+      WorldSnapshot is;
+      PersistAfter(in, before, &is);
+      ASSERT_TRUE(in.ok()) << in.status().why();
+      ASSERT_EQ(is.points.size(), was.points.size());
+      StateArchive x, y;
+      WorldSnapshot copy = was;
+      Persist(x, &copy);
+      Persist(y, &is);
+      ASSERT_EQ(x.Take(), y.Take()) << name << " " << was.tick;
+      before = is;
+    }
+    EXPECT_EQ(in.left(), 0u);
   }
 }
 

@@ -166,7 +166,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/sync/policy", "common/sync(/edits|/inputs)?"},
       {"common/sync/rest", "common/sync(/inputs|/reach|/table)?"},
       {"common/sync/blend", "common/sync(/inputs|/reach|/rest|/table)?"},
-      {"common/sync/rollback", "common/sync(/blend|/inputs|/reach|/table)?"},
+      {"common/sync/rollback", "common/sync(/blend|/edits|/inputs|/reach|/table)?"},
       {"common/sync/correct", "common/sync(/blend|/inputs|/reach|/rest|/rollback|/table)?"},
       {"common/sync/reach", "common/sync(/inputs|/table)?"},
       {"common/sync/edits", "none"},

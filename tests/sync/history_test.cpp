@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "common/base/state_archive.h"
+
 namespace seam {
 namespace history_test {
 
@@ -71,6 +73,52 @@ TEST(HistoryDeathTest, AGapAborts) {
   EXPECT_DEATH(history.Record(3, StatesOf(3)), "assertion failed");
   EXPECT_DEATH(history.Record(4, std::vector<BodyState>(1)), "assertion failed");
   EXPECT_DEATH(history.At(3, 2), "assertion failed");
+}
+
+TEST(History, ALoadedRingIsTheSavedOne) {
+  const BodyTable bodies(2, 0);
+  for (const bool still : {false, true}) {
+    for (const std::int64_t newest : {8, 40}) {
+      History history(bodies, 15, Now), loaded(bodies, 15, Now);
+      for (std::int64_t tick = 7; tick <= newest; ++tick) {
+        std::vector<BodyState> states = StatesOf(tick);
+        if (still) states[1] = StatesOf(3)[1];
+        history.Record(tick, states);
+      }
+      const auto second = [still](int body) { return still && body == 1; };
+      StateArchive out;
+      history.Persist(out, second);
+      const Bytes bytes = out.Take();
+      StateArchive in(bytes);
+      loaded.Persist(in, second);
+      ASSERT_TRUE(in.ok()) << in.status().why();
+      for (std::int64_t tick = newest + 1; tick <= newest + 3; ++tick) {
+        ASSERT_EQ(loaded.oldest(), history.oldest());
+        for (std::int64_t t = history.oldest(); t <= history.newest(); ++t) {
+          for (int body = 0; body < 2; ++body) {
+            EXPECT_EQ(loaded.At(t, body)->position, history.At(t, body)->position);
+          }
+        }
+        history.Record(tick, StatesOf(tick));
+        loaded.Record(tick, StatesOf(tick));
+      }
+    }
+  }
+}
+
+TEST(History, DamagedStatesAreRefused) {
+  const BodyTable bodies(2, 0);
+  History history(bodies, 15, Now);
+  std::vector<BodyState> states = StatesOf(7);
+  states[1].spin = 1e30f;
+  history.Record(7, states);
+  StateArchive out;
+  history.Persist(out, [](int) { return false; });
+  const Bytes bytes = out.Take();
+  StateArchive in(bytes);
+  History loaded(bodies, 15, Now);
+  loaded.Persist(in, [](int) { return false; });
+  EXPECT_FALSE(in.ok());
 }
 
 }  // namespace history_test

@@ -1,6 +1,7 @@
-/// World: snapshots as bytes, and worlds that continue from them in another process.
+#include "common/physics/saved/world_saved.h"
 
 #include <algorithm>
+#include <cstring>
 #include <tuple>
 #include <utility>
 
@@ -25,29 +26,84 @@ bool PointsAscend(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) 
   return std::tie(x.pair, x.feature) < std::tie(y.pair, y.feature);
 }
 
+bool SameBody(const WorldSnapshot::Body& x, const WorldSnapshot::Body& y) {
+  return std::memcmp(&x.state, &y.state, sizeof x.state) == 0 && x.awake == y.awake &&
+         x.quiet_s == y.quiet_s && x.going_s == y.going_s;
+}
+
+bool SamePoint(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
+  static_assert(sizeof x == 24);
+  return std::memcmp(&x, &y, sizeof x) == 0;
+}
+
+void PersistPoint(StateArchive& a, WorldSnapshot::Point* point) {
+  a.Word(&point->pair);
+  a.Word(&point->feature);
+  a.Real(&point->normal, kImpulseMax);
+  if (a.reading()) a.Require(point->normal >= 0, "a contact pulls");  // the engine asserts it
+  a.Real(&point->tangent, kImpulseMax);
+}
+
+/// Points that the snapshot before has are named by their place there. Both ascend, so one pass
+/// finds them.
+void PersistPoints(StateArchive& a, const std::vector<WorldSnapshot::Point>& before,
+                   std::vector<WorldSnapshot::Point>* points) {
+  std::size_t next = 0;  // the first of `before` that may be equal to the next point
+  const auto first_not_before = [&](const WorldSnapshot::Point& point) {
+    std::size_t at = next;
+    while (at < before.size() && PointsAscend(before[at], point)) ++at;
+    return at;
+  };
+  a.List(points, kPointsMost, [&](WorldSnapshot::Point* point) {
+    std::size_t at = a.reading() ? 0 : first_not_before(*point);
+    bool known = !a.reading() && at < before.size() && SamePoint(before[at], *point);
+    a.Flag(&known);
+    if (!known) {
+      PersistPoint(a, point);
+      next = first_not_before(*point);
+      return;
+    }
+    auto skipped = static_cast<std::uint32_t>(at - next);
+    a.Int(&skipped, 0, static_cast<std::int64_t>(kPointsMost));
+    at = next + skipped;
+    a.Require(at < before.size(), "there is no such point before");
+    if (!a.ok()) return;
+    *point = before[at];
+    next = at + 1;
+  });
+}
+
 }  // namespace
 
 void Persist(StateArchive& a, WorldSnapshot* snapshot) {
+  PersistAfter(a, WorldSnapshot(), snapshot);
+}
+
+void PersistAfter(StateArchive& a, const WorldSnapshot& before, WorldSnapshot* snapshot) {
   a.Section("world");
   a.Int(&snapshot->tick, 0, StateArchive::kTickMost);
   a.Word(&snapshot->composition);
   a.Word(&snapshot->joints_there);
   std::vector<WorldSnapshot::Body> bodies(snapshot->bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = snapshot->bodies[i];
+  std::size_t next = 0;
   a.List(&bodies, kPartsMax, [&](WorldSnapshot::Body* body) {
+    const std::size_t i = next++;
+    bool same = !a.reading() && i < before.bodies.size() && SameBody(*body, before.bodies[i]);
+    a.Flag(&same);
+    a.Require(!same || i < before.bodies.size(), "there is no such body before");
+    if (!a.ok()) return;
+    if (same) {
+      *body = before.bodies[i];
+      return;
+    }
     Persist(a, &body->state);
     a.Flag(&body->awake);
     a.Real(&body->quiet_s, kQuietMost);
     a.Real(&body->going_s, kQuietMost);
   });
   if (a.reading()) snapshot->bodies.Take(bodies);
-  a.List(&snapshot->points, kPointsMost, [&](WorldSnapshot::Point* point) {
-    a.Word(&point->pair);
-    a.Word(&point->feature);
-    a.Real(&point->normal, kImpulseMax);
-    if (a.reading()) a.Require(point->normal >= 0, "a contact pulls");  // the engine asserts it
-    a.Real(&point->tangent, kImpulseMax);
-  });
+  PersistPoints(a, before.points, &snapshot->points);
   a.List(&snapshot->joints, kPointsMost, [&](std::vector<float>* impulses) {
     a.List(impulses, kImpulsesMost, [&](float* impulse) { a.Real(impulse, kImpulseMax); });
   });

@@ -57,6 +57,8 @@ class Corrector {
   bool FollowRoles();
   /// Like the above for these bodies only, ascending. Call after a check of Activities.
   bool FollowRoles(const std::vector<int>& bodies);
+  /// Saves or loads the kept states.
+  void Persist(StateArchive& a);
   /// Number of messages kept for a future tick or edit.
   std::size_t waiting() const { return waiting_.size(); }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "common/codec/persist_message.h"
 #include "common/sync/correct/corrector.h"
 #include "common/sync/quantize.h"
 #include "common/sync/reach/way_to.h"
@@ -87,6 +88,12 @@ void Corrector::ReceiveWaiting() {
   std::move(waiting_.begin() + static_cast<std::ptrdiff_t>(left), waiting_.end(),
             std::back_inserter(waited_));
   waiting_.resize(left);
+}
+
+void Corrector::Persist(StateArchive& a) {
+  a.Section("states of later ticks");
+  a.List(&waiting_, kEarlyMessagesMax,
+         [&](States* states) { PersistMessage(a, states, kBusMessageBytesMax); });
 }
 
 bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* result) const {

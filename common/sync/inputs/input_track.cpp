@@ -114,18 +114,33 @@ void InputTrack::Export(int player, int count, Inputs* to) const {
 }
 
 void InputTrack::Persist(StateArchive& a) {
-  std::vector<Known> known;
-  for (std::int64_t t = std::max(oldest_, newest_ - kSavedTicks); newest_ >= 0 && t <= newest_;
-       ++t) {
-    if (knows(t)) known.push_back(*Find(t));
+  struct Run {
+    std::int16_t after = 0, ticks = 0;  // unknown ticks before it, and ticks with this input
+    Input input;
+  };
+  std::vector<Run> runs;
+  std::int64_t end = oldest_;  // of the last run
+  for (std::int64_t t = oldest_; newest_ >= 0 && t <= newest_; ++t) {
+    const Known* const known = Find(t);
+    if (known == nullptr) continue;
+    const bool on = !runs.empty() && end == t && runs.back().input == known->input;
+    if (!on) runs.push_back({static_cast<std::int16_t>(t - end), 0, known->input});
+    ++runs.back().ticks;
+    end = t + 1;
   }
-  a.List(&known, static_cast<std::size_t>(kSavedTicks + 1), [&](Known* each) {
-    a.Int(&each->tick, 0, StateArchive::kTickMost);
-    seam::Persist(a, &each->input);
+  std::int64_t tick = oldest_;
+  a.Int(&tick, -1, StateArchive::kTickMost);
+  a.List(&runs, static_cast<std::size_t>(kKeepTicks + 1), [&](Run* run) {
+    a.Int(&run->after, 0, kKeepTicks);
+    a.Int(&run->ticks, 1, kKeepTicks + 1);
+    seam::Persist(a, &run->input);
   });
   if (a.reading()) {
     *this = InputTrack();
-    for (const Known& each : known) Note(each.tick, each.input);
+    for (const Run& run : runs) {
+      tick += run.after;
+      for (int i = 0; i < run.ticks; ++i) Note(tick++, run.input);
+    }
   }
   a.Tick(&presses_taken_until_);
 }

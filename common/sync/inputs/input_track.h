@@ -38,10 +38,10 @@ class InputTrack {
   /// Like the above, into a message that keeps its memory, utime and sequence.
   void Export(int player, int count, Inputs* to) const;
 
-  /// Saves the inputs of the newest kSavedTicks.
+  /// Saves the known inputs.
   void Persist(StateArchive& a);
 
-  static constexpr std::int64_t kKeepTicks = 600, kSavedTicks = 120;
+  static constexpr std::int64_t kKeepTicks = 600;
 
  private:
   struct Known {

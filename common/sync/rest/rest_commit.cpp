@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
-#include "common/base/state_archive.h"
+#include "common/codec/persist_message.h"
 #include "common/sync/rest/rest_islands.h"
 #include "common/sync/state_arithmetic.h"
 #include "common/sync/state_limits.h"
@@ -216,6 +216,8 @@ void RestCommit::Persist(StateArchive& a) {
   });
   a.Flag(&edited_);
   a.Int(&number_, 0, StateArchive::kTickMost * kIdsMax / 2);
+  a.List(&waiting_, kEarlyMessagesMax,
+         [&](Rest* rest) { PersistMessage(a, rest, kBusMessageBytesMax); });
   if (!a.reading()) return;
   freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) {

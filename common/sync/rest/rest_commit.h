@@ -49,7 +49,7 @@ class RestCommit {
   void MarkEdited() { edited_ = true; }
   /// Forgets all rest.
   void StartAnew();
-  /// Call after BodyMemory::Persist. Messages of future ticks are not saved.
+  /// Call after BodyMemory::Persist.
   void Persist(StateArchive& a);
 
   /// Takes commitments of another peer. Ignores entries older than a known state or commitment;

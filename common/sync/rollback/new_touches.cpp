@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/physics/part_places.h"
+#include "common/scene/saved/persist_state.h"
 
 namespace seam {
 
@@ -53,6 +54,24 @@ std::vector<TouchReport> NewTouches::TakeReports() {
     reports.back().epoch.push_back(roles_.table().at(m).epoch);
   }
   return reports;
+}
+
+void NewTouches::Persist(StateArchive& a, std::size_t parts) {
+  a.Section("touches");
+  const auto touch = [&](PartTouch* t) {
+    a.Int(&t->a, 0, static_cast<std::int64_t>(parts) - 1);
+    a.Int(&t->b, 0, static_cast<std::int64_t>(parts) - 1);
+  };
+  a.Tick(&newest_);
+  a.List(&told_, StateArchive::kListMost, [&](Told* told) {
+    touch(&told->touch);
+    a.Tick(&told->tick);
+    a.Flag(&told->stands);
+  });
+  a.List(&fresh_, StateArchive::kListMost, [&](NewTouch* fresh) {
+    touch(&fresh->touch);
+    a.Tick(&fresh->tick);
+  });
 }
 
 }  // namespace seam

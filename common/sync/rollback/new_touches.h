@@ -10,6 +10,8 @@
 
 namespace seam {
 
+class StateArchive;
+
 /// Two parts that began to touch.
 struct NewTouch {
   PartTouch touch;
@@ -30,6 +32,8 @@ class NewTouches {
   std::vector<NewTouch> Take();
   /// Returns the same as messages to the server; utime is left 0.
   std::vector<TouchReport> TakeReports();
+  /// Saves or loads the touches told. `parts`: how many parts there have been.
+  void Persist(StateArchive& a, std::size_t parts);
 
  private:
   struct Told {

@@ -61,7 +61,7 @@ bool Replay::Agrees(const BodyState& d) {
 
 bool Replay::Ask(int body, std::int64_t tick) {
   if (IsBeforeEdit(tick)) return true;
-  if (barriers_.empty() || tick < barriers_.front().world.tick) return false;
+  if (barriers_.empty() || tick < barriers_.front().world->tick) return false;
   if (tick < memory_.track(body).dynamic_since) return SimulateFrom(body, tick);
   const BodyState* known = memory_.snapshots().At(body, tick);
   if (known == nullptr) return true;  // replaced by a newer one earlier
@@ -106,9 +106,9 @@ void Replay::TakeBarrier() {
   // A body that has just fallen asleep is rebuilt once as it lies.
   const bool is_alone = IsAlone(), alone = std::exchange(was_alone_, is_alone) && is_alone;
   const std::int64_t every = alone ? config_.tick_hz / kAlonePart : 0;
-  if (!barriers_.empty() && world_.tick() - barriers_.back().world.tick < every) return;
+  if (!barriers_.empty() && world_.tick() - barriers_.back().world->tick < every) return;
   AddBarrier(alone);
-  while (barriers_.front().world.tick < world_.tick() - kReplayMax * config_.tick_hz) {
+  while (barriers_.front().world->tick < world_.tick() - kReplayMax * config_.tick_hz) {
     barriers_.pop_front();
   }
   while (edits_before_ < barriers_.front().edits) {
@@ -239,11 +239,11 @@ void Replay::Run() {
 /// Goes back to the newest barrier that is not after `from`. `all`: edits may recreate bodies on
 /// the way, so every body is remembered; else those that are not present and have not changed stay.
 bool Replay::Depart(std::int64_t from, bool all) {
-  while (!barriers_.empty() && barriers_.back().world.tick > from) barriers_.pop_back();
+  while (!barriers_.empty() && barriers_.back().world->tick > from) barriers_.pop_back();
   if (barriers_.empty()) return false;
   Journey journey;
   journey.now = world_.tick();
-  std::vector<int> bodies = world_.MayDifferFrom(barriers_.back().world);
+  std::vector<int> bodies = world_.MayDifferFrom(*barriers_.back().world);
   if (all) {
     bodies.resize(static_cast<std::size_t>(world_.body_count()));
     std::iota(bodies.begin(), bodies.end(), 0);
@@ -252,7 +252,7 @@ bool Replay::Depart(std::int64_t from, bool all) {
     journey.shown.push_back({body, world_.Read(body), world_.awake(body)});
   }
   UndoEdits();
-  if (!world_.Restore(barriers_.back().world).ok()) {  // edited since
+  if (!world_.Restore(*barriers_.back().world).ok()) {  // edited since
     Forget();
     return false;
   }

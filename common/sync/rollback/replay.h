@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -47,7 +48,7 @@ class Replay {
   void AskFrom(std::int64_t tick);
   /// The oldest tick that can be reached; now if there is none.
   std::int64_t oldest() const {
-    return barriers_.empty() ? world_.tick() : barriers_.front().world.tick;
+    return barriers_.empty() ? world_.tick() : barriers_.front().world->tick;
   }
   /// The newest tick that could be reached when a change of an earlier one was asked for: what
   /// follows lacks that change. -1: never.
@@ -68,10 +69,13 @@ class Replay {
   /// Drops all barriers: a body is new, or the bodies have changed.
   void Forget();
   /// Makes this tick a barrier, also for replays, and returns it.
-  WorldSnapshot BarrierNow();
-  /// Saves the record on which the next barriers depend. Reading: begins with `barrier`, the
-  /// world's state.
-  void Persist(StateArchive& a, const WorldSnapshot& barrier);
+  std::shared_ptr<const WorldSnapshot> BarrierNow();
+  // Saved rooms (replay_saved.cpp): PersistBarriers, then Persist.
+  /// Saves or loads the barriers before this tick's. Reading leaves the world in any state: load it
+  /// afterwards.
+  void PersistBarriers(StateArchive& a);
+  /// Saves or loads all else. `now`: the barrier of this tick.
+  void Persist(StateArchive& a, std::shared_ptr<const WorldSnapshot> now);
 
   // Edits at their tick (replay_edits.cpp). For each, in their order: GoBackTo, World::Apply,
   // BodyTable::Renumber if the bodies have changed, Edited; after the last one GoOn.
@@ -97,7 +101,7 @@ class Replay {
 
  private:
   struct Barrier {
-    WorldSnapshot world;
+    std::shared_ptr<const WorldSnapshot> world;  // another thread may write it to a file
     std::int64_t edits = 0;  ///< number of edits before it that changed no bodies
   };
   /// An edit that changed no bodies.
@@ -132,6 +136,8 @@ class Replay {
   /// True if no other peer simulates or drives any body that this peer simulates.
   bool IsAlone() const;
   void DropBarriers();
+  static void PersistAll(StateArchive& a, std::vector<Barrier>* barriers);
+  void PersistEdits(StateArchive& a);
   void RecordSeats();
   void ForgetHeard();
   void UndoEdits();

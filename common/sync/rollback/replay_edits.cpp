@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "common/base/geometry.h"
-#include "common/scene/saved/persist_state.h"
 #include "common/sync/rollback/replay.h"
 
 namespace seam {
@@ -24,7 +23,7 @@ constexpr int kLackMax = 3;
 void Replay::GoBackTo(std::int64_t tick) {
   if (!edits_.empty()) tick = std::max(tick, edits_.back().tick);  // edits keep their order
   if (!journey_ && !barriers_.empty()) {
-    tick = std::clamp(tick, barriers_.front().world.tick, world_.tick());
+    tick = std::clamp(tick, barriers_.front().world->tick, world_.tick());
     const std::int64_t asked = std::exchange(from_, -1);  // a pending replay is done on the way
     const std::int64_t from = asked < 0 ? tick : std::min(tick, asked);
     if (from < world_.tick()) Depart(from, true);
@@ -120,7 +119,9 @@ void Replay::RepeatEdits() {
 }
 
 void Replay::AddBarrier(bool alone) {
-  barriers_.push_back({alone ? world_.Keep() : world_.Barrier(), edits_done_});
+  barriers_.push_back(
+      {std::make_shared<const WorldSnapshot>(alone ? world_.Keep() : world_.Barrier()),
+       edits_done_});
 }
 
 void Replay::DropBarriers() {
@@ -145,23 +146,6 @@ void Replay::GoOn() {
   if (!journey_) return;
   StepTo(journey_->now);
   Arrive();
-}
-
-WorldSnapshot Replay::BarrierNow() {
-  if (!config_.policy->TakesBarriers(roles_.self())) return world_.Barrier();
-  if (!barriers_.empty() && barriers_.back().world.tick == world_.tick()) barriers_.pop_back();
-  AddBarrier(false);
-  return barriers_.back().world;
-}
-
-void Replay::Persist(StateArchive& a, const WorldSnapshot& barrier) {
-  a.Section("replay");
-  a.Flag(&was_alone_);
-  a.Real(&credit_, kSavedSpeedMost);
-  a.Tick(&edited_tick_);
-  if (!a.reading() || !a.ok()) return;
-  Forget();
-  if (config_.policy->TakesBarriers(roles_.self())) barriers_.push_back({barrier, edits_done_});
 }
 
 }  // namespace seam
