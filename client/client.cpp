@@ -201,39 +201,6 @@ void Client::StepDue(std::int64_t now_us) {
   }
 }
 
-void Client::RecordOwnInput() {
-  if (player_ < 0) return;
-  const std::int64_t next = replica_->tick() + 1;
-  Input input;
-  switch (config_.drive) {
-    case Drive::kNone: break;
-    case Drive::kScript: {
-      for (std::size_t p = 0; p < scene_->players.size(); ++p) {
-        if (scene_->players[p].name == config_.script_of) {
-          input = ScriptedInput(*scene_, static_cast<int>(p), next);
-        }
-      }
-      break;
-    }
-    case Drive::kBot: input = BotInput(room_.seed, player_, next, room_.tick_hz); break;
-    case Drive::kLive: input = live_; break;
-  }
-  // An input read for this tick acts in a later one; before the first of those, input is neutral.
-  const std::int64_t acts = next + room_.input_delay_ticks;
-  const InputTrack& track = replica_->inputs(player_);
-  for (std::int64_t tick = std::max(next, track.newest() + 1); tick < acts; ++tick) {
-    replica_->RecordInput(player_, tick, Input{});
-  }
-  replica_->RecordInput(player_, acts, input);
-  if (!(input == Input{})) idle_since_ = next;
-}
-
-void Client::RecordKnownInputs() {
-  const std::int64_t next = replica_->tick() + 1;
-  const auto all = policy_->KnownInputs(*scene_, next, room_.input_delay_ticks);
-  for (const Inputs& inputs : all) replica_->RecordInputs(inputs);
-}
-
 bool Client::Quiet() const {
   if (replica_ == nullptr || !started_ || !rest_agrees_ || !replica_->rest().all()) return false;
   const bool idle = replica_->tick() - idle_since_ > kInputKnownAfter * room_.tick_hz;
@@ -257,6 +224,7 @@ bool Client::EditsWait() {
 }
 
 void Client::StepOnce(std::int64_t now_us) {
+  FollowSettings();
   RecordOwnInput();
   RecordKnownInputs();
   replica_->Step();

@@ -30,6 +30,7 @@
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "common/sync/rest/rest_blocks.h"
+#include "common/sync/settings/live_settings.h"
 
 namespace seam {
 
@@ -189,9 +190,6 @@ class Client {
   /// Returns the amount to publish in a room of so many bodies; kNone if nobody listens.
   Publish Published(int bodies) const;
   void PublishShown(std::int64_t now_us);
-  void RecordOwnInput();
-  /// Records the inputs that every peer knows of the next tick without being told.
-  void RecordKnownInputs();
   void TellRest(std::int64_t now_us);
   void OnStates(const States& states);
   void OnPacked(const PackedStates& packed);
@@ -200,6 +198,13 @@ class Client {
   /// True if everything rests, here and at the server, and the player does nothing: then a ping a
   /// second is enough.
   bool Quiet() const;
+
+  // client_inputs.cpp
+  /// Lets the settings of the next tick act.
+  void FollowSettings();
+  void RecordOwnInput();
+  /// Records the inputs that every peer knows of the next tick without being told.
+  void RecordKnownInputs();
 
   // client_send.cpp
   /// True if the path to the server carries a datagram now.
@@ -252,6 +257,7 @@ class Client {
   std::unique_ptr<Replica> replica_;
   ClockFilter clock_;
   MetaTable metadata_;
+  PlayerSettings settings_;  // of our player
   std::string notice_;
   Room room_;
   const Policy* policy_ = &UnknownPolicy();   // of room_.mode, once its scene is loaded

@@ -55,6 +55,7 @@ void Client::Forget(std::int64_t now_us) {
   clock_ = ClockFilter();
   feed_ = InputFeed();
   metadata_ = MetaTable();
+  settings_.Clear();
   if ((peer_ >= 0 && !moving_) || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
   said_ready_ = started_ = released_ = loaded_now_ = moving_ = false;

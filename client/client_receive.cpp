@@ -59,6 +59,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     OnSnapshot(*snapshot);
   } else if (const auto* meta = std::get_if<Meta>(&any)) {
     metadata_.Apply(*meta);
+    settings_.Take(*meta, player_, room_.tick_hz);
   } else if (const auto* event = std::get_if<Event>(&any)) {
     notice_ = event->text;
   } else if (const auto* states = std::get_if<States>(&any)) {

@@ -1,8 +1,10 @@
 /// seam-measure: measures recordings. docs/metrics.md defines each measure.
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -80,6 +82,20 @@ Oracle GivenOracle(const Recording& truth, const Recording& recording, const Opt
   return OracleFromRecording(truth);
 }
 
+/// Returns the changes that an operator made while the session ran, "network is now 4g at 3.2 s,
+/// and 5 more"; "" without any.
+std::string ChangesOf(const Recording& recording) {
+  std::string first;
+  int more = -1;
+  for (const Event& event : recording.events) {
+    if (event.kind != static_cast<std::int8_t>(EventKind::kControl)) continue;
+    if (++more > 0) continue;
+    const double time_s = static_cast<double>(event.tick) / std::max(1, recording.room.tick_hz);
+    first = fmt::format("{} at {:.1f} s", event.text, time_s);
+  }
+  return first + (more > 0 ? fmt::format(", and {} more", more) : "");
+}
+
 MeasuredRun MeasureLog(std::size_t i, const Options& options,
                        const std::optional<Recording>& truth) {
   const std::string& path = options.logs[i];
@@ -87,6 +103,11 @@ MeasuredRun MeasureLog(std::size_t i, const Options& options,
   const std::string sessions = ChosenSession(recording);
   if (!sessions.empty()) {
     std::fprintf(stderr, "seam-measure: note: %s: %s\n", path.c_str(), sessions.c_str());
+  }
+  const std::string changes = ChangesOf(recording);
+  if (!changes.empty()) {
+    std::fprintf(stderr, "seam-measure: note: %s: changed while it ran: %s (seam-log events)\n",
+                 path.c_str(), changes.c_str());
   }
   RequireRange(options.range, recording, path);
   const Oracle oracle = truth ? GivenOracle(*truth, recording, options, path)
@@ -96,7 +117,7 @@ MeasuredRun MeasureLog(std::size_t i, const Options& options,
   run.run = options.names.empty() ? BaseName(path) + SessionSuffix(recording) : options.names[i];
   run.room = recording.room;
   run.measures = Measure(recording, oracle);
-  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &run.measures);
+  MeasureResponse(recording, oracle, &run.measures);
   run.valid = WhyNotValid(recording, oracle, run.measures);
   run.lacks = LackOf(recording);
   run.gaps = recording.bus_gaps;

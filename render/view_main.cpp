@@ -3,7 +3,8 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstring>
+#include <functional>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "common/net/http_server.h"
 #include "common/record/bus.h"
 #include "common/sync/inputs/input_line.h"
+#include "render/view/control_line.h"
 #include "render/view/live_feed.h"
 #include "render/view/log_tails.h"
 #include "render/view/view_page.h"
@@ -31,6 +33,7 @@ struct Flags {
   int port = 8080;
   std::string lcm_url;
   std::string drive;
+  std::string control;  // address of a server's door; "": none
   bool oracle = false;
   bool quiet = false;
 };
@@ -50,6 +53,10 @@ void Define(Command& app, Flags& f) {
       "--drive", f.drive,
       "let the page drive this player: a line DRIVE LIFT BUTTONS on standard output for each "
       "change, for seam-client --inputs -");
+  app.Option(
+      "--control", f.control,
+      "let the page change the room, and drag bodies: the address that seam-server --control "
+      "prints (-: a line of standard input)");
   app.Switch("--oracle", f.oracle,
              "simulate the session in one world beside it, and show each view's error against it");
   app.Switch("--quiet", f.quiet, "do not print the page's address");
@@ -61,15 +68,12 @@ void PrintInput(const Input& input) {
   (void)!write(1, line.data(), line.size());
 }
 
-/// Returns 32 hexadecimal digits that nobody can guess.
-std::string MakeToken() {
-  OsEntropy entropy;
-  std::uint8_t bytes[16];
-  for (std::size_t i = 0; i < sizeof bytes; i += 8) {
-    const std::uint64_t bits = entropy.Next();
-    std::memcpy(bytes + i, &bits, sizeof bits);
-  }
-  return ToHex(bytes, sizeof bytes);
+/// Returns the way to the server's control door; nullptr: none. "-": its address is the first line
+/// of standard input, which no list of processes shows.
+std::unique_ptr<ControlLine> ControlOf(std::string address) {
+  if (address.empty()) return nullptr;
+  if (address == "-") std::getline(std::cin, address);
+  return std::make_unique<ControlLine>(address);
 }
 
 /// Reads what has come to the logs; false when nothing has.
@@ -108,8 +112,16 @@ int Run(const Flags& f) {
     tails = std::make_unique<LogTails>(f.logs);
   }
   HttpServer server(static_cast<std::uint16_t>(f.port));
-  const std::string token = f.drive.empty() ? "" : MakeToken();
-  ViewPage page(token, PrintInput);
+  const std::unique_ptr<ControlLine> control = ControlOf(f.control);
+  OsEntropy entropy;
+  const std::string token = f.drive.empty() && control == nullptr ? "" : SecretDigits(entropy);
+  const auto command = [&](std::int64_t now_us, const std::string& line) {
+    const Status done = control->Send(now_us, line);
+    feed.ShowControl(control->state());
+    return done;
+  };
+  ViewPage page(token, f.drive.empty() ? nullptr : std::function<void(const Input&)>(PrintInput),
+                control == nullptr ? nullptr : ViewPage::Control(command));
   StopOnSignals();
   if (!f.quiet) {
     std::fprintf(stderr, "seam-view: http://127.0.0.1:%d/%s%s; Ctrl-C ends it\n", server.port(),
@@ -123,6 +135,10 @@ int Run(const Flags& f) {
     // A log's past is read before the first page shows its present.
     if (!more || feed.begun()) feed.Flush(now);
     page.Tick(now);
+    if (control != nullptr) {
+      control->Tick(now);
+      feed.ShowControl(control->state());
+    }
     server.Poll(
         now, [&](const HttpRequest& request) { return page.Answer(now, request); },
         [&](std::uint64_t* place) { return feed.Next(place); });
@@ -142,7 +158,8 @@ int main(int argc, char** argv) {
       "  seam-view                     the session on the LCM bus\n"
       "  seam-view --room main --port 8081\n"
       "  seam-view session.lcm         a log that is being written\n"
-      "  seam-view --drive ann | seam-client 127.0.0.1:7777 --name ann --inputs -"};
+      "  seam-view --drive ann | seam-client 127.0.0.1:7777 --name ann --inputs -\n"
+      "  seam-view --control 'http://127.0.0.1:9465/control?token=...'"};
   return RunCommandLine(
       text, argc, argv, [&](Command& app) { Define(app, flags); }, [&] { return Run(flags); });
 }

@@ -22,6 +22,7 @@
 #include "common/sync/method.h"
 #include "server/fleet/fleet_host.h"
 #include "server/hub/hub.h"
+#include "server/hub/hub_door.h"
 #include "server/hub/progress.h"
 #include "server/metrics_page.h"
 #include "server/saved/resumed_room.h"
@@ -72,17 +73,6 @@ int PlayersToWaitFor(const Flags& f, const std::string& name, const Scene& scene
   return f.wait >= 0 ? f.wait : players;
 }
 
-/// Returns "which scene? ..." with the names of known scenes.
-std::string WhichScene() {
-  std::string line = "which scene? for example: seam-server scenes/crossing.toml";
-  const char* before = "; by name: ";
-  for (const std::string& name : SceneNames()) {
-    line += before + name;
-    before = ", ";
-  }
-  return line;
-}
-
 /// Returns the name of a room's log: "out/log.lcm" for one room, "out/log.main-1.lcm" for several.
 std::string LogOf(const std::string& record, const std::string& room, int rooms) {
   if (record.empty() || rooms == 1) return record;
@@ -107,6 +97,10 @@ void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms,
   const bool on_bus = rooms == 1 || f.bus_rooms == "all" || (f.bus_rooms == "first" && index == 0);
   plan->lcm_url = on_bus ? f.lcm_url : "none";
   plan->alone = rooms == 1;
+  plan->control = f.control_port >= 0;
+  if (plan->control && (rooms > 1 || !f.directory.empty())) {
+    throw OperatorError("--control: one room, and no --directory");
+  }
   plan->news = !f.quiet;
 }
 
@@ -291,10 +285,17 @@ int Serve(const Flags& f) {
   }
   MetricsPage page(f);
   Hub hub(plans, udp, shared->identity);
+  std::unique_ptr<HubDoor> door;
+  if (f.control_port >= 0) {
+    door = std::make_unique<HubDoor>(static_cast<std::uint16_t>(f.control_port), hub);
+  }
   StopOnSignals();
   const int workers = f.workers > 0 ? f.workers : CoreCount();
   if (rooms > 1 || fleet) hub.Start(fleet ? workers : std::min(workers, rooms));
   Announce(f, plans, udp.local(), *shared->identity);
+  if (door != nullptr) {
+    std::fprintf(stderr, "seam-server: control at %s\n", door->address().c_str());
+  }
   if (fleet) {
     hub.SetElsewhere([&](const std::string& room) { return member->Find(room); });
     member->Start();
@@ -304,6 +305,7 @@ int Serve(const Flags& f) {
     const std::int64_t now = SteadyClockUs();
     hub.Poll(now);
     if (fleet) FollowFleet(*member, hub);
+    if (door != nullptr) door->Poll(now);
     page.Poll(now, hub, member.get());
     for (const std::string& news : hub.TakeReports()) {
       line.End();

@@ -8,6 +8,7 @@
 #include "common/base/state_archive.h"
 #include "common/codec/persist_message.h"
 #include "common/sync/edits/topology_snapshot.h"
+#include "common/sync/metadata.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
 #include "server/authority_source.h"
@@ -68,8 +69,12 @@ std::vector<Rest> RoomState::Resting(std::int64_t now_us) const {
 }
 
 std::vector<Meta> RoomState::Metadata(std::int64_t now_us) const {
-  if (parts_.rules == nullptr) return {};
-  return parts_.rules->metadata().Export(now_us, parts_.replica.tick());
+  std::vector<Meta> all = parts_.settings.Export(now_us, parts_.replica.tick());
+  if (parts_.rules == nullptr) return all;
+  for (Meta& meta : parts_.rules->metadata().Export(now_us, parts_.replica.tick())) {
+    all.push_back(std::move(meta));
+  }
+  return all;
 }
 
 StateDraft RoomState::Copy(std::int64_t now_us, std::size_t expected_bytes) {
@@ -187,6 +192,7 @@ void RoomState::Persist(StateArchive& a, std::int64_t now_us, std::vector<int>* 
   parts_.bounds.Persist(a);
   parts_.ladder.Persist(a);
   parts_.sessions.places().Persist(a, now_us);
+  parts_.settings.Persist(a);
   a.Flag(&ruled);
   a.Require(ruled == (parts_.rules != nullptr), "it has other rules");
   if (parts_.rules != nullptr && a.ok()) {

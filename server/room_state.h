@@ -28,6 +28,7 @@ class AuthorityManager;
 class AuthoritySource;
 class BoundsWatch;
 class EditLog;
+class MetaTable;
 class Replica;
 class RoomClock;
 class Rules;
@@ -36,7 +37,7 @@ class SessionTable;
 class TrustLadder;
 
 /// Version of the saved bytes. Raise it with every change of them; older ones are not read.
-constexpr std::uint32_t kRoomStateVersion = 5;
+constexpr std::uint32_t kRoomStateVersion = 6;
 
 /// The beginning of a saved room, enough to make the server that loads it.
 class SavedRoom {
@@ -82,6 +83,7 @@ class RoomState {
     TrustLadder& ladder;
     SessionTable& sessions;
     RoomClock& clock;
+    MetaTable& settings;
     AuthoritySource* source;
     Rules* rules;
   };

@@ -77,6 +77,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
                 TokenDoor{config.token_key, config.room, config.epoch}),
       authority_(scene_, config.sync, replica_),
       edits_(MakeEditLog(*config.sync.policy, replica_.world(), authority_, config.sync.tick_hz)),
+      settings_(scene_, config_.sync),
       bounds_(replica_),
       filter_(scene_, replica_, authority_, *edits_, config.trust, stats_.counters),
       ladder_(scene_.players.size(), config.sync.tick_hz),
@@ -213,6 +214,9 @@ void Server::StepOnce(std::int64_t now_us) {
   }
   TellRest(now_us);
   PublishShown(now_us);
+  for (const Meta& meta : settings_.table().TakeChanges(now_us, replica_.tick())) {
+    broadcast_.ToAll(meta);
+  }
   RunRules(now_us);
   broadcast_.NoteTick();
 }

@@ -21,6 +21,7 @@
 #include "server/edits/oracle_edit_log.h"
 #include "server/room_clock.h"
 #include "server/room_feed.h"
+#include "server/room_settings.h"
 #include "server/rules/bounds_watch.h"
 #include "server/rules/seats.h"
 #include "server/server_stats.h"
@@ -141,6 +142,7 @@ class Server {
   /// Speed of the room's clock, ppm of real time: below kFullSpeedPpm the server is overloaded.
   std::int32_t speed_ppm() const { return clock_.speed_ppm(); }
   const Replica& replica() const { return replica_; }
+  RoomSettings& settings() { return settings_; }
   /// Adds an edit from outside; see EditLog::Add.
   bool Order(const Edit& edit) { return edits_->Add(edit); }
   /// Returns the operator's warnings since the last call, such as a stopped script. One line each.
@@ -305,6 +307,7 @@ class Server {
   std::set<int> seats_freed_;                 // edits that free them are on their way
   std::int64_t waiting_told_us_ = -1;         // or when the first was ready; -1: nobody is
   std::map<int, std::int64_t> seat_told_us_;  // by player: the last refusal that it was told
+  RoomSettings settings_;
   BoundsWatch bounds_;
   StateFilter filter_;
   TrustLadder ladder_;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "common/base/check.h"
+#include "common/base/find_scene.h"
 #include "common/base/limits.h"
 #include "common/net/impair.h"
 #include "common/sync/lease.h"
@@ -40,6 +41,16 @@ std::string ProfilesText() {
   return text;
 }
 
+std::string WhichScene() {
+  std::string line = "which scene? for example: seam-server scenes/crossing.toml";
+  const char* before = "; by name: ";
+  for (const std::string& name : SceneNames()) {
+    line += before + name;
+    before = ", ";
+  }
+  return line;
+}
+
 void DefineServerFlags(Command& app, ServerFlags& f) {
   app.Option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
   app.Option("--port", f.port, "UDP port").Range(1, 65535);
@@ -71,6 +82,10 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
              "reaches it can read it");
   app.Option("--metrics-rooms", f.metrics_rooms,
              "rooms on that page: all, or worst:N, the N latest ones");
+  app.Option("--control", f.control_port,
+             "let those who have the printed address change the room while it runs, at "
+             "http://127.0.0.1:PORT (0: any that is free): network, input delay, show age, edits")
+      .Range(0, 65535);
   app.Option("--identity", f.identity,
              "keep the server's key in this file (mode 0600; made if there is none), so that it is "
              "the same after a restart");

@@ -41,6 +41,7 @@ struct ServerFlags {
   int metrics_port = 0;
   std::string metrics_bind;
   std::string metrics_rooms = "all";
+  int control_port = -1;  // -1: no door; 0: any that is free
   std::string trust = "act";
   std::string identity, token_key, log_key;
   std::string drain_to;   // address at which the rooms go on after SIGTERM; "fleet": any server's
@@ -56,6 +57,8 @@ struct ServerFlags {
 void DefineServerFlags(Command& app, ServerFlags& flags);
 /// Returns the network profiles and reconcilers for --help.
 std::string ProfilesText();
+/// Returns "which scene? ..." with the names of known scenes.
+std::string WhichScene();
 /// Parses bytes a second: "64kB/s", "64000". Throws OperatorError.
 double ParseBudget(const std::string& text);
 

@@ -79,7 +79,12 @@ bool Server::Replay(std::int64_t now_us, const TickMessages& log) {
   std::vector<Meta> values;
   for (const AnyMessage& message : log.after) {
     TakeLogged(now_us, message);
-    if (const auto* meta = std::get_if<Meta>(&message)) values.push_back(*meta);
+    const auto* meta = std::get_if<Meta>(&message);
+    if (meta != nullptr && HoldsSettings(*meta)) {
+      settings_.table().Announce(*meta);
+    } else if (meta != nullptr) {
+      values.push_back(*meta);
+    }
   }
   for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);
   replica_.TakeDiffering();

@@ -12,7 +12,7 @@ namespace seam {
 
 RoomState Server::State() {
   return RoomState({room_, epoch_, replica_, authority_, *edits_, seat_bonds_, bounds_, ladder_,
-                    sessions_, clock_, rule_source_.get(), rules_.get()});
+                    sessions_, clock_, settings_.table(), rule_source_.get(), rules_.get()});
 }
 
 Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }
@@ -35,6 +35,8 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
     chronicle_->SumKilled(now_us, *tail->summary, present, rules_.get());
   }
   chronicle_->SayResumed(now_us);
+  for (const Meta& meta : settings_.table().Export(now_us, replica_.tick()))
+    broadcast_.Publish(meta);
   // The log has all of it, so that a server that goes on from it does the same.
   TakeAllBack(now_us);
   NoteAuthority(now_us);

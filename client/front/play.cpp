@@ -54,6 +54,18 @@ std::string WordAfter(const std::string& text, const std::string& mark) {
   return end == std::string::npos ? "" : text.substr(begin, end - begin);
 }
 
+/// Returns a descriptor from which one line is read, and then the end.
+int ReadableLine(const std::string& line) {
+  int pipe[2] = {-1, -1};
+  const std::string text = line + "\n";
+  if (pipe2(pipe, O_CLOEXEC) != 0) throw OperatorError("no pipe");
+  const bool written =
+      write(pipe[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  close(pipe[1]);
+  if (!written) throw OperatorError("no pipe");
+  return pipe[0];
+}
+
 /// True if LCM's bus works here.
 bool BusWorks() {
   try {
@@ -147,16 +159,19 @@ class Session {
                                    "--impair",    options_.impair,
                                    "--mode",      options_.mode,
                                    "--wait",      std::to_string(players),
-                                   "--duration",  std::to_string(options_.duration_s)};
+                                   "--duration",  std::to_string(options_.duration_s),
+                                   "--control",   "0"};
     AddBus("server", &words);
     Child* server = Start("server", words, {});
+    control_ = "http://127.0.0.1:" + WaitFor(server, "server", "control at http://127.0.0.1:");
     address_ = "127.0.0.1:" + WaitFor(server, "server", "on 127.0.0.1:");
   }
 
   void StartView() {
     std::vector<std::string> logs = logs_;
     std::vector<std::string> words{"seam-view", "--port", std::to_string(options_.port),
-                                   "--room",    room_,    "--oracle"};
+                                   "--room",    room_,    "--oracle",
+                                   "--control", "-"};
     if (options_.drive) words.insert(words.end(), {"--drive", own_});
     if (!on_bus_) {
       logs.push_back(folder_ / (own_ + ".lcm"));
@@ -169,7 +184,9 @@ class Session {
     if (options_.drive && pipe2(pipe, O_CLOEXEC) != 0) throw OperatorError("no pipe");
     ChildFiles files;
     files.output = pipe[1];
+    files.input = ReadableLine(control_);
     Child* view = Start("view", words, files);
+    close(files.input);
     if (pipe[1] >= 0) close(pipe[1]);
     keys_ = pipe[0];
     page_ = "http://127.0.0.1:" + WaitFor(view, "view", "http://127.0.0.1:");
@@ -202,8 +219,8 @@ class Session {
   }
 
   std::vector<std::string> ClientWords(const std::string& name) {
-    std::vector<std::string> words{"seam-client", address_, "--name",   name,
-                                   "--room",      room_,    "--impair", options_.impair};
+    // The network is the server's, where the page changes it.
+    std::vector<std::string> words{"seam-client", address_, "--name", name, "--room", room_};
     AddBus(name, &words);
     return words;
   }
@@ -245,7 +262,7 @@ class Session {
   std::vector<std::string> bots_, logs_, names_;
   std::vector<std::unique_ptr<Child>> children_;
   Child* player_ = nullptr;  // among children_
-  std::string address_, page_;
+  std::string address_, page_, control_;
   int keys_ = -1;  // the page's inputs come here
 };
 

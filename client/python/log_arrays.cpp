@@ -116,7 +116,7 @@ BodyArrays LogArrays::OracleBodies() {
 
 Measures LogArrays::MeasureAll(std::string* valid) {
   Measures measures = Measure(recording_, TheOracle());
-  MeasureResponse(recording_, TheOracle(), recording_.room.input_delay_ticks, &measures);
+  MeasureResponse(recording_, TheOracle(), &measures);
   *valid = WhyNotValid(recording_, TheOracle(), measures);
   return measures;
 }

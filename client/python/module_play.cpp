@@ -86,7 +86,7 @@ py::dict MeasureSession(LocalSession& session) {
     }
     const Oracle oracle = ComputeOracle(recording, JudgeOf(recording.room));
     measures = Measure(recording, oracle);
-    MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &measures);
+    MeasureResponse(recording, oracle, &measures);
     valid = WhyNotValid(recording, oracle, measures);
   }
   return MeasuresDict(measures, valid);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "common/base/entropy.h"
+
 namespace seam {
 
 inline std::string ToHex(const std::uint8_t* bytes, std::size_t size) {
@@ -13,6 +15,19 @@ inline std::string ToHex(const std::uint8_t* bytes, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) {
     text += kHexDigits[bytes[i] >> 4];
     text += kHexDigits[bytes[i] & 15];
+  }
+  return text;
+}
+
+/// Returns 32 digits that nobody can guess, from `entropy` of the system.
+inline std::string SecretDigits(Entropy& entropy) {
+  std::string text;
+  for (int word = 0; word < 2; ++word) {
+    const std::uint64_t bits = entropy.Next();
+    std::uint8_t bytes[sizeof bits];
+    for (std::size_t i = 0; i < sizeof bits; ++i)
+      bytes[i] = static_cast<std::uint8_t>(bits >> (8 * i) & 255);
+    text += ToHex(bytes, sizeof bytes);
   }
   return text;
 }

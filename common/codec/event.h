@@ -30,8 +30,9 @@ enum class EventKind : std::int8_t {
   kRepaired,  ///< a client with another composition
   kOutOfBounds,
   kWarning,  ///< for the operator, such as a stopped script
+  kControl,  ///< by the operator, while the room runs (docs/live-view.md)
 };
-constexpr std::int8_t kEventKindMax = static_cast<std::int8_t>(EventKind::kWarning);
+constexpr std::int8_t kEventKindMax = static_cast<std::int8_t>(EventKind::kControl);
 
 struct Event {
   std::int64_t utime = 0;
@@ -44,8 +45,8 @@ struct Event {
   std::int32_t player = -1;      ///< that it is about, or that did it; -1: none
   std::int32_t body = -1;        ///< id of a part; -1: none
   std::int32_t other = -1;       ///< id of the other part of a joint; -1: none
-  std::int32_t index = -1;       ///< of a joint, seat or trigger in the scene; -1: none
-  std::int64_t value_milli = 0;  ///< 1/1000: score, trust step, speed, number of parts
+  std::int32_t index = -1;  ///< joint, seat or trigger in the scene; key of a setting; -1: none
+  std::int64_t value_milli = 0;  ///< 1/1000: score, trust step, speed, parts, ticks
 };
 /// Largest absolute value_milli.
 constexpr std::int64_t kEventValueMax = std::int64_t{1} << 53;

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "common/net/udp.h"
 
@@ -85,24 +87,37 @@ void HttpPage::Poll(std::int64_t now_us, const Render& render) {
   });
 }
 
-Status FetchPage(const std::string& address, std::int64_t timeout_us, std::string* body) {
+Status AskPage(const std::string& address, const std::string& method, const std::string& target,
+               const std::string& body, std::int64_t timeout_us, HttpAnswer* answer) {
   const std::int64_t deadline_us = MonotonicUs() + timeout_us;
   Socket socket_of{socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
   const Address to = ParseAddress(address, 9464);
   if (socket_of.fd < 0 || !to.ipv4() || !Connect(socket_of.fd, to, deadline_us)) {
     return Status::Error("no page at " + address);
   }
-  const std::string request = "GET /metrics HTTP/1.1\r\nHost: " + address + "\r\n\r\n";
+  const std::string length = "Content-Length: " + std::to_string(body.size()) + "\r\n";
+  const std::string request = method + " " + target + " HTTP/1.1\r\nHost: " + address + "\r\n" +
+                              (body.empty() ? "" : length) + "\r\n" + body;
   const ssize_t sent = send(socket_of.fd, request.data(), request.size(), MSG_NOSIGNAL);
   std::string text;
   if (sent != static_cast<ssize_t>(request.size()) || !ReadAll(socket_of.fd, deadline_us, &text)) {
     return Status::Error("no answer from " + address);
   }
   const std::size_t begin = text.find("\r\n\r\n");
-  if (text.rfind("HTTP/1.1 200 ", 0) != 0 || begin == std::string::npos) {
+  if (text.rfind("HTTP/1.1 ", 0) != 0 || begin == std::string::npos) {
     return Status::Error(address + " has no such page");
   }
-  *body = text.substr(begin + 4);
+  answer->status = std::atoi(text.c_str() + 9);
+  answer->body = text.substr(begin + 4);
+  return Status::Ok();
+}
+
+Status FetchPage(const std::string& address, std::int64_t timeout_us, std::string* body) {
+  HttpAnswer answer;
+  const Status asked = AskPage(address, "GET", "/metrics", "", timeout_us, &answer);
+  if (!asked.ok()) return asked;
+  if (answer.status != 200) return Status::Error(address + " has no such page");
+  *body = std::move(answer.body);
   return Status::Ok();
 }
 

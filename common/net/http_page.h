@@ -26,6 +26,17 @@ class HttpPage {
   HttpServer server_;
 };
 
+/// The answer to a request.
+struct HttpAnswer {
+  int status = 0;  ///< 200
+  std::string body;
+};
+
+/// Sends a request to a page on this machine, "GET" or "POST", for a target such as "/metrics".
+/// Blocks for at most `timeout_us`. Returns an error unless an answer arrives, of whatever status.
+Status AskPage(const std::string& address, const std::string& method, const std::string& target,
+               const std::string& body, std::int64_t timeout_us, HttpAnswer* answer);
+
 /// Fetches such a page from `address`, "127.0.0.1:9464". Blocks for at most `timeout_us`. Returns
 /// an error unless an answer with status 200 arrives.
 Status FetchPage(const std::string& address, std::int64_t timeout_us, std::string* body);

@@ -23,6 +23,14 @@ struct HttpResponse {
   const char* type = "text/plain; charset=utf-8";
   std::string body;
   bool stream = false;  ///< after the headers, pieces follow without end; `body` is not sent
+
+  /// Returns a refusal with one line of text.
+  static HttpResponse Refusal(const char* status, const std::string& why) {
+    HttpResponse refusal;
+    refusal.status = status;
+    refusal.body = why + "\n";
+    return refusal;
+  }
 };
 
 class HttpServer {

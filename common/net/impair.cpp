@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "common/base/check.h"
@@ -42,7 +43,7 @@ class Direction {
 
   void Enter(const Address& peer, ByteView data, std::int64_t now_us) {
     Path& path = Find(peer);
-    const Fate fate = path.impair.Next(now_us, data.size);
+    const Fate fate = path.impair->Next(now_us, data.size);
     ++traffic_.offered;
     bool entered = false;
     for (int i = 0; i < fate.count; ++i) {
@@ -77,6 +78,13 @@ class Direction {
     return true;
   }
 
+  /// Begins each path anew by another profile, with random streams of its own.
+  void Change(const ImpairProfile& profile) {
+    profile_ = profile;
+    ++changes_;
+    for (auto& [key, path] : paths_) path.impair.emplace(profile_, StreamOf(key));
+  }
+
   void Clear() {
     for (const Waiting& waiting : heap_) *waiting.path_bytes -= waiting.data.size();
     heap_.clear();
@@ -91,24 +99,31 @@ class Direction {
 
  private:
   struct Path {
-    ImpairPath impair;
-    std::size_t bytes = 0;  // in flight on this path
+    std::optional<ImpairPath> impair;  // never empty
+    std::size_t bytes = 0;             // in flight on this path
   };
+
+  /// Returns the random stream of a path.
+  Random StreamOf(const Address& key) const {
+    const std::uint64_t ipv4 = (std::uint64_t{key.ip} << 16) | key.port;
+    const std::uint64_t purpose =
+        key.ipv4() ? ipv4 : ipv4 ^ key.high ^ (std::uint64_t{key.middle} << 32);
+    return changes_ == 0 ? random_.Fork(purpose) : random_.Fork(purpose).Fork(changes_);
+  }
 
   Path& Find(const Address& peer) {
     const auto found = paths_.find(peer);
     if (found != paths_.end()) return found->second;
     const Address key = paths_.size() < kPathsMax ? peer : Address{};
-    const std::uint64_t ipv4 = (std::uint64_t{key.ip} << 16) | key.port;
-    const std::uint64_t purpose =
-        key.ipv4() ? ipv4 : ipv4 ^ key.high ^ (std::uint64_t{key.middle} << 32);
     // std::map never moves its elements, so Waiting may point into them.
-    return paths_.try_emplace(key, Path{ImpairPath(profile_, random_.Fork(purpose)), 0})
-        .first->second;
+    Path& path = paths_[key];
+    if (!path.impair) path.impair.emplace(profile_, StreamOf(key));
+    return path;
   }
 
-  const ImpairProfile profile_;
+  ImpairProfile profile_;
   const Random random_;
+  std::uint64_t changes_ = 0;  // of the profile
   std::map<Address, Path> paths_;
   std::vector<Waiting> heap_;
   std::uint64_t entered_ = 0;
@@ -193,6 +208,11 @@ bool ImpairedNet::Receive(Address* from, Bytes* datagram) {
 }
 
 std::int64_t ImpairedNet::discarded() const { return impl_->inner.discarded(); }
+
+void ImpairedNet::Change(const ImpairProfile& out, const ImpairProfile& in) {
+  impl_->out.Change(out);
+  impl_->in.Change(in);
+}
 
 void ImpairedNet::Cut(bool cut) {
   impl_->cut = impl_->cut || cut;

@@ -87,6 +87,9 @@ class ImpairedNet : public Net {
   bool Receive(Address* from, Bytes* datagram) override;
   std::int64_t discarded() const override;
 
+  /// Impairs what comes from now on by other profiles; datagrams in flight keep their times, so
+  /// that a shorter delay lets new ones overtake them, as on another route.
+  void Change(const ImpairProfile& out, const ImpairProfile& in);
   /// Cuts or restores the network. A cut loses everything in both directions, also datagrams in
   /// flight.
   void Cut(bool cut);

@@ -84,6 +84,7 @@ class Display {
   void ShowPast(const Roles& roles, int body, double due);
   void HidePastMoves(int body);
   void ShowPresent(int body);
+  void ShowAllPresent();
   void ShowOthers(const Roles& roles, std::int64_t missing);
   bool IsDelayed(const Roles& roles, int body) const;
   BodyState Visible(int body, BodyState jump) const;
@@ -118,6 +119,7 @@ class Display {
   std::vector<ShownMechanism> shown_mechanisms_;  // memory for ShowOthers, rebuilt each tick
   BodyColumn<Shown> shown_;
   bool any_moves_ = false;  // shown_ may have some
+  bool any_past_ = false;   // some may be displayed in the past
   std::function<void(int, const BodyState&)> on_corrected_ = [](int, const BodyState&) {};
   std::int64_t glides_ = 0;                        // number of Glide calls
   MechanismColumn<std::int64_t> corrected_until_;  // in glides: joints may be torn until then

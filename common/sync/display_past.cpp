@@ -148,6 +148,12 @@ void Display::ShowPresent(int body) {
   shown.moves.clear();
 }
 
+/// The same for all bodies: the age at which they are displayed has become none.
+void Display::ShowAllPresent() {
+  if (!std::exchange(any_past_, false)) return;
+  for (int body = 0; body < shown_.size(); ++body) ShowPresent(body);
+}
+
 /// True if the world itself has the body in the past, between received states.
 bool Display::IsDelayed(const Roles& roles, int body) const {
   return !config_.policy->Reckons() && !roles.Simulates(body);
@@ -161,7 +167,8 @@ double Display::AgeOf(const Roles& roles, int body) const {
 
 /// Call after a step, with its tick recorded: chooses the moment at which each body is displayed.
 void Display::ShowOthers(const Roles& roles, std::int64_t missing) {
-  if (!ShowsPast(roles)) return;
+  if (!ShowsPast(roles)) return ShowAllPresent();
+  any_past_ = true;
   ages_.Look(missing);
   shown_mechanisms_.clear();
   const auto now = static_cast<double>(world_.tick());

@@ -51,6 +51,8 @@ class Replica {
       : Replica(Topology(scene), config, self, own_player) {}
   /// Begins with a scene as changed by edits.
   Replica(const Topology& topology, const SyncConfig& config, int self, int own_player);
+  /// Displays others' bodies at most so many ticks ago from now on: SyncConfig::show_age_ticks.
+  void ShowAtMost(int age_ticks) { config_.show_age_ticks = age_ticks; }
 
   /// Begins (or, after an absence, continues) at `tick`. At 0 all bodies are where the scene puts
   /// them; later, each body waits for its first state and is placed there.

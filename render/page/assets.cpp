@@ -27,6 +27,8 @@ SEAM_EMBED(seam_page_controls, "controls.js")
 SEAM_EMBED(seam_page_tape, "tape.js")
 SEAM_EMBED(seam_page_live, "live.js")
 SEAM_EMBED(seam_page_drive, "drive.js")
+SEAM_EMBED(seam_page_control, "control.js")
+SEAM_EMBED(seam_page_hand, "hand.js")
 
 namespace seam {
 
@@ -56,6 +58,8 @@ std::string Script(bool live) {
     add(seam_page_tape_begin, seam_page_tape_end);
     add(seam_page_live_begin, seam_page_live_end);
     add(seam_page_drive_begin, seam_page_drive_end);
+    add(seam_page_control_begin, seam_page_control_end);
+    add(seam_page_hand_begin, seam_page_hand_end);
   }
   add(seam_page_controls_begin, seam_page_controls_end);
   return script;

@@ -197,7 +197,7 @@ function wireKeys(page) {
   document.addEventListener('keydown', (event) => {
     const at = event.target;
     if (event.ctrlKey || event.metaKey || event.altKey || $('help').open) return;
-    if (at.tagName === 'SELECT' || (at.tagName === 'BUTTON' && event.key === ' ')) return;
+    if (takesKeys(at) || (at.tagName === 'BUTTON' && event.key === ' ')) return;
     if (!Object.hasOwn(acts, event.key)) return;
     event.preventDefault();
     acts[event.key](event);

@@ -35,8 +35,8 @@ class Driver {
   key(event, down) {
     const what = DRIVE_KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     const modified = event.ctrlKey || event.metaKey || event.altKey;
-    if (!this.on || !what || modified || event.target.tagName === 'SELECT' || $('help').open)
-      return;
+    const others = modified || takesKeys(event.target) || $('help').open;
+    if (!this.on || !what || (others && (down || !this.held.has(what)))) return;
     event.preventDefault();
     event.stopImmediatePropagation();
     if (down) {

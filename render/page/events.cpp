@@ -83,9 +83,21 @@ std::vector<PageEvent> FindPresence(const Playback& playback) {
     if (expected + near <= recording.last_tick)
       events.push_back(Make(expected, "join", peer, 0, name + " ends"));
   }
-  for (const Event& event : recording.events)
-    events.push_back(Make(event.tick, "note", event.peer, 0, event.text));
+  for (const Event& event : recording.events) events.push_back(NoteOf(event));
   return events;
+}
+
+/// True if the edit pushes a part that another one has pushed within the last half second.
+bool PushesOn(const Playback& playback, std::map<int, EditOrder>::const_iterator place) {
+  const auto& edits = playback.recording().edits;
+  const EditOrder& order = place->second;
+  if (ToEdit(order).As<PushEdit>() == nullptr) return false;
+  const std::int64_t since = order.tick - playback.tick_hz() / 2;
+  while (place != edits.begin() && (--place)->second.tick >= since) {
+    const EditOrder& before = place->second;
+    if (before.kind == order.kind && before.a == order.a) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -104,6 +116,8 @@ std::vector<PageEvent> EventsOf(const Playback& playback) {
   return all;
 }
 
+PageEvent NoteOf(const Event& event) { return Make(event.tick, "note", event.peer, 0, event.text); }
+
 std::vector<PageEvent> EditsAfter(const Playback& playback, int number) {
   static const char* const kMarkNames[] = {"nothing", "joint broken", "bond", "parts inserted",
                                            "removed", "set free",     "push", "seat taken or left",
@@ -114,7 +128,7 @@ std::vector<PageEvent> EditsAfter(const Playback& playback, int number) {
     const EditOrder& order = place->second;
     const Edit edit = ToEdit(order);
     const std::size_t kind = edit.what.index();
-    if (kind == 0) continue;
+    if (kind == 0 || PushesOn(playback, place)) continue;
     std::string text = kMarkNames[kind];
     if (order.a >= 0) text += ": " + BodyName(playback, order.a);
     events.push_back(Make(order.tick, "edit", -1, 0, text));

@@ -24,7 +24,10 @@ struct PageEvent {
 std::vector<PageEvent> EventsOf(const Playback& playback);
 constexpr std::size_t kPageEventsMax = 500;
 
-/// Returns the events of the edits with numbers above `number`.
+/// Returns the mark of an event of the room.
+PageEvent NoteOf(const Event& event);
+/// Returns the events of the edits with numbers above `number`. Pushes of a part in a row, as of a
+/// hand that drags it, are one.
 std::vector<PageEvent> EditsAfter(const Playback& playback, int number);
 /// Returns the impacts marked in (tick - span, tick] of a peer's view.
 std::vector<PageEvent> ImpactsBefore(const Playback& playback, int peer, double tick, double span);

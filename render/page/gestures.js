@@ -30,13 +30,22 @@ const pointIn = (target, event) => {
 
 function wireCamera(page) {
   const canvas = $('world');
-  onDrag(canvas, () => (state.camera = {...page.camera}), (dx, dy) => {
-    const scale = page.rects[0].height / state.camera.height;
-    state.follow = null;
-    state.camera.x -= dx / scale;
-    state.camera.y += dy / scale;
-    page.changed();
-  });
+  let held = false;  // the pointer drags a body, not the camera
+  onDrag(
+      canvas,
+      (event) => {
+        held = Boolean(page.hand) && page.hand.take(...pointIn(canvas, event), event.pointerType);
+        if (!held) state.camera = {...page.camera};
+      },
+      (dx, dy, event) => {
+        if (held) return page.hand.move(...pointIn(canvas, event));
+        const scale = page.rects[0].height / state.camera.height;
+        state.follow = null;
+        state.camera.x -= dx / scale;
+        state.camera.y += dy / scale;
+        page.changed();
+      },
+      () => held && page.hand.letGo());
   canvas.addEventListener('wheel', (event) => {
     event.preventDefault();
     const [x, y] = pointIn(canvas, event);

@@ -74,8 +74,9 @@ class LiveSource {
     this.bytes = 0;
     this.work = Promise.resolve();  // events are handled one after the other
     this.source = new EventSource('live');
-    for (const kind
-             of ['waiting', 'start', 'worlds', 'peers', 'frames', 'marks', 'stats', 'errors'])
+    const kinds =
+        ['waiting', 'start', 'worlds', 'peers', 'frames', 'marks', 'stats', 'errors', 'control'];
+    for (const kind of kinds)
       this.source.addEventListener(kind, (event) => this.queue(kind, event.data));
     this.source.onerror = () => sayLive('The view is gone; trying again.');
     requestAnimationFrame((now) => this.frame(now));
@@ -126,10 +127,11 @@ class LiveSource {
       ];
       $('live').hidden = false;
       document.addEventListener('keydown', (event) => {
-        if (event.key === 'l' && event.target.tagName !== 'SELECT') this.page.player.follow();
+        if (event.key === 'l' && !takesKeys(event.target)) this.page.player.follow();
       });
       $('live').addEventListener('click', () => this.page.player.follow());
       wireDrive(this);
+      this.controls = new Control(this, new URLSearchParams(location.search).get('token'));
     } else {
       this.page.load(head, bytes);
       titles(this.page);
@@ -193,6 +195,17 @@ class LiveSource {
     for (const [peer, tick, units] of rows)
       this.page.tape.writeError(peer, tick, units * ERROR_UNIT_M);
     this.page.changed();
+  }
+
+  // The present values of what an operator changes.
+  control(data) {
+    if (!this.page) return;
+    const first = this.controls.values === null;
+    this.controls.show(JSON.parse(data));
+    this.page.runs[0].network = this.controls.values.impair;
+    titles(this.page);
+    document.title = document.title.replace('review', 'live');
+    if (first && this.controls.token) wireHand(this.page, this.controls);
   }
 
   renamed() {

@@ -1,6 +1,9 @@
 // The page: layout of the panels, and the actions of clicks, drags and keys.
 
 const $ = (id) => document.getElementById(id);
+// True for elements that use the keys of a text or a list themselves.
+const takesKeys = (at) =>
+    at.tagName === 'SELECT' || (at.tagName === 'INPUT' && at.type !== 'range');
 
 class Page {
   constructor(head, bytes) {
@@ -143,6 +146,7 @@ class Page {
     const c = canvas.getContext('2d');
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.drawWorlds(c, width, height);
+    if (this.hand) this.hand.draw(c);
     const views = this.views();
     const run = views[0].run;
     this.strip.draw(

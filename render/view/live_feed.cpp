@@ -112,6 +112,7 @@ void LiveFeed::Prune() {
   const int hz = std::max(1, recording.room.tick_hz);
   const auto ticks = static_cast<std::int64_t>(kPosesKept / bodies);
   if (errors_ != nullptr) errors_->Forget(newest - kKept_s * hz);
+  NoteControl();
   // The oracle is a second late, and measures what is still there.
   Forget(&recording, newest - std::clamp<std::int64_t>(ticks, 2 * hz, kKept_s * hz));
 }
@@ -322,7 +323,8 @@ std::string LiveFeed::Start() {
   const std::string start = EventText(
       "start",
       fmt::format(R"({{"player":{},"oracle":"{}","data":"{}"}})", JsonText(player_), oracle, data));
-  return errors_ == nullptr ? start : start + EventText("errors", ErrorsJson(0));
+  return start + (control_.empty() ? "" : EventText("control", control_)) +
+         (errors_ == nullptr ? "" : EventText("errors", ErrorsJson(0)));
 }
 
 EventRing::Piece LiveFeed::Next(std::uint64_t* place) {

@@ -32,6 +32,8 @@ class LiveFeed {
   /// pages the error of each view. Costs as much as a peer that simulates everything.
   void MeasureErrors() { measures_ = true; }
 
+  /// Tells the pages the present values of what an operator changes, as JSON; "": not known.
+  void ShowControl(const std::string& json);
   /// Adds a message of the bus; returns false when it does not belong to the session. A Room of
   /// another session begins that session.
   bool Add(const std::string& channel, ByteView message);
@@ -70,6 +72,7 @@ class LiveFeed {
   std::string ErrorsJson(std::size_t from) const;
   void HearForErrors();
   void NoteHandOvers(const View& view);
+  void NoteControl();
 
   const std::string room_, player_;
   const double bytes_per_s_;
@@ -87,6 +90,7 @@ class LiveFeed {
   bool measures_ = false;                    // errors are wanted
   bool too_late_ = false;                    // this session's begin was not heard
   std::unique_ptr<LiveErrors> errors_;       // nullptr: not wanted, too late or no session
+  std::string control_;                      // the present values; "": not known
   EventRing ring_;
   StrayTicks ticks_;
   std::int64_t flushed_us_ = 0;

@@ -9,13 +9,6 @@
 namespace seam {
 namespace {
 
-HttpResponse Refuse(const char* status, const std::string& why) {
-  HttpResponse response;
-  response.status = status;
-  response.body = why + "\n";
-  return response;
-}
-
 /// True if a request comes from a page of this server, or from no page at all.
 bool IsOwnOrigin(const HttpRequest& request) {
   return request.origin.empty() || request.origin == "http://" + request.host;
@@ -31,41 +24,72 @@ bool ParseDrive(const std::string& text, std::int64_t* number, Input* input) {
   return ParseInputLine(text.substr(static_cast<std::size_t>(end)), input);
 }
 
-ViewPage::ViewPage(std::string token, std::function<void(const Input&)> drive)
-    : token_(std::move(token)), page_(LivePageHtml()), drive_(std::move(drive)) {}
+ViewPage::ViewPage(std::string token, std::function<void(const Input&)> drive, Control control)
+    : token_(std::move(token)),
+      page_(LivePageHtml()),
+      drive_(std::move(drive)),
+      control_(std::move(control)) {}
 
 HttpResponse ViewPage::Answer(std::int64_t now_us, const HttpRequest& request) {
   if (!IsLoopbackHost(request.host)) {
-    return Refuse("403 Forbidden", "this page is at 127.0.0.1 and localhost only");
+    return HttpResponse::Refusal("403 Forbidden", "this page is at 127.0.0.1 and localhost only");
   }
   if (request.path == "/drive") return Drive(now_us, request);
+  if (request.path == "/control") return Command(now_us, request);
   if (request.method != "GET") {
-    return Refuse("405 Method Not Allowed", "only GET is answered here");
+    return HttpResponse::Refusal("405 Method Not Allowed", "only GET is answered here");
   }
   HttpResponse response;
   if (request.path == "/") {
     response.type = "text/html; charset=utf-8";
     response.body = page_;
   } else if (request.path == "/live") {
-    if (!IsOwnOrigin(request)) return Refuse("403 Forbidden", "another site asks");
+    if (!IsOwnOrigin(request)) return HttpResponse::Refusal("403 Forbidden", "another site asks");
     response.type = "text/event-stream";
     response.stream = true;
   } else {
-    return Refuse("404 Not Found", "the page is /");
+    return HttpResponse::Refusal("404 Not Found", "the page is /");
   }
   return response;
 }
 
+bool ViewPage::IsTrusted(const HttpRequest& request) const {
+  return !token_.empty() && request.query == "token=" + token_ && IsOwnOrigin(request);
+}
+
+HttpResponse ViewPage::Command(std::int64_t now_us, const HttpRequest& request) {
+  if (request.method != "POST") {
+    return HttpResponse::Refusal("405 Method Not Allowed", "/control takes POST");
+  }
+  if (!control_) {
+    return HttpResponse::Refusal("403 Forbidden", "nothing is changed from here (--control)");
+  }
+  if (!IsTrusted(request)) {
+    return HttpResponse::Refusal("403 Forbidden",
+                                 "changes need the token of the address that was printed");
+  }
+  if (request.body.empty()) return HttpResponse::Refusal("400 Bad Request", "no command");
+  const Status done = control_(now_us, request.body);
+  if (!done.ok()) return HttpResponse::Refusal("400 Bad Request", done.why());
+  HttpResponse response;
+  response.status = "204 No Content";
+  return response;
+}
+
 HttpResponse ViewPage::Drive(std::int64_t now_us, const HttpRequest& request) {
-  if (request.method != "POST") return Refuse("405 Method Not Allowed", "/drive takes POST");
-  if (token_.empty()) return Refuse("403 Forbidden", "nobody is driven from here (--drive)");
-  if (request.query != "token=" + token_ || !IsOwnOrigin(request)) {
-    return Refuse("403 Forbidden", "driving needs the token of the address that was printed");
+  if (request.method != "POST")
+    return HttpResponse::Refusal("405 Method Not Allowed", "/drive takes POST");
+  if (token_.empty() || !drive_) {
+    return HttpResponse::Refusal("403 Forbidden", "nobody is driven from here (--drive)");
+  }
+  if (!IsTrusted(request)) {
+    return HttpResponse::Refusal("403 Forbidden",
+                                 "driving needs the token of the address that was printed");
   }
   std::int64_t number = 0;
   Input input;
   if (!ParseDrive(request.body, &number, &input)) {
-    return Refuse("400 Bad Request", "the body must be NUMBER DRIVE LIFT BUTTONS");
+    return HttpResponse::Refusal("400 Bad Request", "the body must be NUMBER DRIVE LIFT BUTTONS");
   }
   if (number > number_) {
     number_ = number;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "common/base/status.h"
 #include "common/net/http_server.h"
 #include "common/scene/types.h"
 
@@ -12,8 +13,11 @@ namespace seam {
 
 class ViewPage {
  public:
-  /// `token`: needed to drive; "": nobody may. `drive`: called with each change of the inputs.
-  ViewPage(std::string token, std::function<void(const Input&)> drive);
+  /// Does a command to the room; returns one line if it is refused. "": asks for the values alone.
+  using Control = std::function<Status(std::int64_t now_us, const std::string& command)>;
+  /// `token`: needed to drive and to control; "": nobody may. `drive`: called with each change of
+  /// the inputs. Either is empty if it is not possible.
+  ViewPage(std::string token, std::function<void(const Input&)> drive, Control control = {});
 
   HttpResponse Answer(std::int64_t now_us, const HttpRequest& request);
   /// Lets go of the controls when no page has held them for kHeldUs.
@@ -24,10 +28,14 @@ class ViewPage {
 
  private:
   HttpResponse Drive(std::int64_t now_us, const HttpRequest& request);
+  HttpResponse Command(std::int64_t now_us, const HttpRequest& request);
+  /// True for a page of this server that has the token.
+  bool IsTrusted(const HttpRequest& request) const;
   void Set(const Input& input);
 
   const std::string token_, page_;
   const std::function<void(const Input&)> drive_;
+  const Control control_;
   std::int64_t number_ = -1;  // of the newest inputs, since requests may overtake each other
   std::int64_t held_us_ = 0;
   Input input_;

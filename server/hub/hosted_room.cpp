@@ -16,9 +16,10 @@ namespace {
 /// Longest time between two runs of a room, us: each run also detects silent clients.
 constexpr std::int64_t kRunUs = 20000;
 
-/// Returns the net to use: a perfect network needs no simulation, which would copy every datagram.
-Net& Through(const ImpairProfile& profile, Net& direct, Net& impaired) {
-  return profile.name == "perfect" ? direct : impaired;
+/// Returns the net to use: a network that stays perfect needs no simulation, which would copy every
+/// datagram.
+Net& Through(const RoomPlan& plan, Net& direct, Net& impaired) {
+  return plan.profile.name == "perfect" && !plan.control ? direct : impaired;
 }
 
 Sink MakeSink(const RoomPlan& plan) {
@@ -38,7 +39,7 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
       net_(finder, index, out),
       impaired_(net_, plan.profile, plan.profile, static_cast<std::uint64_t>(plan.config.seed)),
       sink_(MakeSink(plan)) {
-  Net& net = Through(plan.profile, net_, impaired_);
+  Net& net = Through(plan, net_, impaired_);
   newest_.room = plan.config.room;
   if (!plan.state.empty()) {
     keeper_ = std::make_unique<RoomKeeper>(plan.state, plan.config.room, sink_, plan.config.epoch);
@@ -47,6 +48,9 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
     server_ = std::make_unique<Server>(plan_.scene, plan_.config, net, sink_, entropy_);
   } else {
     server_ = std::make_unique<Server>(*plan.resumed->saved, plan_.config, net, sink_, entropy_);
+  }
+  if (plan.control) {
+    control_ = std::make_unique<RoomControl>(*server_, impaired_, plan.config.impair);
   }
   if (!plan.writers.empty()) server_->chronicle().Keep();
   if (plan.resumed == nullptr) return;
@@ -97,6 +101,7 @@ void HostedRoom::Run(std::int64_t now_us) {
   }
   const std::int64_t tick = server_->tick(), due_us = server_->next_tick_us();
   const std::int64_t cpu_us = plan_.alone ? 0 : ThreadCpuUs();
+  if (control_ != nullptr) control_->BeforeTick(now_us);
   server_->Tick(now_us, CpuForStats(now_us));
   sink_.Poll();
   watch_.NoteCall(*server_, now_us, SteadyClockUs() - now_us, tick, due_us);
@@ -176,6 +181,11 @@ void HostedRoom::RedirectAll(std::int64_t now_us, const Redirect& to) {
   server_->RedirectAll(now_us, to);
   TakeSummaries();
   sink_.Flush();
+}
+
+Status HostedRoom::Control(std::int64_t now_us, const std::string& command) {
+  if (done() || over()) return Status::Error("the room is over");
+  return control_->Do(std::max(now_us, ran_us_), command);
 }
 
 std::int64_t HostedRoom::due_us() const {

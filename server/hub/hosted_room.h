@@ -13,6 +13,7 @@
 #include "common/record/load_page.h"
 #include "common/record/sink.h"
 #include "common/record/store/session_writer.h"
+#include "server/control/room_control.h"
 #include "server/hub/lanes.h"
 #include "server/hub/room_net.h"
 #include "server/load/load_watch.h"
@@ -34,6 +35,7 @@ struct RoomPlan {
   std::string state;  ///< folder in which the room is kept, with its log; "": none
   std::shared_ptr<const ResumedRoom> resumed;  ///< the room to go on with; null: it begins
   std::vector<std::shared_ptr<SessionWriter>> writers;  ///< that the sessions are put into
+  bool control = false;  ///< an operator may change it: its network is always a simulated one
   bool alone = true;  ///< only room of the program: reports the program's CPU time
   bool news = true;   ///< reports players that come and go
 };
@@ -68,6 +70,9 @@ class HostedRoom : public Runnable {
   bool over() const;
 
   // Only while no thread runs the room:
+  /// Does a command of the operator; see RoomControl. Requires RoomPlan::control.
+  Status Control(std::int64_t now_us, const std::string& command);
+  std::string ControlJson() const { return control_->Json(); }
   /// Saves the room for another server, which is to go on with it in the next epoch; it stops.
   /// Returns that epoch. Redirect or Supersede follows.
   std::int32_t GiveAway(std::int64_t now_us);
@@ -111,7 +116,8 @@ class HostedRoom : public Runnable {
   Sink sink_;
   OsEntropy entropy_;
   std::unique_ptr<Server> server_;
-  std::unique_ptr<RoomKeeper> keeper_;  // null: the room is not kept
+  std::unique_ptr<RoomControl> control_;  // null: nobody changes it
+  std::unique_ptr<RoomKeeper> keeper_;    // null: the room is not kept
   LoadWatch watch_;
   std::int64_t ran_us_ = 0;
   bool trouble_reported_ = false;

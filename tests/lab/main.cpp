@@ -13,9 +13,9 @@
 #include "common/net/impair.h"
 #include "common/record/damage.h"
 #include "common/sync/method.h"
+#include "server/edits/edit_line.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/experiment/probes.h"
-#include "tests/lab/replay/edit_line.h"
 #include "tests/lab/schema/scene_schema.h"
 
 namespace {

@@ -142,7 +142,7 @@ void JudgeRun(const GridPoint& point, const SweepOptions& options, Cluster* clus
   }
   const Oracle& oracle = run->barriers ? *with_barriers : plain;
   run->measures = Measure(recording, oracle);
-  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &run->measures);
+  MeasureResponse(recording, oracle, &run->measures);
   run->invalid = WhyNotValid(recording, oracle, run->measures);
   const ImpairProfile network = FindProfile(point.settings.impair);
   if (run->invalid.empty() && LossTooSmall(network, cluster->server_net().traffic())) {

@@ -110,7 +110,8 @@ Measures Response(const Screening& own, const Screening& server, const Screening
   Show(&run, oracle, 1, 0, own);
   Show(&run, oracle, 2, other_late_us, other);
   Measures measures;
-  MeasureResponse(run, oracle, input_delay_ticks, &measures);
+  run.room.input_delay_ticks = input_delay_ticks;
+  MeasureResponse(run, oracle, &measures);
   return measures;
 }
 
@@ -156,7 +157,7 @@ TEST(Response, IsUnknownIfAScreenNeverRespondsOrTimesAreMissing) {
   Show(&run, oracle, 1, 0, Past(0));
   run.view_us.clear();
   Measures none;
-  MeasureResponse(run, oracle, 0, &none);
+  MeasureResponse(run, oracle, &none);
   EXPECT_FALSE(none.response_own_ms);
 }
 
@@ -170,7 +171,7 @@ TEST(Response, InASessionItIsATickOnTheOwnScreenAndTheNetworksDelayOnOthers) {
     ASSERT_EQ(run.view_us.size(), 3u);
     ASSERT_EQ(run.view_us.at(2).size(), run.views.at(2).size());
     Measures m;
-    MeasureResponse(run, ComputeOracle(run), 0, &m);
+    MeasureResponse(run, ComputeOracle(run), &m);
     EXPECT_NEAR(m.response_own_ms.value(), 17, 3) << mode;
     EXPECT_GT(m.response_other_ms.value(), 100) << mode;  // 50 ms to the server and as many on
     EXPECT_LT(m.response_other_ms.value(), 300) << mode;

@@ -76,5 +76,43 @@ TEST(ViewPage, DrivesForWhoeverHasTheToken) {
   EXPECT_EQ(seen.size(), 2u);
 }
 
+HttpRequest Command(const std::string& command) {
+  HttpRequest request = Post(command);
+  request.path = "/control";
+  return request;
+}
+
+TEST(ViewPage, PassesOnCommandsOfItsOwnPageAlone) {
+  std::vector<std::string> passed;
+  ViewPage page("secret", nullptr, [&](std::int64_t, const std::string& command) {
+    if (command == "jump") return Status::Error("jump is no command");
+    passed.push_back(command);
+    return Status::Ok();
+  });
+  EXPECT_EQ(StatusOf(&page, Command("impair 4g")), "204 No Content");
+  const HttpResponse refused = page.Answer(0, Command("jump"));
+  EXPECT_STREQ(refused.status, "400 Bad Request");
+  EXPECT_EQ(refused.body, "jump is no command\n");
+  EXPECT_EQ(StatusOf(&page, Command("")), "400 Bad Request");
+  HttpRequest guessed = Command("impair 4g");
+  guessed.query = "token=guess";
+  EXPECT_EQ(StatusOf(&page, guessed), "403 Forbidden");
+  HttpRequest foreign = Command("impair 4g");
+  foreign.origin = "http://localhost:9999";
+  EXPECT_EQ(StatusOf(&page, foreign), "403 Forbidden");
+  HttpRequest rebound = Command("impair 4g");
+  rebound.host = "evil.example";
+  EXPECT_EQ(StatusOf(&page, rebound), "403 Forbidden");
+  HttpRequest read = Command("impair 4g");
+  read.method = "GET";
+  EXPECT_EQ(StatusOf(&page, read), "405 Method Not Allowed");
+  EXPECT_EQ(StatusOf(&page, Post("5 1 1 1")), "403 Forbidden") << "it drives nobody";
+  EXPECT_EQ(passed, std::vector<std::string>{"impair 4g"});
+  ViewPage only_drives("secret", [](const Input&) {});
+  EXPECT_EQ(StatusOf(&only_drives, Command("impair 4g")), "403 Forbidden");
+  ViewPage only_shows("", nullptr);
+  EXPECT_EQ(StatusOf(&only_shows, Command("impair 4g")), "403 Forbidden");
+}
+
 }  // namespace view_page_test
 }  // namespace seam

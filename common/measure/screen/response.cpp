@@ -10,6 +10,7 @@
 #include "common/measure/revisions.h"
 #include "common/measure/screen/age.h"
 #include "common/measure/screen/counterfactual.h"
+#include "common/measure/screen/input_delays.h"
 
 namespace seam {
 namespace {
@@ -178,14 +179,14 @@ std::optional<double> HeardUs(const Recording& recording, int peer, std::int64_t
 
 }  // namespace
 
-void MeasureResponse(const Recording& recording, const Oracle& oracle, int input_delay_ticks,
-                     Measures* measures) {
+void MeasureResponse(const Recording& recording, const Oracle& oracle, Measures* measures) {
   if (recording.room.scene_text.empty() || !TimesPass(recording)) return;
   const Scene scene = RecordedScene(recording.room);
   const RevisionHistory revisions(scene, recording);
   const RevisionHistory* changing = revisions.change() ? &revisions : nullptr;
   OwnBodies own(recording, &revisions);
   const Counterfactual worlds(recording, oracle, revisions, &own);
+  const InputDelays delays(recording);
   const double h = TickSeconds(recording);
   const auto horizon = static_cast<std::int64_t>(std::llround(kHorizon / h));
   std::map<int, std::vector<const View*>> views;
@@ -196,7 +197,7 @@ void MeasureResponse(const Recording& recording, const Oracle& oracle, int input
        ChangesOf(TapeOf(recording), first, recording.last_tick - horizon, kChangesMax)) {
     const int player_peer = change.player + 1;
     const std::optional<double> read_us =
-        HeardUs(recording, player_peer, change.tick - input_delay_ticks);
+        HeardUs(recording, player_peer, change.tick - delays.Of(change.player, change.tick));
     if (!read_us) continue;
     const std::optional<Question> question = Ask(change, worlds.Of(change, horizon, kEffectMin));
     if (!question) continue;

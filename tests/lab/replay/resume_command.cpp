@@ -7,8 +7,8 @@
 #include "common/base/plain_file.h"
 #include "common/record/damage.h"
 #include "common/record/room_log.h"
+#include "server/edits/edit_line.h"
 #include "tests/lab/commands.h"
-#include "tests/lab/replay/edit_line.h"
 #include "tests/lab/replay/replayed_room.h"
 
 namespace seam {
@@ -36,8 +36,12 @@ void GoOnAlone(const LoggedRoom& logged, const std::vector<std::string>& lines,
   }
   server->GoOn(now_us);
   for (const std::string& line : lines) {
-    const Edit edit = ParseEditLine(line, server->replica().world().topology());
-    if (!server->Order(edit)) throw OperatorError("--edit \"" + line + "\": is not possible here");
+    try {
+      const Edit edit = ParseEditLine(line, server->replica().world().topology());
+      if (!server->Order(edit)) throw OperatorError("\"" + line + "\": is not possible here");
+    } catch (const OperatorError& error) {
+      throw OperatorError("--edit " + std::string(error.what()));
+    }
   }
   while (server->tick() < last_tick) {
     const bool recorded = next < logged.ticks.size();

@@ -221,6 +221,14 @@ void Browser::Drag(const std::string& selector, double from_x, double to_x, doub
   Settle();
 }
 
+void Browser::Point(const std::string& type, const std::string& selector, double x, double y) {
+  const std::string box =
+      "document.querySelector(" + JsonText(selector) + ").getBoundingClientRect()";
+  Mouse(type, Number(box + ".left") + x * Number(box + ".width"),
+        Number(box + ".top") + y * Number(box + ".height"));
+  Settle();
+}
+
 void Browser::Press(const std::string& key) {
   Hold(key, true);
   Hold(key, false);

@@ -36,6 +36,9 @@ class Browser {
   void Click(const std::string& selector);
   /// Drags the mouse from one place of an element (shares of its size) to another.
   void Drag(const std::string& selector, double from_x, double to_x, double y = 0.5);
+  /// Presses the mouse at a place of an element (shares of its size), moves it there, or releases
+  /// it: "mousePressed", "mouseMoved", "mouseReleased".
+  void Point(const std::string& type, const std::string& selector, double x, double y);
   /// Presses and releases a key: "ArrowRight", " ", "w".
   void Press(const std::string& key);
   /// Presses a key, or releases it.

@@ -1,4 +1,4 @@
-#include "tests/lab/replay/edit_line.h"
+#include "server/edits/edit_line.h"
 
 #include <cmath>
 #include <iterator>
@@ -48,7 +48,7 @@ class Words {
     if (in_ >> more) Fail("has a word too many: " + more);
   }
   [[noreturn]] void Fail(const std::string& why) const {
-    throw OperatorError("--edit \"" + line_ + "\": " + why);
+    throw OperatorError("\"" + line_ + "\": " + why);
   }
 
  private:
