@@ -7,7 +7,6 @@
 #include "common/physics/stage.h"
 #include "common/scene/character.h"
 #include "common/sync/edits/edit_order.h"
-#include "common/sync/inputs/input_source.h"
 #include "common/sync/lease.h"
 
 namespace seam {
@@ -126,6 +125,7 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
       ping.rest_block = static_cast<std::int16_t>(at.block);
       ping.rest_part = static_cast<std::int32_t>(replica_->rest().HashOf(at, -1));
       ping.load = std::max(load_.permille(), LineLoad(now_us));
+      if (policy_->InputsOnly()) AddWorldHash(&ping);
     }
     link_->SendUnreliable(Encode(ping));
   }
@@ -157,6 +157,10 @@ void Client::StartIfDue(std::int64_t now_us) {
   if (started_ || replica_ == nullptr || !clock_.settled() || !timeline_.known()) return;
   const std::int64_t time = RoomTime(now_us);
   if (time < 0) return;
+  if (policy_->InputsOnly()) {
+    started_ = world_given_;  // it begins where that world is
+    return;
+  }
   // Within the first half second we count as present from the start, only late in stepping.
   const std::int64_t tick = time * room_.tick_hz / 1000000;
   const bool late = tick > room_.tick_hz / 2;
@@ -193,6 +197,7 @@ void Client::StepDue(std::int64_t now_us) {
   for (int steps = 0; steps < kCatchUpSteps && replica_->tick() < due; ++steps) {
     late_us_ = std::max(late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
     worst_late_us_ = std::max(worst_late_us_, late_us_);
+    if (!MayStep()) return;
     StepOnce(now_us);
     if (lead_us_ >= 0) {
       const double most = 1000000.0 / static_cast<double>(hz) * 0.02;
@@ -203,6 +208,7 @@ void Client::StepDue(std::int64_t now_us) {
 
 bool Client::Quiet() const {
   if (replica_ == nullptr || !started_ || !rest_agrees_ || !replica_->rest().all()) return false;
+  if (policy_->InputsOnly()) return false;  // others wait for each input
   const bool idle = replica_->tick() - idle_since_ > kInputKnownAfter * room_.tick_hz;
   return idle && !link_->reliable_pending();
 }
@@ -228,7 +234,7 @@ void Client::StepOnce(std::int64_t now_us) {
   RecordOwnInput();
   RecordKnownInputs();
   replica_->Step();
-  if (policy_->IsOracle()) replica_->ApplyEdits();  // in the tick in which they were found
+  if (policy_->AppliesFoundEdits()) replica_->ApplyEdits();  // in the tick in which they were found
   for (const FoundEdit& found : replica_->TakeProposals()) {
     EditOrder proposal = ToOrder(found.edit);
     proposal.utime = now_us;
@@ -276,7 +282,9 @@ std::int64_t Client::next_tick_us(std::int64_t now_us) {
   if (!started_) return now_us + 10000;
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t next = (replica_->tick() + 1) * 1000000 / room_.tick_hz;
-  const std::int64_t step_us = timeline_.RealUs(std::max<std::int64_t>(0, next - time)) + 1;
+  std::int64_t step_us = timeline_.RealUs(std::max<std::int64_t>(0, next - time)) + 1;
+  // A peer that waits for inputs goes on when a datagram brings them.
+  if (next <= time && !replica_->MayStep()) step_us = kInputRepeatUs;
   return now_us + std::min(step_us, kInputRepeatUs);
 }
 

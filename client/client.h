@@ -24,6 +24,7 @@
 #include "common/net/send_credit.h"
 #include "common/record/recorder.h"
 #include "common/sync/edits/topology_snapshot.h"
+#include "common/sync/inputs/input_delays.h"
 #include "common/sync/inputs/input_feed.h"
 #include "common/sync/metadata.h"
 #include "common/sync/publish.h"
@@ -203,8 +204,15 @@ class Client {
   /// Lets the settings of the next tick act.
   void FollowSettings();
   void RecordOwnInput();
+  Input ReadInput(std::int64_t tick) const;
   /// Records the inputs that every peer knows of the next tick without being told.
   void RecordKnownInputs();
+  /// True if the mode lets us do the next tick. Until then the own input is read at its time.
+  bool MayStep();
+  /// Where peers send inputs alone: takes a piece of the server's world, to begin with.
+  void OnWorldPiece(const Chunk& chunk);
+  /// The same: adds the hash of a past tick, so that the server finds a world that has parted.
+  void AddWorldHash(Ping* ping) const;
 
   // client_send.cpp
   /// True if the path to the server carries a datagram now.
@@ -269,6 +277,10 @@ class Client {
   bool loaded_now_ = false;       // loaded the room in this call, which may have taken seconds
   int peer_ = -1;
   int player_ = -1;
+  Bytes world_bytes_;         // where peers send inputs alone: of the server's world
+  bool world_given_ = false;  // the replica continues it
+  std::int64_t world_tick_ = 0;
+  InputDelays delays_;
   bool said_ready_ = false;
   bool started_ = false;
   bool released_ = false;

@@ -1,29 +1,37 @@
-/// Client: inputs and settings of its next tick.
+/// Client: the own player's inputs; and in modes in which peers send inputs alone, the world to
+/// begin with and the check that all worlds are the same.
 
 #include <algorithm>
+#include <optional>
 
 #include "client/client.h"
+#include "common/base/compress.h"
+#include "common/base/state_archive.h"
 #include "common/sync/inputs/input_source.h"
+#include "common/sync/inputs/world_pieces.h"
 
 namespace seam {
 
-void Client::RecordOwnInput() {
-  if (player_ < 0) return;
-  const std::int64_t next = replica_->tick() + 1;
-  Input input;
+Input Client::ReadInput(std::int64_t tick) const {
   switch (config_.drive) {
     case Drive::kNone: break;
     case Drive::kScript: {
       for (std::size_t p = 0; p < scene_->players.size(); ++p) {
-        if (scene_->players[p].name == config_.script_of) {
-          input = ScriptedInput(*scene_, static_cast<int>(p), next);
-        }
+        if (scene_->players[p].name != config_.script_of) continue;
+        return ScriptedInput(*scene_, static_cast<int>(p), tick);
       }
       break;
     }
-    case Drive::kBot: input = BotInput(room_.seed, player_, next, room_.tick_hz); break;
-    case Drive::kLive: input = live_; break;
+    case Drive::kBot: return BotInput(room_.seed, player_, tick, room_.tick_hz);
+    case Drive::kLive: return live_;
   }
+  return {};
+}
+
+void Client::RecordOwnInput() {
+  if (player_ < 0) return;
+  const std::int64_t next = replica_->tick() + 1;
+  const Input input = ReadInput(next);
   // An input read for this tick acts in a later one; before the first of those, input is neutral.
   // After a change of the delay the newest input is held, or ticks that have one keep it.
   const std::int64_t acts =
@@ -47,6 +55,54 @@ void Client::RecordKnownInputs() {
   const std::int64_t next = replica_->tick() + 1;
   const auto all = policy_->KnownInputs(*scene_, next, room_.input_delay_ticks);
   for (const Inputs& inputs : all) replica_->RecordInputs(inputs);
+}
+
+bool Client::MayStep() {
+  if (policy_->InputsOnly()) RecordOwnInput();
+  return replica_->MayStep();
+}
+
+void Client::OnWorldPiece(const Chunk& chunk) {
+  const bool next = static_cast<std::size_t>(chunk.offset_bytes) == world_bytes_.size();
+  if (replica_ == nullptr || started_ || !next) {
+    ++stats_.dropped_stale;
+    return;
+  }
+  world_bytes_.insert(world_bytes_.end(), chunk.data.begin(), chunk.data.end());
+  if (!IsWholeWorld(world_bytes_)) return;
+  const std::optional<Bytes> state = WorldOf(std::exchange(world_bytes_, {}));
+  StateArchive archive(state ? ByteView(*state) : ByteView());
+  // Inputs that came before the world, of later ticks: acknowledged ones do not come again.
+  std::vector<Inputs> came;
+  for (int p = 0; p < static_cast<int>(scene_->players.size()); ++p) {
+    came.push_back(replica_->inputs(p).Export(p, static_cast<int>(kInputsMax)));
+  }
+  MakeReplica(&replica_->world().topology());
+  replica_->Persist(archive);
+  if (archive.ok() && archive.left() > 0) archive.Fail("there is more than the world");
+  if (!archive.ok()) {
+    fatal_ = "cannot use the server's world: " + archive.status().why();
+    return;
+  }
+  for (const Inputs& inputs : came) {
+    for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
+      const std::int64_t tick = inputs.first_tick + static_cast<std::int64_t>(i);
+      if (tick <= replica_->tick()) continue;
+      replica_->RecordInput(inputs.player, tick,
+                            {inputs.drive[i], inputs.lift[i], inputs.buttons[i]});
+    }
+  }
+  world_given_ = true;
+  world_tick_ = replica_->tick();
+}
+
+void Client::AddWorldHash(Ping* ping) const {
+  const std::int64_t tick = replica_->newest_past() / room_.tick_hz * room_.tick_hz;
+  const std::optional<std::uint64_t> hash = replica_->PastHash(tick);
+  if (!hash || tick <= world_tick_) return;
+  ping->rest_blocks = ping->rest_block = 0;
+  ping->rest = static_cast<std::int64_t>(*hash);
+  ping->rest_part = static_cast<std::int32_t>(tick);
 }
 
 }  // namespace seam

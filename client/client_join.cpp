@@ -50,6 +50,8 @@ void Client::Forget(std::int64_t now_us) {
   scene_.reset();
   snapshot_.reset();
   held_.Clear();
+  world_bytes_.clear();
+  world_given_ = false;
   room_bytes_.clear();
   room_size_ = 0;
   clock_ = ClockFilter();

@@ -61,6 +61,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     metadata_.Apply(*meta);
     settings_.Take(*meta, player_, room_.tick_hz);
   } else if (const auto* event = std::get_if<Event>(&any)) {
+    delays_.Take(*event, std::max(1, room_.tick_hz));
     notice_ = event->text;
   } else if (const auto* states = std::get_if<States>(&any)) {
     OnStates(*states);
@@ -141,7 +142,8 @@ void Client::OnPong(std::int64_t now_us, const Pong& pong) {
 /// Applies grants and confirms what we release: the server waits for that before it grants it to
 /// others.
 void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
-  if (replica_ == nullptr || released_) return;
+  // Where all simulate everything, authority means nothing.
+  if (replica_ == nullptr || released_ || policy_->InputsOnly()) return;
   Release release;
   for (const int m : replica_->ApplyGrants(grants)) {
     release.mechanism.push_back(replica_->authority().id(m));
@@ -225,6 +227,7 @@ void Client::MakeReplica(const Topology* become) {
 }
 
 void Client::OnChunk(std::int64_t now_us, const Chunk& chunk) {
+  if (scene_ != nullptr && policy_->InputsOnly()) return OnWorldPiece(chunk);
   if (scene_ != nullptr || room_size_ == 0) return;
   if (static_cast<std::size_t>(chunk.offset_bytes) != room_bytes_.size() ||
       room_bytes_.size() + chunk.data.size() > room_size_) {
@@ -267,6 +270,7 @@ void Client::Build(std::int64_t now_us) {
       }
     }
     if (player_ < 0 && !config_.watch) return AskNames(now_us);
+    delays_ = InputDelays(room_.input_delay_ticks);
     MakeReplica();
   } catch (const OperatorError& e) {
     fatal_ = "cannot use the server's scene: " + std::string(e.what());

@@ -39,10 +39,13 @@ std::int16_t Client::LineLoad(std::int64_t now_us) {
 void Client::SendInputs(std::int64_t now_us) {
   if (player_ < 0 || policy_->IsOracle() || Quiet() || !line_ready_) return;
   const InputTrack& track = replica_->inputs(player_);
+  const std::int64_t acked = link_->acked(player_);
   // Where edits wait for all players' inputs, an otherwise silent client must not delay them.
   const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
   const bool rides = link_->Sends(now_us) || (due && EditsWait());
-  const int count = feed_.Take(track, link_->acked(player_), replica_->tick(), now_us, rides);
+  const int count = policy_->InputsOnly()
+                        ? feed_.TakeAll(track, acked, now_us)
+                        : feed_.Take(track, acked, replica_->tick(), now_us, rides);
   if (count == 0) return;
   InputsPacker packer;
   packer.Add(track.Export(player_, count));

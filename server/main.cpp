@@ -143,8 +143,9 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   const Scene& scene = plan.scene;
   ServerConfig& config = plan.config;
   config.sync = MakeSyncConfig(MethodNames{f.mode, f.reconcile, f.predict});
-  config.sync.input_delay_ticks =
-      f.input_delay_ticks >= 0 ? f.input_delay_ticks : scene.input_delay_ticks;
+  config.sync.input_delay_ticks = f.input_delay_ticks >= 0
+                                      ? f.input_delay_ticks
+                                      : config.sync.policy->InputDelay(scene.input_delay_ticks);
   config.sync.tick_hz = scene.solver.tick_hz;
   config.sync.send_hz = std::min(f.send_hz, scene.solver.tick_hz);
   config.sync.seed = f.seed + index;
@@ -157,8 +158,8 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   plan.record = LogOf(f.record, config.room, rooms);
   if (!f.state.empty()) {
     if (!f.record.empty()) throw OperatorError("--state records the room: not with --record");
-    if (config.sync.policy->IsOracle()) {
-      throw OperatorError("--state: nobody can join a running room of mode oracle");
+    if (!config.sync.policy->SendsStates()) {
+      throw OperatorError("--state: a room of mode " + f.mode + " cannot be resumed");
     }
     PrepareStateFolder(f.state, config.room, f.force);
     plan.state = f.state;

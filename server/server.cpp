@@ -8,6 +8,7 @@
 #include "server/authority_source.h"
 #include "server/chronicle.h"
 #include "server/console.h"
+#include "server/input_room.h"
 #include "server/room_state.h"
 #include "server/rules/rules.h"
 #include "server/server_commands.h"
@@ -86,6 +87,9 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
       chronicle_(std::make_unique<Chronicle>(room_, replica_, sessions_, broadcast_)),
       room_feed_(room_),
       clock_(config.sync.tick_hz) {
+  if (config_.sync.policy->InputsOnly()) {
+    input_room_ = std::make_unique<InputRoom>(config_.sync, replica_, sessions_, broadcast_);
+  }
   replica_.OnCorrected([this](int body, const BodyState& by) { NoteCorrected(body, by); });
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, *edits_, sessions_);
@@ -114,7 +118,9 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   StartIfReady(now_us);
   room_feed_.Publish(now_us, broadcast_);
   const std::int64_t before = replica_.tick();
-  for (int steps = 0; steps < kStepsMax && now_us >= next_tick_us(); ++steps) {
+  if (input_room_ != nullptr) RunInputRoom(now_us);
+  for (int steps = 0; steps < kStepsMax && now_us >= next_tick_us() && replica_.MayStep();
+       ++steps) {
     stats_.NoteLate(now_us - next_tick_us());
     chronicle_->NoteTick(now_us - next_tick_us());
     StepOnce(now_us);
@@ -139,6 +145,10 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 std::int64_t Server::next_tick_us() const {
   if (!started() || over_) return std::numeric_limits<std::int64_t>::max();
   return clock_.DueUs(replica_.tick() + 1);
+}
+
+std::int64_t Server::wake_us() const {
+  return replica_.MayStep() ? next_tick_us() : std::numeric_limits<std::int64_t>::max();
 }
 
 void Server::TellRest(std::int64_t now_us) {
@@ -219,6 +229,7 @@ void Server::StepOnce(std::int64_t now_us) {
   }
   RunRules(now_us);
   broadcast_.NoteTick();
+  if (input_room_ != nullptr) input_room_->GiveWorlds(now_us, *edits_);
 }
 
 void Server::PublishShown(std::int64_t now_us) {

@@ -33,6 +33,7 @@ namespace seam {
 
 class AuthoritySource;
 class Chronicle;
+class InputRoom;
 class RoomState;
 class Rules;
 class SavedRoom;
@@ -104,6 +105,7 @@ class Server {
   bool stats_due(std::int64_t now_us) const { return stats_.Due(now_us); }
   /// Time at which the next tick is due, on the clock of Tick; INT64_MAX before the room starts.
   std::int64_t next_tick_us() const;
+  std::int64_t wake_us() const;  ///< the same; INT64_MAX also while it waits for inputs
   /// Publishes the room's load.
   void PublishLoad(const Load& load) { broadcast_.Publish(load); }
   /// Says goodbye to everyone. Tick must not be called afterwards.
@@ -143,6 +145,7 @@ class Server {
   std::int32_t speed_ppm() const { return clock_.speed_ppm(); }
   const Replica& replica() const { return replica_; }
   RoomSettings& settings() { return settings_; }
+  const InputRoom* input_room() const { return input_room_.get(); }  ///< nullptr: it sends states
   /// Adds an edit from outside; see EditLog::Add.
   bool Order(const Edit& edit) { return edits_->Add(edit); }
   /// Returns the operator's warnings since the last call, such as a stopped script. One line each.
@@ -166,8 +169,7 @@ class Server {
   const Rules* rules() const { return rules_.get(); }
   /// Trust in each player's client.
   const TrustLadder& ladder() const { return ladder_; }
-  /// The room's events, and the sum of its session.
-  const Chronicle& chronicle() const { return *chronicle_; }
+  const Chronicle& chronicle() const { return *chronicle_; }  ///< events, and the session's sum
   Chronicle& chronicle() { return *chronicle_; }
   /// Sums up the session so far.
   Summary Sum(std::int64_t now_us, Ended ended = Ended::kNot) const;
@@ -196,7 +198,7 @@ class Server {
   void TakeLogged(std::int64_t now_us, const Accepted& accepted);
   bool RunRulesAgain(const std::vector<Meta>& values);
 
-  // server_receive.cpp
+  // server_receive.cpp, server_inputs.cpp
   void ReceiveAll(std::int64_t now_us);
   /// Calls OnMessage; adds the messages that it drops to the session's account.
   void Deliver(std::int64_t now_us, Session& session, ByteView bytes);
@@ -209,6 +211,8 @@ class Server {
   void RelayInputs(std::int64_t now_us);
   void RelayInputs(std::int64_t now_us, const std::vector<int>& players, Session& session);
   void FindRelevantPlayers();
+  void RunInputRoom(std::int64_t now_us);
+  void FindParted(std::int64_t now_us, Session& session, const Ping& ping);
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnRelease(std::int64_t now_us, Session& session, const Release& release);
   template <class Report>
@@ -327,6 +331,7 @@ class Server {
   std::vector<WaitingBreak> waiting_breaks_;
   Broadcast broadcast_;
   std::unique_ptr<Chronicle> chronicle_;
+  std::unique_ptr<InputRoom> input_room_;
   RoomFeed room_feed_;
   std::unique_ptr<ServerCommands> commands_;
   std::unique_ptr<AuthoritySource> rule_source_;

@@ -11,10 +11,13 @@ namespace seam {
 void Server::WatchClock(std::int64_t now_us) {
   if (!clock_.Note(now_us, replica_.tick())) return;
   const std::string percent = std::to_string(clock_.speed_ppm() / 10000);
-  Event event = MakeEvent(EventKind::kSpeed, clock_.speed_ppm() == kFullSpeedPpm
-                                                 ? "the room runs at full speed again"
-                                                 : "the server cannot keep up: the room runs at " +
-                                                       percent + " % of its speed");
+  Event event =
+      MakeEvent(EventKind::kSpeed,
+                clock_.speed_ppm() == kFullSpeedPpm
+                    ? "the room runs at full speed again"
+                    : (input_room_ != nullptr ? "inputs come late: the room runs at "
+                                              : "the server cannot keep up: the room runs at ") +
+                          percent + " % of its speed");
   event.value_milli = clock_.speed_ppm() / 1000;
   chronicle_->Say(now_us, event);
 }

@@ -55,12 +55,15 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
   app.Option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
   app.Option("--port", f.port, "UDP port").Range(1, 65535);
   app.Option("--bind", f.bind, "address to listen on (default: all, of IPv4 and IPv6)");
-  app.Option("--mode", f.mode, "oracle | central | strict | buffer");
+  app.Option("--mode", f.mode,
+             "oracle | central | strict | touch | buffer | lockstep | lockstep-adaptive | ggpo");
   app.Option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
   app.Option("--predict", f.predict,
              "what clients of mode central simulate ahead: own | all (default all)");
-  app.Option("--input-delay", f.input_delay_ticks,
-             "ticks from reading an input to its acting, at every peer (default: the scene's)")
+  app.Option(
+         "--input-delay", f.input_delay_ticks,
+         "ticks from reading an input to its acting, at every peer (default: the scene's, or the "
+         "mode's)")
       .Range(0, kInputDelayTicksMax);
   app.Option("--impair", f.impair, "impair the network in both directions by a profile");
   app.Option("--seed", f.seed, "of impairments and bots").Range(0, 1000000000);

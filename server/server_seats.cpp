@@ -56,7 +56,7 @@ void Server::RunSeats(std::int64_t now_us) {
   }
   FreeSeats(now_us);
   int heard = replica_.revision();
-  if (!config_.sync.policy->IsOracle()) {  // in mode oracle all peers act at the same tick
+  if (!config_.sync.policy->AppliesFoundEdits()) {  // else all peers act at the same tick
     // Waits for joining clients, too.
     sessions_.ForEachSentRoom([&](const Session& s) { heard = std::min(heard, s.revision); });
   }

@@ -7,6 +7,7 @@
 #include "common/sync/lease.h"
 #include "server/chronicle.h"
 #include "server/console.h"
+#include "server/input_room.h"
 #include "server/rules/rules.h"
 #include "server/server.h"
 
@@ -64,6 +65,7 @@ void Server::FollowSessions(std::int64_t now_us) {
       }
       case SessionEvent::Kind::kReady:
         SendBodies(now_us, *sessions_.Find(event.peer));
+        if (input_room_ != nullptr) input_room_->NoteReady(event.peer);
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
         broadcast_.NoteAccepted(now_us, event.peer, event.player, Ready());
         authority_.PlanSoon();
@@ -84,6 +86,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         broadcast_.Tell(authority_.TakeBack(now_us, event.peer));
         NoteAuthority(now_us);
         if (event.player >= 0 && event.was_ready) LetGo(now_us, event.player, 0);
+        if (event.player >= 0 && input_room_ != nullptr) input_room_->NoteLeft(event.player);
         break;
     }
   }
@@ -130,7 +133,7 @@ void Server::ReleaseSilentDrivers(std::int64_t now_us) {
 /// Adds an input without drive and lift: otherwise the player's last input would drive on for ever.
 void Server::LetGo(std::int64_t now_us, int player, std::int16_t buttons) {
   const InputTrack& track = replica_.inputs(player);
-  if (config_.sync.policy->IsOracle() || track.newest() < 0) return;
+  if (!config_.sync.policy->SendsStates() || track.newest() < 0) return;
   Inputs nothing;
   nothing.player = player;
   nothing.first_tick = std::max(track.newest(), replica_.tick()) + 1;

@@ -70,15 +70,18 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   const std::vector<Snapshot> edits = state.Edits(now_us);
   sent = edits.size() <= static_cast<std::size_t>(kSnapshotPartsMax);
   send(edits);
-  send(state.Authority(now_us));
-  broadcast_.NoteTold(session.peer);
-  send(state.Bodies(now_us));
-  send(state.Resting(now_us));
+  if (input_room_ == nullptr) {  // else its world follows when the client is ready
+    send(state.Authority(now_us));
+    broadcast_.NoteTold(session.peer);
+    send(state.Bodies(now_us));
+    send(state.Resting(now_us));
+  }
   send(state.Metadata(now_us));
   if (!sent) sessions_.Leave(session, "the world is more than can be sent to it");
 }
 
 void Server::SendBodies(std::int64_t now_us, Session& session) {
+  if (input_room_ != nullptr) return;
   const RoomState state = State();
   for (const States& states : state.Bodies(now_us)) session.link.SendReliable(Encode(states));
   for (const Rest& rest : state.Resting(now_us)) session.link.SendReliable(Encode(rest));

@@ -63,7 +63,7 @@ Cluster::Cluster(const ClusterConfig& config, const Scene& scene) : config_(conf
                                               static_cast<std::uint64_t>(config.seed));
   ServerConfig server;
   server.sync = MakeSyncConfig(MethodNames{config.mode, config.reconcile, config.predict});
-  server.sync.input_delay_ticks = scene_.input_delay_ticks;
+  server.sync.input_delay_ticks = server.sync.policy->InputDelay(scene_.input_delay_ticks);
   server.sync.tick_hz = scene_.solver.tick_hz;
   server.sync.send_hz = std::min(config.send_hz, scene_.solver.tick_hz);
   server.sync.seed = config.seed;
@@ -131,7 +131,7 @@ void Cluster::StartClient(std::size_t i) {
 void Cluster::Instant() {
   std::int64_t next = now_us_ + kStepMaxUs;
   next = std::min(
-      {next, std::max(server_busy_until_us_, server_->next_tick_us()), server_net_->next_due_us()});
+      {next, std::max(server_busy_until_us_, server_->wake_us()), server_net_->next_due_us()});
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     const std::int64_t local = now_us_ + peer.clock_offset_us;

@@ -30,9 +30,10 @@ enum class EventKind : std::int8_t {
   kRepaired,  ///< a client with another composition
   kOutOfBounds,
   kWarning,  ///< for the operator, such as a stopped script
-  kControl,  ///< by the operator, while the room runs (docs/live-view.md)
+  kControl,  ///< a setting or body was changed by the operator, or the input delay by the server
+  kParted,   ///< a client's world differs from the server's where all must be equal
 };
-constexpr std::int8_t kEventKindMax = static_cast<std::int8_t>(EventKind::kControl);
+constexpr std::int8_t kEventKindMax = static_cast<std::int8_t>(EventKind::kParted);
 
 struct Event {
   std::int64_t utime = 0;

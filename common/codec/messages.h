@@ -80,7 +80,7 @@ struct Room {
   std::string room;        ///< room name as in the channel
   std::string scene_name;  ///< file name of the scene without folder and ".toml"
   std::string scene_text;  ///< the whole scene file; on the bus "" if above kBusSceneBytesMax
-  std::string mode;        ///< oracle | central | strict | buffer
+  std::string mode;        ///< oracle | central | strict | buffer | lockstep ...
   std::string reconcile;   ///< snap | interleave | ... ; empty unless mode is buffer
   std::string predict;     ///< own | all; empty unless mode is central
   std::string impair;      ///< name of the network profile

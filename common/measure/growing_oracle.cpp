@@ -117,7 +117,7 @@ bool JudgedByBarriers(const Room& room) { return PolicyOf(room).TakesBarriers(0)
 OracleOptions WithBarriers(const Room& room) {
   OracleOptions options;
   options.barrier_every = BarrierEveryOf(room);
-  options.barrier_after_edits = PolicyOf(room).GoesBack(0);
+  options.barrier_after_edits = PolicyOf(room).BarriersAfterEdits(0);
   return options;
 }
 

@@ -50,7 +50,7 @@ void MarkTogether(const World& world, const History& history, std::vector<char>*
 bool Display::ShowsPast(const Roles& roles) const {
   if (config_.show_age_ticks == 0 || config_.smooth_rate <= 0 || roles.self() == 0) return false;
   // A seat would join bodies that are shown at different moments.
-  return world_.scene().seats.empty() && config_.policy->GoesBack(roles.self());
+  return world_.scene().seats.empty() && config_.policy->ShowsPast(roles.self());
 }
 
 BodyState Display::Base(int body) const {

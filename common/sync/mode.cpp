@@ -23,16 +23,19 @@ SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile)
   SyncConfig config;
   const Policy* policy = FindPolicy(mode, "all", false);
   if (policy == nullptr) {
-    throw OperatorError("unknown mode \"" + mode + "\"" + DidYouMean(mode, ModeNames()) +
-                        ": use oracle, central, strict or buffer");
+    throw OperatorError(
+        "unknown mode \"" + mode + "\"" + DidYouMean(mode, ModeNames()) +
+        ": use oracle, central, strict, touch, buffer, lockstep, lockstep-adaptive or "
+        "ggpo");
   }
   config.policy = policy;
   if (!policy->PlansFollowers()) {
     if (!reconcile.empty()) {
       throw OperatorError("--reconcile belongs to --mode buffer, not to --mode " + mode);
     }
-    // A client of mode central rolls back to the server's states; the server never rolls back.
-    if (policy->RunsAhead()) config.reconcile = ReconcileRollback;
+    // A client of mode central rolls back to the server's states, and one of mode ggpo for inputs;
+    // the server never rolls back.
+    if (policy->GoesBack(1)) config.reconcile = ReconcileRollback;
     return config;
   }
   config.reconcile_name = reconcile.empty() ? kDefaultReconciler : reconcile;

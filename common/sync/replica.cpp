@@ -54,6 +54,7 @@ void Replica::StartAt(std::int64_t tick) {
   rest_->StartAnew();
   replay_.Forget();
   memory_.Record();
+  complete_.StartAt(tick);
 }
 
 void Replica::Begin() {

@@ -13,10 +13,12 @@
 /// bodies), Reach (effects of inputs still unknown), SendScheduler and ProposalQueue (messages to
 /// send). This class calls them in order and has no rule of its own.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,6 +29,7 @@
 #include "common/sync/display.h"
 #include "common/sync/edits/edit_queue.h"
 #include "common/sync/impact_reporter.h"
+#include "common/sync/inputs/complete_inputs.h"
 #include "common/sync/inputs/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
@@ -134,6 +137,8 @@ class Replica {
   bool Queue(const EditOrder& order);
   /// True if the next queued edit is due.
   bool has_queued() const;
+  /// True if any edit is queued, also one that is not due.
+  bool edits_pending() const { return queue_->size() > 0; }
   /// The next edit to apply. Requires has_queued().
   const Edit& next_queued() const { return queue_->front().edit; }
   /// Applies all queued edits that are due.
@@ -167,6 +172,18 @@ class Replica {
   /// Records a player's input of a future tick, or a late one of a past tick.
   void RecordInput(int player, std::int64_t tick, const Input& input);
   void RecordInputs(const Inputs& inputs);
+  /// True if the mode lets this peer do its next tick with the inputs that it knows by now.
+  bool MayStep() const {
+    const std::int64_t most = config_.policy->MostAhead(roles_.self());
+    return most >= Policy::kAnyTicks || tick() < complete_.Tick() + most;
+  }
+  /// Returns a hash of all bodies' states after a tick, which no input can change any more. nullopt
+  /// of later ticks, of forgotten ones, and of those before the last edit of bodies.
+  std::optional<std::uint64_t> PastHash(std::int64_t tick) const;
+  /// The newest tick of which PastHash may know the hash.
+  std::int64_t newest_past() const {
+    return std::min({tick(), complete_.Tick(), replay_.settled()});
+  }
   /// Returns the buttons of this player that went down since the last call, as far as known.
   int TakePressed(int player) {
     return std::exchange(pressed_now_[static_cast<std::size_t>(player)], 0);
@@ -246,6 +263,7 @@ class Replica {
   BodyMemory memory_;
   Activities activities_;
   std::vector<InputTrack> inputs_;  // by player
+  CompleteInputs complete_{inputs_};
   Display display_;
   StrandView strands_;
   Replay replay_;

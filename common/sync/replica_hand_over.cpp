@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/base/bytes.h"
 #include "common/scene/mechanism_ids.h"
 #include "common/scene/saved/persist_state.h"
 #include "common/sync/edits/edit_order.h"
@@ -90,6 +91,19 @@ const BodyState* Replica::ComparablePast(int body, std::int64_t tick, int revisi
   return SettledPast(body, tick);
 }
 
+std::optional<std::uint64_t> Replica::PastHash(std::int64_t tick) const {
+  if (tick <= replay_.edited_tick() || tick > newest_past()) return std::nullopt;
+  std::uint64_t hash = Fnv1a(&tick, sizeof tick);
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const BodyState* const then = memory_.history().At(tick, body);
+    if (then == nullptr) return std::nullopt;
+    const float values[] = {then->position.x(), then->position.y(), then->angle,
+                            then->velocity.x(), then->velocity.y(), then->spin};
+    hash = Fnv1a(values, sizeof values, hash);
+  }
+  return hash;
+}
+
 void Replica::Persist(StateArchive& a) {
   WorldSnapshot loaded;
   std::shared_ptr<const WorldSnapshot> now;
@@ -124,6 +138,7 @@ void Replica::Persist(StateArchive& a) {
   PersistEdits(a);
   if (!a.ok()) return;
   if (a.reading()) {
+    complete_.StartAt(world_.tick());
     FollowRoles();
     for (int body = 0; body < world_.body_count(); ++body) display_.Reset(body);
   }

@@ -27,6 +27,10 @@ bool Replica::Queue(const EditOrder& order) { return queue_->Take(order, revisio
 
 bool Replica::has_queued() const {
   if (queue_->empty()) return false;
+  // Where inputs alone make peers agree, an edit that cuts off their past waits for them.
+  if (config_.policy->InputsOnly()) {
+    return queue_->front().tick <= std::min(replay_.now(), complete_.Tick());
+  }
   // An order of a tick far ahead is not believed.
   const std::int64_t ahead = queue_->front().tick - replay_.now();
   return ahead <= 0 || ahead > config_.tick_hz;

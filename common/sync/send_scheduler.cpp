@@ -32,7 +32,7 @@ SendScheduler::SendScheduler(const SyncConfig& config, World& world, const Roles
 
 void SendScheduler::Collect() {
   outgoing_.clear();
-  if (config_.policy->IsOracle() || world_.tick() % config_.send_every() != 0) return;
+  if (!config_.policy->SendsStates() || world_.tick() % config_.send_every() != 0) return;
   std::map<std::pair<std::int64_t, int>, std::vector<WireBody>> told;  // by tick and authority
   for (const int body : ChooseBodies()) {
     const int authority = roles_.table().at(world_.mechanism(body)).authority;

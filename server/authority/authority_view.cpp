@@ -53,6 +53,7 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   view.settles = view.exact || (config_.policy->GoesBack(0) && follows_all_);
   view.islands = islands_;
   view.rules = *scene_.planner;
+  if (config_.policy->PlansByTouch()) view.rules.acquire = 0;  // to be near is not to touch
   view.together = situation.together;
   LookAtPlayers(situation, &view);
   MayLeaveOut(view) ? SeeAwakeAndNear(view) : SeeAll();
@@ -154,7 +155,7 @@ void AuthorityManager::LookAtMechanism(int m, const PlannerInputs& situation, Au
 
 std::vector<char> AuthorityManager::MayBeDormant(const AuthorityView& view) const {
   std::vector<char> allowed(memory_.values().size(), 0);
-  if (!view.islands) return allowed;
+  if (!view.islands || view.policy->InputsOnly()) return allowed;
   if (view.left_out > 0) {
     std::fill(allowed.begin(), allowed.end(), char{1});  // all left-out mechanisms sleep
     for (const int id : restricted_) {

@@ -36,7 +36,7 @@ std::optional<EditOrder> OracleEditLog::NoteApplied(const Edit& edit, std::int64
 
 std::unique_ptr<EditLog> MakeEditLog(const Policy& policy, const World& world,
                                      const AuthorityManager& authority, int tick_hz) {
-  if (policy.IsOracle()) return std::make_unique<OracleEditLog>(world, authority, tick_hz);
+  if (policy.AppliesFoundEdits()) return std::make_unique<OracleEditLog>(world, authority, tick_hz);
   return std::make_unique<EditLog>(world, authority, tick_hz);
 }
 

@@ -192,7 +192,7 @@ std::int64_t HostedRoom::due_us() const {
   if (done()) {
     return impaired_.sending() ? ran_us_ + kRunUs : std::numeric_limits<std::int64_t>::max();
   }
-  return std::min({server_->next_tick_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
+  return std::min({server_->wake_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
 }
 
 void HostedRoom::NoteTicks() {

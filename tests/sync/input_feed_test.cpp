@@ -75,5 +75,20 @@ TEST_F(InputFeedTest, RepeatsWithinALongTickUntilAcknowledged) {
   EXPECT_EQ(sent, 3) << "after 20, 40 and 60 ms";
 }
 
+TEST_F(InputFeedTest, SendsEachInputWhereAPeerWaitsForIt) {
+  track.Note(1, {});
+  EXPECT_EQ(feed.TakeAll(track, acked, now_us), 2) << "-1 and 0 are not known, and cost nothing";
+  EXPECT_EQ(feed.TakeAll(track, acked, now_us + kInputRepeatUs - 1), 0);
+  EXPECT_GT(feed.TakeAll(track, acked, now_us + kInputRepeatUs), 0) << "again: it may be lost";
+  acked = 1;
+  for (std::int64_t tick = 2; tick <= 100; ++tick) track.Note(tick, {});
+  EXPECT_EQ(feed.TakeAll(track, acked, now_us), static_cast<int>(kInputsMax));
+  acked = 97;
+  track.Note(101, {});
+  EXPECT_EQ(feed.TakeAll(track, acked, now_us), 4);
+  acked = 101;
+  EXPECT_EQ(feed.TakeAll(track, acked, now_us + 10 * kInputRepeatUs), 0);
+}
+
 }  // namespace input_feed_test
 }  // namespace seam

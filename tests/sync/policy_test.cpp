@@ -36,9 +36,30 @@ TEST(Policy, ARecordingOfAnUnknownMethodHasOneAllTheSame) {
   EXPECT_EQ(&PolicyOf(RoomOf("buffer", "rollback", "")), &BufferPolicy(true));
   EXPECT_EQ(&PolicyOf(RoomOf("buffer", "resimulate", "")), &BufferPolicy(false));
   EXPECT_EQ(&PolicyOf(RoomOf("central", "", "")), &CentralPolicy(false));
-  EXPECT_EQ(&PolicyOf(RoomOf("lockstep", "", "")), &UnknownPolicy());
+  EXPECT_EQ(&PolicyOf(RoomOf("later", "", "")), &UnknownPolicy());
   EXPECT_FALSE(UnknownPolicy().PlansAuthority());
   EXPECT_FALSE(UnknownPolicy().TakesBarriers(0));
+}
+
+TEST(Policy, OnlyModesOfInputsAloneWaitForThem) {
+  for (const char* mode : {"oracle", "central", "strict", "touch", "buffer"}) {
+    const Policy& policy = PolicyOf(RoomOf(mode, "rollback", ""));
+    EXPECT_EQ(policy.MostAhead(1), Policy::kAnyTicks) << mode;
+    EXPECT_EQ(policy.InputDelay(4), 4);
+    EXPECT_EQ(policy.InputDelay(0), 0);
+    EXPECT_EQ(policy.SendsStates(), !policy.IsOracle());
+  }
+  for (const Policy* policy : {&LockstepPolicy(false), &LockstepPolicy(true), &GgpoPolicy()}) {
+    EXPECT_EQ(policy, FindPolicy(policy->mode(), "", false));
+    EXPECT_FALSE(policy->SendsStates());
+    EXPECT_EQ(policy->MostAhead(0), 0) << "the server steps complete ticks";
+    EXPECT_EQ(policy->InputDelay(5), 5);
+    EXPECT_GT(policy->InputDelay(0), 0);
+    EXPECT_FALSE(policy->GoesBack(0));
+  }
+  EXPECT_EQ(LockstepPolicy(false).MostAhead(1), 0);
+  EXPECT_EQ(GgpoPolicy().MostAhead(1), 8);
+  EXPECT_TRUE(GgpoPolicy().GoesBack(1));
 }
 
 TEST(Policy, OnlyTheOracleKnowsInputsByItself) {

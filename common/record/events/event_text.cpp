@@ -11,7 +11,7 @@ const char* EventKindName(std::int8_t kind) {
       "line",     "started",       "resumed",    "ended",        "connected", "joined",
       "rejoined", "left",          "scored",     "destroyed",    "broke",     "trust",
       "speed",    "seat taken",    "seat freed", "seat refused", "script",    "trigger",
-      "repaired", "out of bounds", "warning",    "control"};
+      "repaired", "out of bounds", "warning",    "control",      "parted"};
   static_assert(sizeof names / sizeof names[0] == kEventKindMax + 1);
   SEAM_ASSERT(kind >= 0 && kind <= kEventKindMax);
   return names[kind];

@@ -18,4 +18,13 @@ int InputFeed::Take(const InputTrack& track, std::int64_t acked, std::int64_t no
   return std::max(static_cast<int>(newest + 1 - first), kInputsAtLeast);
 }
 
+int InputFeed::TakeAll(const InputTrack& track, std::int64_t acked, std::int64_t now_us) {
+  const std::int64_t newest = track.newest();
+  const bool due = newest > sent_newest_ || now_us - sent_us_ >= kInputRepeatUs;
+  if (newest <= acked || !due) return 0;
+  sent_newest_ = newest;
+  sent_us_ = now_us;
+  return static_cast<int>(std::min(newest - acked, static_cast<std::int64_t>(kInputsMax)));
+}
+
 }  // namespace seam

@@ -25,6 +25,9 @@ class InputFeed {
   /// the peer now.
   int Take(const InputTrack& track, std::int64_t acked, std::int64_t now, std::int64_t now_us,
            bool rides);
+  /// The same where peers wait for each input: all that are not acknowledged, at most kInputsMax,
+  /// as soon as one is new, and again after kInputRepeatUs.
+  int TakeAll(const InputTrack& track, std::int64_t acked, std::int64_t now_us);
   /// True if inputs are known that have not been sent.
   bool Waits(const InputTrack& track) const { return track.newest() > sent_newest_; }
 

@@ -15,11 +15,15 @@ std::vector<Inputs> Policy::KnownInputs(const Scene&, std::int64_t, int) const {
 
 bool Policy::GoesBack(int) const { return false; }
 
-std::vector<std::string> ModeNames() { return {"oracle", "central", "strict", "buffer"}; }
+std::vector<std::string> ModeNames() {
+  return {"oracle",   "central",           "strict", "touch", "buffer",
+          "lockstep", "lockstep-adaptive", "ggpo"};
+}
 
 const Policy* FindPolicy(const std::string& mode, const std::string& predict, bool rolls_back) {
-  for (const Policy* policy : {&OraclePolicy(), &CentralPolicy(predict == "all"), &StrictPolicy(),
-                               &BufferPolicy(rolls_back)}) {
+  for (const Policy* policy :
+       {&OraclePolicy(), &CentralPolicy(predict == "all"), &StrictPolicy(), &TouchPolicy(),
+        &BufferPolicy(rolls_back), &LockstepPolicy(false), &LockstepPolicy(true), &GgpoPolicy()}) {
     if (mode == policy->mode()) return policy;
   }
   return nullptr;

@@ -30,7 +30,8 @@ namespace seam {
 
 class RestCommit {
  public:
-  /// All must outlive this. Does nothing in mode oracle or in a scene without sleep.
+  /// All must outlive this. Does nothing where nobody sends states, or in a scene without
+  /// sleep.
   RestCommit(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
              Display& display, const Reach& reach);
   RestCommit(const RestCommit&) = delete;
@@ -121,7 +122,7 @@ class RestCommit {
   void LetGo(int body);
 
  private:
-  bool Off() const { return config_.policy->IsOracle() || !world_.scene().solver.sleep; }
+  bool Off() const { return !config_.policy->SendsStates() || !world_.scene().solver.sleep; }
   void EndOutdated(int body);
   void FindDue();
   void Hold(int body);

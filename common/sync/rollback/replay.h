@@ -88,6 +88,8 @@ class Replay {
   /// True if a peer that has applied only the first `revision` edits lacks one that took effect
   /// before `tick`: its states of that tick belong to a world without that edit.
   bool LacksEdit(int revision, std::int64_t tick) const;
+  /// Tick of the last edit that changed bodies; -1: none.
+  std::int64_t edited_tick() const { return edited_tick_; }
   /// Steps again to now.
   void GoOn();
   /// The tick at which GoOn will end; the world's tick outside a replay.

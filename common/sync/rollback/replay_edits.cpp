@@ -138,7 +138,8 @@ bool Replay::IsBeforeEdit(std::int64_t tick) const {
 
 /// Call after edits. Recreated bodies mean a rebuilt world, so this tick becomes a barrier too.
 void Replay::BarrierAfterEdits() {
-  if (std::exchange(edited_, false) && config_.policy->GoesBack(roles_.self())) AddBarrier(false);
+  if (!std::exchange(edited_, false)) return;
+  if (config_.policy->BarriersAfterEdits(roles_.self())) AddBarrier(false);
 }
 
 void Replay::GoOn() {

@@ -5,7 +5,7 @@ namespace seam {
 const std::vector<Probe>& Probes() {
   static const std::vector<Probe> probes = {FairnessProbe(), TitlesProbe(), LoadProbe(),
                                             HandOverProbe(), DamageProbe(), AgreementProbe(),
-                                            AttackProbe(),   HonestProbe()};
+                                            AttackProbe(),   HonestProbe(), RivalsProbe()};
   return probes;
 }
 

@@ -19,5 +19,6 @@ Probe DamageProbe();
 Probe AgreementProbe();
 Probe AttackProbe();
 Probe HonestProbe();
+Probe RivalsProbe();
 
 }  // namespace seam
