@@ -180,7 +180,8 @@ void Server::RunInputRoom(std::int64_t now_us) {
   Event event = MakeEvent(EventKind::kInputDelay,
                           "inputs act " + std::to_string(*ticks) + " ticks after they are read");
   event.value_milli = 1000 * *ticks;
-  const Event said = chronicle_->Say(now_us, event);
+  Event said = chronicle_->Say(now_us, event);
+  said.session = room_.session;  // without it a message of the edge has the text alone
   input_room_->NoteDelay(said);
   sessions_.SendToAll(Encode(said));
 }

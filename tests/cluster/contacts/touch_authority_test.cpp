@@ -12,7 +12,7 @@ namespace touch_authority_test {
 
 /// Ann's box slides to the right and hits a crate that lies in bob's half.
 constexpr const char* kScene = R"(
-duration = 8
+duration = 9
 [[player]]
 name = "ann"
 vehicle = "box-a"
@@ -31,6 +31,7 @@ box = [2, 2]
 position = [-6, 1]
 density = 4
 velocity = [14, 0]
+friction = 0.9
 owner = "ann"
 [[part]]
 name = "box-b"
@@ -41,6 +42,7 @@ owner = "bob"
 name = "crate"
 box = [1, 1]
 position = [6, 0.5]
+friction = 0.15
 )";
 
 /// The holders of the crate, in their order.

@@ -30,15 +30,16 @@ void MeasureFrozen(const Recording& recording, RivalFigures* figures) {
   const double h_us = 1e6 / std::max(1, recording.room.tick_hz);
   double stood_us = 0, shown_us = 0;
   for (const auto& [peer, times] : recording.view_us) {
-    if (times.size() < 2) continue;
-    const auto ticks = static_cast<double>(times.rbegin()->first - times.begin()->first);
-    const auto us = static_cast<double>(times.rbegin()->second - times.begin()->second);
+    const auto first = times.upper_bound(0);  // tick 0 is shown long before the room starts
+    if (first == times.end()) continue;
+    const auto ticks = static_cast<double>(times.rbegin()->first - first->first);
+    const auto us = static_cast<double>(times.rbegin()->second - first->second);
     if (peer == 0) {
       figures->speed = us > 0 ? ticks * h_us / us : 0;
       continue;
     }
     shown_us += us;
-    for (auto at = std::next(times.begin()); at != times.end(); ++at) {
+    for (auto at = std::next(first); at != times.end(); ++at) {
       const auto gap_us = static_cast<double>(at->second - std::prev(at)->second);
       if (gap_us < kStandsTicks * h_us) continue;
       stood_us += gap_us - h_us;
