@@ -239,6 +239,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"tests/lab/load", "tests/lab(/experiment)?"},
       {"tests/lab/relief", "tests/lab(/(handover|load|report|world))?"},
       {"tests/lab/replay", "tests/lab"},
+      {"tests/lab/rivals", "tests/lab(/experiment|/report|/validity)?"},
       {"tests/lab/titles", "tests/lab(/experiment|/report(/sessions)?)?"},
       {"tests/lab/validity", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};

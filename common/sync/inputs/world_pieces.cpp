@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "common/base/compress.h"
-#include "common/sync/limits.h"
 
 namespace seam {
 namespace {
