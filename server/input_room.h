@@ -35,8 +35,8 @@ class InputRoom {
   void NoteLeft(int player);
   /// Writes the next inputs of absent players. Call before a tick.
   void WriteAbsent(std::int64_t now_us);
-  /// Gives the world to those who wait, if this tick is a barrier. Call after each tick, and before
-  /// WriteAbsent. `edits`: see EditLog::History.
+  /// Gives the world to the waiting clients, if this tick is a barrier. Call after each tick, and
+  /// before WriteAbsent. `edits`: see EditLog::History.
   void GiveWorlds(std::int64_t now_us, const EditLog& edits);
 
   /// Notes a player's new inputs as they arrive.
@@ -45,12 +45,12 @@ class InputRoom {
   void NoteDue(std::int64_t now_us, const RoomClock& clock);
   /// Returns the new input delay once it should change, ticks.
   std::optional<int> ChooseDelay();
-  /// The event of that change: the delay counts, also for those who join later.
+  /// The event of that change: the delay counts, also for later clients.
   void NoteDelay(const Event& said);
 
   /// Compares a client's world with the server's at the tick of its ping. True if they differ.
   bool HasParted(const Ping& ping) const;
-  /// Counts a client whose world has parted.
+  /// Counts a client with a parted world.
   void NoteParted() { ++parted_; }
   int parted() const { return parted_; }
 
