@@ -24,7 +24,6 @@
 #include "common/net/send_credit.h"
 #include "common/record/recorder.h"
 #include "common/sync/edits/topology_snapshot.h"
-#include "common/sync/inputs/input_delays.h"
 #include "common/sync/inputs/input_feed.h"
 #include "common/sync/metadata.h"
 #include "common/sync/publish.h"
@@ -280,7 +279,6 @@ class Client {
   Bytes world_bytes_;         // where peers send inputs alone: of the server's world
   bool world_given_ = false;  // the replica continues it
   std::int64_t world_tick_ = 0;
-  InputDelays delays_;
   bool said_ready_ = false;
   bool started_ = false;
   bool released_ = false;

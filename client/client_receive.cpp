@@ -61,7 +61,6 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     metadata_.Apply(*meta);
     settings_.Take(*meta, player_, room_.tick_hz);
   } else if (const auto* event = std::get_if<Event>(&any)) {
-    delays_.Take(*event, std::max(1, room_.tick_hz));
     notice_ = event->text;
   } else if (const auto* states = std::get_if<States>(&any)) {
     OnStates(*states);
@@ -270,7 +269,6 @@ void Client::Build(std::int64_t now_us) {
       }
     }
     if (player_ < 0 && !config_.watch) return AskNames(now_us);
-    delays_ = InputDelays(room_.input_delay_ticks);
     MakeReplica();
   } catch (const OperatorError& e) {
     fatal_ = "cannot use the server's scene: " + std::string(e.what());

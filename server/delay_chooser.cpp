@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "common/sync/inputs/input_delays.h"
+#include "common/sync/settings/live_settings.h"
 
 namespace seam {
 

@@ -5,6 +5,7 @@
 
 #include "common/base/state_archive.h"
 #include "common/sync/inputs/world_pieces.h"
+#include "common/sync/settings/live_settings.h"
 
 namespace seam {
 
@@ -73,7 +74,6 @@ bool InputRoom::GiveWorld(std::int64_t now_us, const EditLog& edits, Session& se
   for (const Snapshot& part : edits.History(now_us)) send(part);
   const std::vector<Chunk> pieces = ToWorldPieces(ByteView(world.data(), world.size()), now_us);
   for (const Chunk& piece : pieces) send(piece);
-  if (delay_said_) send(*delay_said_);
   return sent && !pieces.empty();
 }
 
@@ -87,7 +87,7 @@ void InputRoom::NoteDue(std::int64_t now_us, const RoomClock& clock) {
 void InputRoom::NoteArrived(std::int64_t now_us, const Inputs& fresh) {
   if (!config_.policy->AdaptsInputDelay()) return;
   // Clients that waited under an earlier delay read inputs late, for a moment longer.
-  const std::int64_t first = delays_.newest_from() + DelayNotice(config_.tick_hz);
+  const std::int64_t first = delays_.newest_from() + SettingLead(config_.tick_hz);
   for (std::size_t i = 0; i < fresh.drive.size(); ++i) {
     const std::int64_t read = delays_.ReadTick(fresh.first_tick + static_cast<std::int64_t>(i));
     if (read < first || read > due_tick_ || read <= due_tick_ - kDueKept) continue;
@@ -98,15 +98,14 @@ void InputRoom::NoteArrived(std::int64_t now_us, const Inputs& fresh) {
 
 std::optional<int> InputRoom::ChooseDelay() {
   // Not before the last change counts: until then its inputs are on their way.
-  const std::int64_t due = chosen_tick_ + 2 * DelayNotice(config_.tick_hz);
+  const std::int64_t due = chosen_tick_ + 2 * SettingLead(config_.tick_hz);
   if (!config_.policy->AdaptsInputDelay() || replica_.tick() < due) return std::nullopt;
   chosen_tick_ = replica_.tick();
   return chooser_.Choose(delays_.newest());
 }
 
-void InputRoom::NoteDelay(const Event& said) {
-  delays_.Take(said, config_.tick_hz);
-  delay_said_ = said;
+void InputRoom::NoteDelay(int ticks) {
+  delays_.Change(replica_.tick() + 1 + SettingLead(config_.tick_hz), ticks);
   chooser_.ForgetAll();
 }
 

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "common/sync/inputs/input_delays.h"
 #include "common/sync/replica.h"
 #include "server/broadcast.h"
 #include "server/delay_chooser.h"
+#include "server/delay_history.h"
 #include "server/edits/edit_log.h"
 #include "server/room_clock.h"
 #include "server/sessions/session_table.h"
@@ -46,7 +46,7 @@ class InputRoom {
   /// Returns the new input delay once it should change, ticks.
   std::optional<int> ChooseDelay();
   /// The event of that change: the delay counts, also for later clients.
-  void NoteDelay(const Event& said);
+  void NoteDelay(int ticks);
 
   /// Compares a client's world with the server's at the tick of its ping. True if they differ.
   bool HasParted(const Ping& ping) const;
@@ -67,8 +67,7 @@ class InputRoom {
   Broadcast& broadcast_;
   std::vector<char> present_;      // by player: its client writes its inputs
   std::vector<int> awaits_world_;  // peers
-  InputDelays delays_;
-  std::optional<Event> delay_said_;
+  DelayHistory delays_;
   DelayChooser chooser_;
   std::int64_t chosen_tick_ = 0;
   static constexpr std::int64_t kDueKept = 256;  ///< ticks

@@ -12,11 +12,15 @@ Status RoomSettings::Change(const LiveSetting& setting, int ticks) {
   }
   if (scene_.players.empty()) return Status::Error("the room has no players");
   if (oracle_) return Status::Error("in mode oracle nobody follows it: the scripts drive");
+  Set(setting.key, ticks);
+  return Status::Ok();
+}
+
+void RoomSettings::Set(std::int8_t key, int ticks) {
   const auto players = static_cast<std::int32_t>(scene_.players.size());
   for (std::int32_t player = 0; player < players; ++player) {
-    table_.Set({kMetaPlayer, player, setting.key}, static_cast<float>(ticks));
+    table_.Set({kMetaPlayer, player, key}, static_cast<float>(ticks));
   }
-  return Status::Ok();
 }
 
 int RoomSettings::newest(const LiveSetting& setting) const {

@@ -20,6 +20,9 @@ class RoomSettings {
   /// Changes a setting of all players' clients. Returns one line if the value is out of range, or
   /// nobody follows it.
   Status Change(const LiveSetting& setting, int ticks);
+  /// Changes the input delay to one that the server has found to be needed, at most
+  /// kAdaptedDelayMax.
+  void Adapt(int input_delay_ticks) { Set(kMetaInputDelay, input_delay_ticks); }
   /// Returns the newest value of a setting, ticks: of those changed here, or the room's first.
   int newest(const LiveSetting& setting) const;
 
@@ -27,6 +30,8 @@ class RoomSettings {
   MetaTable& table() { return table_; }
 
  private:
+  void Set(std::int8_t key, int ticks);
+
   const Scene& scene_;
   const bool oracle_;
   const int input_delay_ticks_;  // the room's first

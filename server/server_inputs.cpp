@@ -177,13 +177,13 @@ void Server::RunInputRoom(std::int64_t now_us) {
   input_room_->WriteAbsent(now_us);
   const std::optional<int> ticks = input_room_->ChooseDelay();
   if (!ticks) return;
-  Event event = MakeEvent(EventKind::kInputDelay,
+  Event event = MakeEvent(EventKind::kControl,
                           "inputs act " + std::to_string(*ticks) + " ticks after they are read");
+  event.index = kMetaInputDelay;
   event.value_milli = 1000 * *ticks;
-  Event said = chronicle_->Say(now_us, event);
-  said.session = room_.session;  // without it a message of the edge has the text alone
-  input_room_->NoteDelay(said);
-  sessions_.SendToAll(Encode(said));
+  chronicle_->Say(now_us, event);
+  settings_.Adapt(*ticks);
+  input_room_->NoteDelay(*ticks);
 }
 
 /// A client whose world has parted cannot be helped: worlds agree only by having been the same.

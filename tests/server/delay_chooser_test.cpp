@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/sync/inputs/input_delays.h"
+#include "common/sync/settings/live_settings.h"
+#include "server/delay_history.h"
 
 namespace seam {
 namespace delay_chooser_test {
@@ -43,6 +44,20 @@ TEST(DelayChooser, GrowsAtOnceAndShrinksByTwoTicksOrMore) {
   EXPECT_FALSE(chooser.Choose(5));
   EXPECT_FALSE(chooser.Choose(6));
   EXPECT_EQ(chooser.Choose(7), 5);
+}
+
+TEST(DelayHistory, FindsTheTickInWhichAnInputWasRead) {
+  DelayHistory grows(3);
+  grows.Change(130, 9);
+  EXPECT_EQ(grows.ReadTick(132), 129) << "the last one with the old delay";
+  for (std::int64_t tick = 133; tick < 139; ++tick) {
+    EXPECT_EQ(grows.ReadTick(tick), 129) << tick << " repeats it";
+  }
+  EXPECT_EQ(grows.ReadTick(139), 130);
+  DelayHistory shrinks(9);
+  shrinks.Change(130, 3);
+  EXPECT_EQ(shrinks.ReadTick(138), 129) << "it is known when the tick is read again";
+  EXPECT_EQ(shrinks.ReadTick(139), 136) << "the inputs read between are left out";
 }
 
 }  // namespace delay_chooser_test

@@ -9,8 +9,8 @@ namespace seam {
 
 const std::array<LiveSetting, 2>& LiveSettings() {
   static const std::array<LiveSetting, 2> all{
-      {{"input_delay", "input delay", kMetaInputDelay, kInputDelayTicksMax},
-       {"show_age", "show age", kMetaShowAge, kShowAgeTicksMax}}};
+      {{"input_delay", "input delay", kMetaInputDelay, kInputDelayTicksMax, kAdaptedDelayMax},
+       {"show_age", "show age", kMetaShowAge, kShowAgeTicksMax, kShowAgeTicksMax}}};
   return all;
 }
 
@@ -38,7 +38,8 @@ void PlayerSettings::Take(const Meta& meta, int player, int tick_hz) {
     if (meta.kind[i] != kMetaPlayer || meta.id[i] != player) continue;
     const LiveSetting* const setting = FindLiveSetting(meta.key[i]);
     const float value = meta.value[i];
-    if (setting == nullptr || !(value >= 0) || value > static_cast<float>(setting->most)) continue;
+    if (setting == nullptr || !(value >= 0) || value > static_cast<float>(setting->most_followed))
+      continue;
     if (value != std::floor(value)) continue;
     changes_.push_back({setting->key, meta.tick + SettingLead(tick_hz), static_cast<int>(value)});
   }

@@ -17,8 +17,13 @@ struct LiveSetting {
   const char* name;   ///< its key in scene files
   const char* title;  ///< for people
   std::int8_t key;    ///< of the Meta
-  int most;           ///< ticks; the least is 0
+  int most;           ///< ticks, that an operator may set; the least is 0
+  int most_followed;  ///< ticks, that a client takes: the server itself may need more
 };
+
+/// Largest input delay that a server chooses, ticks. Inputs of twice as many ticks may be on their
+/// way to a peer, and must fit one message. Less makes rooms on long ways wait for each tick.
+constexpr int kAdaptedDelayMax = 24;
 
 constexpr std::int8_t kMetaInputDelay = 5;  ///< ticks from reading an input to its acting
 constexpr std::int8_t kMetaShowAge = 6;     ///< greatest age of others' displayed bodies, ticks

@@ -65,7 +65,7 @@ RivalFigures MeasureRival(const SessionSettings& settings, const Scene& scene) {
   const Recording& recording = cluster.recording();
   const Oracle oracle = ComputeOracle(recording, JudgeOf(recording.room));
   figures.measures = Measure(recording, oracle);
-  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &figures.measures);
+  MeasureResponse(recording, oracle, &figures.measures);
   MeasureFrozen(recording, &figures);
   figures.kbps = figures.measures.bytes_per_s * 1e-3 * figures.speed;
   figures.invalid = WhyParted(cluster);
