@@ -18,11 +18,9 @@ namespace {
 
 /// Most ticks stepped in one call: a server that catches up answers its clients in between.
 constexpr int kStepsMax = 2;
-/// Time between two lines to those who wait for the room to start, us. Less would fall into the
-/// time in which clients that were started together join.
+/// Time between two lines to those who wait for the start, us; clients started together join in it.
 constexpr std::int64_t kTellWaitingUs = 800000;
-/// Radius of the blast that lets hanging bricks fall, m.
-constexpr float kLetFallRadius = 0.5f;
+constexpr float kLetFallRadius = 0.5f;  // m, of the blast that lets hanging bricks fall
 
 Room MakeRoom(const Scene& scene, const ServerConfig& config, Entropy& entropy) {
   Room room;

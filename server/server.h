@@ -119,8 +119,7 @@ class Server {
   void Forsake(std::int64_t now_us);
   /// True after RedirectAll, once every client has acknowledged it or is silent.
   bool all_redirected() const { return over_ && sessions_.AllTold(); }
-  /// The room's epoch.
-  std::int32_t epoch() const { return epoch_; }
+  std::int32_t epoch() const { return epoch_; }  ///< of the room
   /// A higher epoch of the room that a client has proved: another server has it, and this one must
   /// stop. 0: none.
   std::int32_t shown_epoch() const { return sessions_.shown_epoch(); }
@@ -130,15 +129,13 @@ class Server {
   bool started() const { return clock_.started(); }
   std::int64_t tick() const { return replica_.tick(); }
   int client_count() const { return sessions_.count(); }
-  /// Number of the scene's players with a ready client.
-  int player_count() const { return sessions_.player_count(); }
+  int player_count() const { return sessions_.player_count(); }  ///< with a ready client
   const Stats& stats() const { return stats_.counters; }
   /// Round trips, losses, corrections and repairs, since the start.
   const Connections& connections() const { return stats_.connections; }
   /// Parts that were removed because they had left the scene's bounds, since the start.
   std::int64_t left_bounds() const { return bounds_.left(); }
-  /// Decoded messages of sessions, since the start.
-  std::int64_t decoded() const { return stats_.decoded; }
+  std::int64_t decoded() const { return stats_.decoded; }  ///< messages, since the start
   /// Hand-overs at which the server's copy was visibly off, since the start.
   std::int64_t jumps() const { return stats_.jumps; }
   /// Speed of the room's clock, ppm of real time: below kFullSpeedPpm the server is overloaded.
@@ -167,8 +164,7 @@ class Server {
   std::shared_ptr<const KeyPair> keys() const { return sessions_.keys(); }
   /// The room's rules (health, scores, scripts); nullptr if the scene has none.
   const Rules* rules() const { return rules_.get(); }
-  /// Trust in each player's client.
-  const TrustLadder& ladder() const { return ladder_; }
+  const TrustLadder& ladder() const { return ladder_; }       ///< trust in each player's client
   const Chronicle& chronicle() const { return *chronicle_; }  ///< events, and the session's sum
   Chronicle& chronicle() { return *chronicle_; }
   /// Sums up the session so far.

@@ -36,7 +36,8 @@ struct HttpResponse {
 class HttpServer {
  public:
   /// Listens on 127.0.0.1 and, where there is one, on ::1 (port 0: any), or on the one numeric
-  /// address `bind`, of which "::" stands for all. Throws OperatorError ("port 8080 is in use: ...").
+  /// address `bind`, of which "::" stands for all. Throws OperatorError ("port 8080 is in use:
+  /// ...").
   explicit HttpServer(std::uint16_t port, const std::string& bind = "");
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

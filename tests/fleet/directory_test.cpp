@@ -2,11 +2,8 @@
 
 #include "common/fleet/directory.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <set>
 #include <thread>
@@ -331,21 +328,6 @@ TEST(DirectoryFile, ADamagedFileIsOneErrorAndStaysAsItIs) {
     EXPECT_EQ(status.why(), folder / "directory.json" + ": is damaged");
     EXPECT_EQ(ReadPlainFile(folder / "directory.json", 100), text);
   }
-}
-
-TEST(DirectoryFile, ALockThatIsNotGivenBackIsOneErrorInTime) {
-  Workspace folder;
-  Directory directory(OpenKeyStore("file:" + folder.path()), "test");
-  ASSERT_TRUE(directory.Register(ServerOf("a")).ok());
-  const int other = open((folder / "directory.lock").c_str(), O_RDWR | O_CLOEXEC);
-  ASSERT_EQ(flock(other, LOCK_EX), 0);
-  const std::int64_t begin_us = SteadyClockUs();
-  FleetListing listing;
-  const Status status = directory.List(&listing);
-  EXPECT_NE(status.why().find("directory.lock: cannot be locked"), std::string::npos);
-  EXPECT_LT(SteadyClockUs() - begin_us, 5000000);
-  close(other);
-  EXPECT_TRUE(directory.List(&listing).ok());
 }
 
 TEST(DirectoryEtcd, OneThatIsNotThereIsOneErrorInTime) {

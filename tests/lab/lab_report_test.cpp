@@ -334,34 +334,5 @@ TEST(Report, AnInputDelayIsPaidForWithTheOwnResponse) {
   EXPECT_TRUE(FrontTable({sweep}).rows.empty()) << "it is no matter of CPU or bytes";
 }
 
-/// Two methods with `seen`, one of them without valid runs in one column.
-TEST(SweepSection, EachMethodIsADotAgainstItsBytesAndItsCpu) {
-  std::string csv =
-      "scene,mode,reconcile,impair,drive,seed,error_others_m,seen,bytes_per_s,cpu_s,duration_s\n";
-  for (const int seed : {1, 2, 3}) {
-    const std::string s = std::to_string(seed);
-    csv += "wall,buffer,rollback,demo,bot," + s + ",0.01,0.0" + s + ",900" + s + ",1,6\n";
-    csv += "wall,central,all,demo,bot," + s + ",0.02,0.1" + s + ",500" + s + ",0.5,6\n";
-    csv += "wall,strict,,demo,bot," + s + ",,,,0.1,6\n";
-  }
-  const Sweep sweep = SweepOf(csv, "must");
-  const Figure* dots = nullptr;
-  const Section section = SweepSection(sweep);
-  for (const auto& item : section.items) {
-    const auto* figure = std::get_if<Figure>(&item);
-    if (figure != nullptr && figure->name == "must-wall-bot-dots") dots = figure;
-  }
-  ASSERT_NE(dots, nullptr);
-  ASSERT_EQ(dots->panels.size(), 4u);
-  const PlotPanel& seen = dots->panels[0];
-  EXPECT_EQ(seen.x.label, MeasureNamed("bytes").Label());
-  EXPECT_EQ(seen.y.label, MeasureNamed("seen").Label());
-  ASSERT_EQ(seen.curves.size(), 2u);
-  EXPECT_EQ(seen.notes[0].text, "central/all");
-  EXPECT_NEAR(seen.curves[0].points[0].y, 0.12, 1e-9);
-  EXPECT_NEAR(seen.curves[1].points[0].y, 0.02, 1e-9);
-  EXPECT_NE(dots->caption.find("Without valid runs: strict"), std::string::npos) << dots->caption;
-}
-
 }  // namespace lab_report_test
 }  // namespace seam

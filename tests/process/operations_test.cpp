@@ -154,7 +154,7 @@ TEST_F(Service, TheUnitBeginsARoomAndGoesOnWithIt) {
   EXPECT_NE(events.find("\"kind\":\"resumed\""), std::string::npos) << events;
 }
 
-TEST(MetricsPage, OfManyRoomsTheLatestAreShown) {
+TEST(MetricsPage, TheLatestOfManyRoomsAreShown) {
   std::vector<RoomLoad> rooms(5);
   for (int i = 0; i < 5; ++i) {
     rooms[static_cast<std::size_t>(i)].room = "r" + std::to_string(i);

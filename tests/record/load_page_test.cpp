@@ -82,9 +82,9 @@ TEST(LoadPage, ReadsBackAWrittenPage) {
         EXPECT_EQ((back.*of).at_most, (written.*of).at_most);
         EXPECT_EQ((back.*of).sum_us, (written.*of).sum_us);
       }
-      for (const auto of :
-           {&Connections::compositions, &Connections::rests, &Connections::least_line,
-            &Connections::thin_lines, &Connections::doubts, &Connections::distrusted, &Connections::unkept}) {
+      for (const auto of : {&Connections::compositions, &Connections::rests,
+                            &Connections::least_line, &Connections::thin_lines,
+                            &Connections::doubts, &Connections::distrusted, &Connections::unkept}) {
         EXPECT_EQ(back.*of, written.*of);
       }
       for (const auto of : {&RoomLoad::tick, &RoomLoad::late}) {
