@@ -63,7 +63,7 @@ TEST(ImpairChange, LosesAsTheNewProfileSaysAndAsOftenAsTheSeedLets) {
     way.Change("perfect");
     way.Run(1000, &number);
     // The last one under loss was not looked for yet.
-    EXPECT_NEAR(static_cast<double>(way.arrived.size()), counts.back() + 999.5, 0.6);
+    EXPECT_NEAR(static_cast<double>(way.arrived.size() - counts.back()), 999.5, 0.6);
   }
   EXPECT_EQ(counts[0], counts[1]);
 }

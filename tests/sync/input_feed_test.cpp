@@ -81,7 +81,7 @@ TEST_F(InputFeedTest, SendsEachInputWhereAPeerWaitsForIt) {
   EXPECT_EQ(feed.TakeAll(track, acked, now_us + kInputRepeatUs - 1), 0);
   EXPECT_GT(feed.TakeAll(track, acked, now_us + kInputRepeatUs), 0) << "again: it may be lost";
   acked = 1;
-  for (std::int64_t tick = 2; tick <= 100; ++tick) track.Note(tick, {});
+  for (std::int64_t t = 2; t <= 100; ++t) track.Note(t, {});
   EXPECT_EQ(feed.TakeAll(track, acked, now_us), static_cast<int>(kInputsMax));
   acked = 97;
   track.Note(101, {});
