@@ -13,12 +13,13 @@ namespace lab_dots_test {
 /// Two methods with `seen`, one of them without valid runs in one column.
 TEST(Dots, EachMethodIsADotAgainstItsBytesAndItsCpu) {
   std::string csv =
-      "scene,mode,reconcile,impair,drive,seed,error_others_m,seen,bytes_per_s,cpu_s,duration_s\n";
+      "scene,mode,reconcile,impair,drive,seed,error_rms_m,error_others_m,seen,bytes_per_s,cpu_s,"
+      "duration_s\n";
   for (const int seed : {1, 2, 3}) {
     const std::string s = std::to_string(seed);
-    csv += "wall,buffer,rollback,demo,bot," + s + ",0.01,0.0" + s + ",900" + s + ",1,6\n";
-    csv += "wall,central,all,demo,bot," + s + ",0.02,0.1" + s + ",500" + s + ",0.5,6\n";
-    csv += "wall,strict,,demo,bot," + s + ",,,,0.1,6\n";
+    csv += "wall,buffer,rollback,demo,bot," + s + ",0.01,0.01,0.0" + s + ",900" + s + ",1,6\n";
+    csv += "wall,central,all,demo,bot," + s + ",0.02,0.02,0.1" + s + ",500" + s + ",0.5,6\n";
+    csv += "wall,strict,,demo,bot," + s + ",,,,,0.1,6\n";
   }
   Sweep sweep{"must", "make report", CsvTable::Parse(csv, "must.csv"), {}};
   sweep.view = ViewSweep(sweep.table);

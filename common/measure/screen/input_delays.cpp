@@ -21,7 +21,7 @@ InputDelays::InputDelays(const Recording& recording) : first_(recording.room.inp
 int InputDelays::Of(int player, std::int64_t tick) const {
   if (static_cast<std::size_t>(player) >= settings_.size()) return first_;
   const PlayerSettings& settings = settings_[static_cast<std::size_t>(player)];
-  for (int delay = kInputDelayTicksMax; delay >= 0; --delay) {
+  for (int delay = kAdaptedDelayMax; delay >= 0; --delay) {
     if (settings.At(kMetaInputDelay, tick - delay).value_or(first_) == delay) return delay;
   }
   return first_;
