@@ -154,7 +154,7 @@ TEST(SessionWriter, EventsAreALineOfJsonEach) {
   EXPECT_EQ(lines.find("{\"room\":\"main\",\"scene\":\"rally\",\"tick\":"), 0u) << lines;
   EXPECT_NE(lines.find("\"tick\":90,\"time_s\":1.5,\"kind\":\"script\""), std::string::npos)
       << lines;
-  EXPECT_NE(lines.find("it's \\\"gold\\\""), std::string::npos) << lines;
+  EXPECT_NE(lines.find("it\\u0027s \\u0022gold\\u0022"), std::string::npos) << lines;
   const auto nowhere = WriteEvents(folder / "none/events.json");
   nowhere->Put(part);
   nowhere->Finish();

@@ -299,11 +299,11 @@ TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
   EXPECT_EQ(MakeSyncConfig("buffer", "").reconcile_name, "rollback");
   EXPECT_EQ(MakeSyncConfig("strict", "").reconcile, nullptr);
   EXPECT_THROW(MakeSyncConfig("strict", "fade"), OperatorError);
-  EXPECT_THROW(MakeSyncConfig("lockstep", ""), OperatorError);
+  EXPECT_THROW(MakeSyncConfig("locksteps", ""), OperatorError);
   for (const std::string& mode : ModeNames()) {
     EXPECT_EQ(FindPolicy(mode, "", false)->mode(), mode);
   }
-  for (const char* name : {"", "lockstep", "Oracle", "buffer "}) {
+  for (const char* name : {"", "locksteps", "Oracle", "buffer "}) {
     EXPECT_EQ(FindPolicy(name, "", false), nullptr) << name;
   }
 }
