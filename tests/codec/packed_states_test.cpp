@@ -167,7 +167,6 @@ TEST(PackedStates, NoBitPatternDoesHarm) {
   Balls balls(3, 90);
   StatesPacker packer(kMotion);
   StatesUnpacker unpacker(kMotion), fooled(kMotion);
-  int cuts = 0, cuts_taken = 0;
   for (int round = 0; round < Soak(60); ++round) {
     balls.Step();
     for (const States& states : balls.Tell(0.2)) packer.Add(states);
@@ -176,14 +175,12 @@ TEST(PackedStates, NoBitPatternDoesHarm) {
       for (std::size_t size = 0; size < good.size(); ++size) {
         PackedStates cut;
         cut.data.assign(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
-        // Some happen to end as a message does; a datagram's seal tells them from what was sent.
-        ++cuts;
-        cuts_taken += unpacker.Take(cut) != nullptr ? 1 : 0;
+        EXPECT_EQ(unpacker.Take(cut), nullptr) << size << " of " << good.size() << " bytes";
       }
       PackedStates longer{good};
       longer.data.push_back(0);
       EXPECT_EQ(unpacker.Take(longer), nullptr);
-      EXPECT_NE(unpacker.Take(message.packed), nullptr) << "no cut has left anything behind";
+      EXPECT_NE(unpacker.Take(message.packed), nullptr) << "what was refused left nothing behind";
       for (int flip = 0; flip < 300; ++flip) {
         Bytes bytes = good;
         for (std::uint64_t n = 1 + balls.random().Next() % 3; n > 0; --n) {
@@ -201,8 +198,6 @@ TEST(PackedStates, NoBitPatternDoesHarm) {
       packer.Acknowledge(message.number);
     }
   }
-  EXPECT_GT(cuts, 1000);
-  EXPECT_LT(cuts_taken, cuts / 50);
 }
 
 TEST(PackedStates, ALostStateIsRequestedUntilALaterOneArrives) {

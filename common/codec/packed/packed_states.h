@@ -29,8 +29,6 @@ struct Differing {
 
 /// Most bytes of data in one PackedStates: with the 10 bytes before, it must fit kMessageBytesMax.
 constexpr std::size_t kPackedBytesMax = 1140;
-/// Most bodies in one: each may take less than a bit, but the time of its receiver.
-constexpr std::size_t kPackedBodiesMax = 1024;
 static_assert(10 + kPackedBytesMax <= kMessageBytesMax);
 
 }  // namespace seam

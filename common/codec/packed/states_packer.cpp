@@ -13,9 +13,45 @@ constexpr std::size_t kSentMost = 256;
 constexpr std::int64_t kResendUs = 100000, kResendUsMax = 400000;
 /// Most emptied records kept for reuse of their memory.
 constexpr std::size_t kSpareMost = 16;
-/// Most bytes of an entry, a group's header and all end marks together: 9 bits a decision, of which
-/// a number takes at most 6, and 32 raw ones.
-constexpr std::size_t kEntryBytesMost = 128;
+/// Most bytes of an entry, a group's header and all end marks together.
+constexpr std::size_t kEntryBytesMost = 64;
+
+/// Joins successive codes into one Put. Its bits stay in registers, while those of BitWriter are in
+/// memory; this requires that every function is inlined.
+class Run {
+ public:
+  explicit Run(BitWriter* bits) : bits_(bits) {}
+  /// Like BitWriter::Put, but `value` must have no more than `width` bits.
+  __attribute__((always_inline)) void Put(std::uint64_t value, int width) {
+    if (width_ + width > 32) End();
+    held_ = held_ << width | value;
+    width_ += width;
+  }
+  __attribute__((always_inline)) void PutGolomb(std::uint32_t value, int k) {
+    const std::uint64_t shifted = value + (std::uint64_t{1} << k);
+    const int width = 2 * BitWidth(shifted) - 1 - k;
+    if (__builtin_expect(width <= 32, 1)) return Put(shifted, width);
+    End();
+    PutLong(bits_, value, k);
+  }
+  __attribute__((always_inline)) void End() {
+    PutAll(bits_, held_, width_);
+    held_ = 0;
+    width_ = 0;
+  }
+
+ private:
+  __attribute__((noinline)) static void PutAll(BitWriter* bits, std::uint64_t held, int width) {
+    bits->Put(held, width);
+  }
+  __attribute__((noinline)) static void PutLong(BitWriter* bits, std::uint32_t value, int k) {
+    bits->PutGolomb(value, k);
+  }
+
+  BitWriter* const bits_;
+  std::uint64_t held_ = 0;
+  int width_ = 0;  // at most 32
+};
 
 std::int32_t Difference(std::int16_t a, std::int16_t b) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
@@ -56,34 +92,25 @@ void StatesPacker::Begin(const StatesHeader& header) {
     spare_.pop_back();
   }
   context_ = PackedContext();
-  header_ = header;
-  headers_.push_back(header);
-  if (headers_.size() > kSentMost) headers_.pop_front();
-  PackedModels& models = context_.models;
-  bits_.PutRaw(static_cast<std::uint64_t>(number_), 16);
-  // As a message that has arrived, or whole.
-  const bool based = base_number_ >= 0 && number_ - base_number_ < kPackedHeaders / 2 &&
-                     base_.revision == header.revision && base_.composition == header.composition &&
-                     std::abs(header.tick - base_.tick) < INT32_MAX;
-  bits_.Put(based, &models.based);
+  revision_ = header.revision;
+  composition_ = header.composition;
+  const auto composition = static_cast<std::uint64_t>(header.composition);
+  bits_.Put(static_cast<std::uint64_t>(number_), 16);
+  bits_.PutGolomb(static_cast<std::uint32_t>(header.revision), 4);
+  bits_.Put(composition >> 32, 32);
+  bits_.Put(composition, 32);
+  bits_.Put(static_cast<std::uint64_t>(header.tick) >> 20, 20);
+  bits_.Put(static_cast<std::uint64_t>(header.tick), 20);
   context_.tick = header.tick;
-  if (based) {
-    models.base.Put(static_cast<std::uint32_t>(number_ - base_number_ - 1), &bits_);
-    context_.tick = base_.tick;
-    return;
-  }
-  models.revision.Put(static_cast<std::uint32_t>(header.revision), &bits_);
-  bits_.PutRaw(static_cast<std::uint64_t>(header.composition), 64);
-  bits_.PutRaw(static_cast<std::uint64_t>(header.tick), 40);
 }
 
 void StatesPacker::BeginGroup(const StatesHeader& header) {
   group_ = true;
   peer_ = header.peer;
-  PackedModels& models = context_.models;
-  bits_.Put(true, &models.group);
-  models.peer.Put(static_cast<std::uint32_t>(header.peer), &bits_);
-  models.ticks.PutSigned(static_cast<std::int32_t>(header.tick - context_.tick), &bits_);
+  bits_.Put(1, 1);
+  bits_.PutGolomb(static_cast<std::uint32_t>(header.peer), 4);
+  const std::int64_t ticks = header.tick - context_.tick;
+  bits_.PutGolomb(ZigZag(static_cast<std::int32_t>(ticks)), 0);
   context_.tick = header.tick;
   context_.id = -1;
   context_.id_gap = 0;
@@ -95,8 +122,7 @@ bool StatesPacker::Continues(const StatesHeader& header, std::int32_t id) const 
 
 void StatesPacker::End() {
   if (!open_) return;
-  if (group_) bits_.Put(false, &context_.models.body);
-  bits_.Put(false, &context_.models.group);
+  bits_.Put(0, group_ ? 2 : 1);
   open_ = group_ = false;
   Message message;
   message.number = number_;
@@ -105,77 +131,80 @@ void StatesPacker::End() {
   ready_.push_back(std::move(message));
 }
 
-void StatesPacker::PutDifferences(bool known, const WireBody& state, const WireBody& guess) {
-  const std::int32_t differences[kPackedFields] = {Difference(state.vx, guess.vx),
-                                                   Difference(state.vy, guess.vy),
-                                                   Difference(state.spin, guess.spin),
-                                                   static_cast<std::int32_t>(state.x - guess.x),
-                                                   static_cast<std::int32_t>(state.y - guess.y),
-                                                   Difference(state.angle, guess.angle)};
-  CodeDifferences(known, &context_, [&](PackedField field, NumberModel* model) {
-    model->PutSigned(differences[field], &bits_);
-    return differences[field] == 0;
-  });
+void StatesPacker::PutDifferences(const WireBody& state, const WireBody& guess,
+                                  std::array<AdaptiveGolomb, kPackedFields>* learned) {
+  Run run(&bits_);
+  const auto put = [&](PackedField field, std::int32_t difference) __attribute__((always_inline)) {
+    AdaptiveGolomb& with = (*learned)[field];
+    const std::uint32_t code = ZigZag(difference);
+    run.PutGolomb(code, with.k());
+    with.Note(code);
+  };
+  put(kPackedVx, Difference(state.vx, guess.vx));
+  put(kPackedVy, Difference(state.vy, guess.vy));
+  put(kPackedSpin, Difference(state.spin, guess.spin));
+  put(kPackedX, static_cast<std::int32_t>(state.x - guess.x));
+  put(kPackedY, static_cast<std::int32_t>(state.y - guess.y));
+  put(kPackedAngle, Difference(state.angle, guess.angle));
+  run.End();
 }
 
 void StatesPacker::AddBody(const WireBody& state) {
-  PackedModels& models = context_.models;
-  bits_.Put(true, &models.body);
+  Run run(&bits_);
+  run.Put(1, 1);
   const std::int32_t gap = state.id - context_.id;
-  const bool first = context_.id < 0;
-  if (first) {
-    models.first_id.Put(static_cast<std::uint32_t>(state.id), &bits_);
+  if (gap == context_.id_gap) {
+    run.Put(1, 1);
   } else {
-    bits_.Put(gap == context_.id_gap, &models.same_gap);
-    if (gap != context_.id_gap) models.id_gap.Put(static_cast<std::uint32_t>(gap - 1), &bits_);
+    if (context_.id_gap > 0) run.Put(0, 1);
+    run.PutGolomb(static_cast<std::uint32_t>(gap - 1), context_.id < 0 ? 8 : 2);
   }
-  context_.id_gap = first ? 1 : gap;
+  context_.id_gap = context_.id < 0 ? 1 : gap;
   context_.id = state.id;
   Known& known = KnownOf(state.id);
   const bool kept = known.number >= 0 && known.sent - known.count < kPackedKept;
   const auto back = kept ? static_cast<std::uint32_t>(number_ - known.number) : 0;
-  bits_.Put(back == context_.back, &models.same_back);
-  if (back != context_.back) models.back.Put(back, &bits_);
+  run.Put(back == context_.back ? 1 : 0, 1);
+  if (back != context_.back) run.PutGolomb(back, 4);
   context_.back = back;
   const WireBody& before = kept ? known.state : context_.last;
   const bool same = state.epoch == before.epoch && state.flags == before.flags;
-  bits_.Put(same, &models.same_rest);
+  run.Put(same ? 1 : 0, 1);
   if (!same) {
-    models.epoch.Put(static_cast<std::uint32_t>(state.epoch), &bits_);
-    bits_.PutRaw(static_cast<std::uint64_t>(state.flags) & 7, 3);
+    run.PutGolomb(static_cast<std::uint32_t>(state.epoch), 4);
+    run.Put(static_cast<std::uint64_t>(state.flags) & 7, 3);
   }
   if (kept) {
     // Chooses the better prediction: free fall or constant velocity.
     const WireBody fallen = PredictVelocity(motion_, before, state.tick, true);
     const bool falls = VelocityError(state, fallen) < VelocityError(state, before);
-    bits_.Put(falls, &models.falls[context_.fell ? 1 : 0]);
-    context_.fell = falls;
+    run.Put(falls ? 1 : 0, 1);
+    run.End();
     WireBody now = state;
     PredictPose(motion_, before, &now);
     now.vx = falls ? fallen.vx : before.vx;
     now.vy = falls ? fallen.vy : before.vy;
     now.spin = before.spin;
-    PutDifferences(true, state, now);
+    PutDifferences(state, now, &context_.known);
   } else {
+    run.End();
     WireBody guess;
     guess.x = context_.last.x;
     guess.y = context_.last.y;
-    PutDifferences(false, state, guess);
+    PutDifferences(state, guess, &context_.fresh);
   }
   context_.last = state;
   sent_.back().push_back({state, ++known.sent});
 }
 
 void StatesPacker::AddEntry(const StatesHeader& header, const WireBody& state, bool* begun) {
-  const bool full = open_ && (bits_.size() + kEntryBytesMost > kPackedBytesMax ||
-                              sent_.back().size() == kPackedBodiesMax);
-  if (full) End();
+  if (open_ && bits_.size() + kEntryBytesMost > kPackedBytesMax) End();
   if (!open_) {
     Begin(header);
     *begun = false;
   }
   if (!*begun) {
-    if (group_) bits_.Put(false, &context_.models.body);
+    if (group_) bits_.Put(0, 1);
     BeginGroup(header);
     *begun = true;
   }
@@ -184,8 +213,7 @@ void StatesPacker::AddEntry(const StatesHeader& header, const WireBody& state, b
 
 void StatesPacker::Add(const States& states) {
   const StatesHeader header = HeaderOf(states);
-  const bool other =
-      header.revision != header_.revision || header.composition != header_.composition;
+  const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
   bool begun = !states.id.empty() && Continues(header, states.id.front());
   for (std::size_t i = 0; i < states.id.size(); ++i) {
@@ -194,8 +222,7 @@ void StatesPacker::Add(const States& states) {
 }
 
 void StatesPacker::Add(const StatesHeader& header, const WireBody* begin, const WireBody* end) {
-  const bool other =
-      header.revision != header_.revision || header.composition != header_.composition;
+  const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
   bool begun = begin != end && Continues(header, begin->id);
   for (; begin != end; ++begin) AddEntry(header, *begin, &begun);
@@ -266,7 +293,6 @@ void StatesPacker::Reset(std::uint16_t number) {
   const std::int64_t refused = number_ + static_cast<std::int16_t>(ahead);
   if (refused > number_ - (open_ ? 1 : 0) || refused <= refused_) return;
   refused_ = refused;
-  if (base_number_ <= refused) base_number_ = -1;
   for (std::size_t id = 0; id < place_.size(); ++id) {
     if (place_[id] < 0) continue;
     Known& known = known_[static_cast<std::size_t>(place_[id])];
@@ -282,10 +308,6 @@ void StatesPacker::Acknowledge(std::int64_t number) {
   if (number <= refused_) return;
   std::vector<Sent>* const bodies = StatesSentIn(number);
   if (bodies == nullptr) return;
-  if (number > base_number_) {
-    base_number_ = number;
-    base_ = headers_[headers_.size() - 1 - static_cast<std::size_t>(number_ - number)];
-  }
   for (const Sent& sent : *bodies) {
     Known& known = KnownOf(sent.state.id);
     if (number < known.number) continue;

@@ -1,6 +1,7 @@
 #pragma once
 /// Packs States for one receiver as differences from acknowledged states.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -73,7 +74,8 @@ class StatesPacker {
   void End();
   void Spare(std::vector<Sent>* bodies);
   void AddBody(const WireBody& state);
-  void PutDifferences(bool known, const WireBody& state, const WireBody& guess);
+  void PutDifferences(const WireBody& state, const WireBody& guess,
+                      std::array<AdaptiveGolomb, kPackedFields>* learned);
   Known& KnownOf(std::int32_t id);
   /// Returns the states in a message, empty once acknowledged; nullptr if no longer recorded.
   std::vector<Sent>* StatesSentIn(std::int64_t number);
@@ -87,14 +89,12 @@ class StatesPacker {
   std::int64_t refused_ = -1;  // no acknowledgement up to this message counts
   bool open_ = false;         // a message is being written
   bool group_ = false;        // the open message has an open group
-  RangeWriter bits_;
+  BitWriter bits_;
   PackedContext context_;
   std::int32_t peer_ = 0;  // of the open group
-  StatesHeader header_;    // of the open message, else of the last
-  StatesHeader base_;      // of the newest message that is known to have arrived
-  std::int64_t base_number_ = -1;         // and its number; -1: none
+  std::int32_t revision_ = 0;
+  std::int64_t composition_ = 0;
   std::deque<std::vector<Sent>> sent_;    // states in successive messages up to number_
-  std::deque<StatesHeader> headers_;      // of the same messages
   std::deque<InFlight> in_flight_;        // oldest first, until checked for loss
   std::vector<Owed> owed_;                // ascending by id
   std::vector<std::vector<Sent>> spare_;  // empty vectors for reuse

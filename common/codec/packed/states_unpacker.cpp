@@ -67,19 +67,16 @@ void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
   body.marked_from = entry.from;
 }
 
-bool StatesUnpacker::TakeBody(RangeReader* bits, std::int64_t number, Entry* entry) {
+bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry) {
   PackedContext& context = context_;
-  PackedModels& models = context.models;
-  const bool first = context.id < 0;
-  std::int64_t gap = context.id_gap;
-  if (first || !bits->Get(&models.same_gap)) {
-    gap = std::int64_t{(first ? models.first_id : models.id_gap).Get(bits)} + 1;
-  }
+  const bool as_before = context.id_gap > 0 && bits->Get(1) != 0;
+  const std::int64_t gap =
+      as_before ? context.id_gap : std::int64_t{bits->GetGolomb(context.id < 0 ? 8 : 2)} + 1;
   const std::int64_t id = context.id + gap;
   if (id >= ids_) return false;
-  context.id_gap = first ? 1 : static_cast<std::int32_t>(gap);
+  context.id_gap = context.id < 0 ? 1 : static_cast<std::int32_t>(gap);
   context.id = static_cast<std::int32_t>(id);
-  if (!bits->Get(&models.same_back)) context.back = models.back.Get(bits);
+  if (bits->Get(1) == 0) context.back = bits->GetGolomb(4);
   const WireBody* from = nullptr;
   if (context.back > 0) {
     entry->from = number - context.back;
@@ -92,36 +89,38 @@ bool StatesUnpacker::TakeBody(RangeReader* bits, std::int64_t number, Entry* ent
   state.id = context.id;
   state.epoch = before.epoch;
   state.flags = before.flags;
-  if (!bits->Get(&models.same_rest)) {
-    state.epoch = static_cast<std::int32_t>(models.epoch.Get(bits));
-    state.flags = static_cast<std::int8_t>(bits->GetRaw(3));
+  if (bits->Get(1) == 0) {
+    state.epoch = static_cast<std::int32_t>(bits->GetGolomb(4));
+    state.flags = static_cast<std::int8_t>(bits->Get(3));
   }
+  std::array<AdaptiveGolomb, kPackedFields>& learned =
+      from != nullptr ? context.known : context.fresh;
+  const auto get = [&](PackedField field) {
+    const std::uint32_t code = bits->GetGolomb(learned[field].k());
+    learned[field].Note(code);
+    return static_cast<std::uint32_t>(UnZigZag(code));
+  };
+  const auto add = [&](PackedField field, std::int16_t* value) {
+    *value = Low(static_cast<std::uint32_t>(*value) + get(field));
+  };
   if (from != nullptr) {
-    const bool falls = bits->Get(&models.falls[context.fell ? 1 : 0]);
-    context.fell = falls;
-    const WireBody guess = PredictVelocity(motion_, *from, state.tick, falls);
+    const WireBody guess = PredictVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
     state.vx = guess.vx;
     state.vy = guess.vy;
     state.spin = guess.spin;
+  }
+  add(kPackedVx, &state.vx);
+  add(kPackedVy, &state.vy);
+  add(kPackedSpin, &state.spin);
+  if (from != nullptr) {
+    PredictPose(motion_, *from, &state);
   } else {
     state.x = context.last.x;
     state.y = context.last.y;
   }
-  CodeDifferences(from != nullptr, &context, [&](PackedField field, NumberModel* model) {
-    // The velocities are complete: now the pose can be guessed.
-    if (field == kPackedX && from != nullptr) PredictPose(motion_, *from, &state);
-    const std::int32_t difference = model->GetSigned(bits);
-    const auto more = static_cast<std::uint32_t>(difference);
-    switch (field) {
-      case kPackedVx: state.vx = Low(static_cast<std::uint32_t>(state.vx) + more); break;
-      case kPackedVy: state.vy = Low(static_cast<std::uint32_t>(state.vy) + more); break;
-      case kPackedSpin: state.spin = Low(static_cast<std::uint32_t>(state.spin) + more); break;
-      case kPackedX: state.x += more; break;
-      case kPackedY: state.y += more; break;
-      case kPackedAngle: state.angle = Low(static_cast<std::uint32_t>(state.angle) + more); break;
-    }
-    return difference == 0;
-  });
+  state.x += get(kPackedX);
+  state.y += get(kPackedY);
+  add(kPackedAngle, &state.angle);
   context.last = entry->state = state;
   return bits->ok() && InRange(state.x) && InRange(state.y);
 }
@@ -148,53 +147,36 @@ States* StatesUnpacker::Begin(const States& header, const WireBody& first) {
 }
 
 Reset StatesUnpacker::Refusal(const PackedStates& packed) {
-  RangeReader bits(ByteView(packed.data));
-  return {static_cast<std::int16_t>(static_cast<std::uint16_t>(bits.GetRaw(16)))};
-}
-
-bool StatesUnpacker::TakeHeader(RangeReader* bits, std::int64_t number, States* header) {
-  PackedModels& models = context_.models;
-  if (bits->Get(&models.based)) {
-    const std::int64_t from = number - 1 - models.base.Get(bits);
-    const Header& base = headers_[static_cast<std::size_t>(from & (kPackedHeaders - 1))];
-    if (from < 0 || base.number != from) return false;
-    header->revision = base.of.revision;
-    header->composition = base.of.composition;
-    context_.tick = base.of.tick;
-    return true;
-  }
-  header->revision = static_cast<std::int32_t>(models.revision.Get(bits));
-  header->composition = static_cast<std::int64_t>(bits->GetRaw(64));
-  context_.tick = static_cast<std::int64_t>(bits->GetRaw(40));
-  return true;
+  BitReader bits(ByteView(packed.data));
+  return {static_cast<std::int16_t>(static_cast<std::uint16_t>(bits.Get(16)))};
 }
 
 const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed, std::int32_t ids) {
   ids_ = std::min(ids, kIdsMax);
-  RangeReader bits(ByteView(packed.data));
+  BitReader bits(ByteView(packed.data));
   const auto low = static_cast<std::uint16_t>(newest_);
-  const auto wire = static_cast<std::uint16_t>(bits.GetRaw(16));
+  const auto wire = static_cast<std::uint16_t>(bits.Get(16));
   const std::int64_t number =
       newest_ + static_cast<std::int16_t>(static_cast<std::uint16_t>(wire - low));
   States header;
+  header.revision = static_cast<std::int32_t>(bits.GetGolomb(4));
+  const std::uint64_t high = bits.Get(32);
+  header.composition = static_cast<std::int64_t>(high << 32 | bits.Get(32));
   context_ = PackedContext();
-  if (!TakeHeader(&bits, number, &header)) return nullptr;
-  PackedModels& models = context_.models;
+  const std::int64_t tick_high = bits.Get(20);
+  context_.tick = tick_high << 20 | bits.Get(20);
   std::move(told_.begin(), told_.end(), std::back_inserter(spare_));
   told_.clear();
   entries_.clear();
-  std::int64_t first_tick = -1;
-  while (bits.Get(&models.group)) {
-    header.peer = static_cast<std::int32_t>(models.peer.Get(&bits));
-    context_.tick += models.ticks.GetSigned(&bits);
+  while (bits.Get(1) != 0) {
+    header.peer = static_cast<std::int32_t>(bits.GetGolomb(4));
+    context_.tick += UnZigZag(bits.GetGolomb(0));
     header.tick = context_.tick;
-    if (first_tick < 0) first_tick = header.tick;
     context_.id = -1;
     context_.id_gap = 0;
     States* states = nullptr;
-    while (bits.Get(&models.body)) {
+    while (bits.Get(1) != 0) {
       Entry entry;
-      if (entries_.size() == kPackedBodiesMax) return nullptr;
       if (!TakeBody(&bits, number, &entry)) return nullptr;
       if (states == nullptr || !Fits(*states, entry.state)) states = Begin(header, entry.state);
       AppendBody(entry.state, states);
@@ -207,10 +189,6 @@ const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed, std:
     return nullptr;
   }
   newest_ = std::max(newest_, number);
-  Header& kept = headers_[static_cast<std::size_t>(number & (kPackedHeaders - 1))];
-  if (number > kept.number) {
-    kept = {number, {header.peer, first_tick, header.revision, header.composition}};
-  }
   for (const Entry& entry : entries_) Keep(number, entry);
   return &told_;
 }

@@ -1,7 +1,6 @@
 #pragma once
 /// Unpacks the messages of a StatesPacker; validates every bit.
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,19 +42,12 @@ class StatesUnpacker {
     WireBody state;
   };
   States* Begin(const States& header, const WireBody& first);
-  /// A message's header, of which the tick is that of its first group.
-  struct Header {
-    std::int64_t number = -1;
-    StatesHeader of;
-  };
-  bool TakeHeader(RangeReader* bits, std::int64_t number, States* header);
-  bool TakeBody(RangeReader* bits, std::int64_t number, Entry* entry);
+  bool TakeBody(BitReader* bits, std::int64_t number, Entry* entry);
   const WireBody* Find(std::int32_t id, std::int64_t number) const;
   void Keep(std::int64_t number, const Entry& entry);
 
   const PackedMotion motion_;
   PackedContext context_;
-  std::array<Header, kPackedHeaders> headers_;  // by number modulo their count
   std::int32_t ids_ = kIdsMax;       // ids in this message are below
   std::int64_t newest_ = 0;          // largest message number so far
   std::vector<std::int32_t> place_;  // by id: index in kept_; -1: nothing came
