@@ -43,9 +43,8 @@ owner = "ann"
 [[part]]
 name = "crate"
 box = [0.6, 0.6]
-position = [2, 0.4]
-repeat = {count = [1, 3], step = [0, 0.7]}
-bond = 30
+position = [2, 0.3]
+repeat = {count = [1, 3], step = [0, 0.6], glue = 900}
 [[trigger]]
 name = "gate"
 kind = "area"

@@ -69,7 +69,7 @@ std::vector<Bytes> SceneSeeds() {
         "polygon = [[0, 0], [1, 0], [0, 1]]\nvelocity = [3, 1]\nspin = 2\n[[water]]\nfrom = [-5, "
         "-5]\nto = [5, 0]\n",
         "[[player]]\nname = \"ann\"\nregion = [[-9, -9], [0, 9]]\n[[part]]\nname = \"a\"\ncapsule "
-        "= {from = [0, 0], to = [1, 0], radius = 0.2}\nowner = \"ann\"\nbond = 40\n"}) {
+        "= {from = [0, 0], to = [1, 0], radius = 0.2}\nowner = \"ann\"\n"}) {
     seeds.push_back(BytesOf(text));
   }
   return seeds;
