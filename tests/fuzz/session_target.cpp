@@ -57,7 +57,7 @@ class FuzzedRoom {
  public:
   FuzzedRoom() {
     ServerConfig config;
-    config.sync = MakeSyncConfig(MethodNames());
+    config.sync = MakeSyncConfig("buffer", "");
     config.publish = Publish::kNone;
     server_ = std::make_unique<Server>(scene_, config, *net_, silence_, entropy_);
     ann_.SayHello();
