@@ -1,7 +1,6 @@
 #include "server/control/drag.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
@@ -40,7 +39,7 @@ std::optional<PushEdit> DragPush(const World& world, const Grip& grip, float sec
   const Vec2 margin(kDragMargin, kDragMargin);
   const Vec2 target =
       grip.target.cwiseMax(scene.bounds_min + margin).cwiseMin(scene.bounds_max - margin);
-  const float w = 2 * static_cast<float>(M_PI) * kDragHz;
+  const float w = 2 * kPiFloat * kDragHz;
   const float k = m * w * w, d = 2 * m * w;
   // The spring draws a far body at half its frequency times the stretch.
   const Vec2 stretch = AtMost(point - target, scene.speed_limit / (2 * w));
