@@ -1,7 +1,9 @@
 #include "common/sync/history.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "common/base/check.h"
@@ -21,6 +23,7 @@ History::History(const BodyTable& table, int capacity_ticks, std::function<BodyS
 
 void History::Begin(std::int64_t tick) {
   SEAM_ASSERT(tick >= 0 && (count_ == 0 || tick == newest_ + 1));
+  replaced_.clear();
   newest_ = tick;
   count_ = std::min(count_ + 1, capacity_);
   const int slot = static_cast<int>(tick % capacity_);
@@ -30,9 +33,20 @@ void History::Begin(std::int64_t tick) {
 
 void History::Put(int body, const BodyState& state) {
   SEAM_ASSERT(body >= 0 && body < bodies_ && count_ > 0);
-  std::unique_ptr<Piece>& piece = pieces_[static_cast<std::size_t>(body * pieces_each_ + piece_)];
-  if (piece == nullptr) piece = std::make_unique<Piece>();
-  (*piece)[static_cast<std::size_t>(in_piece_)] = state;
+  std::shared_ptr<Piece>& piece = pieces_[static_cast<std::size_t>(body * pieces_each_ + piece_)];
+  (*Own(&piece))[static_cast<std::size_t>(in_piece_)] = state;
+}
+
+History::Piece* History::Own(std::shared_ptr<Piece>* piece) {
+  if (*piece == nullptr) {
+    *piece = std::make_shared<Piece>();
+  } else if (piece->use_count() > 1) {
+    replaced_.push_back(*piece);
+    *piece = std::make_shared<Piece>(*replaced_.back());
+  } else {
+    std::atomic_thread_fence(std::memory_order_acquire);  // whoever saved it has read it
+  }
+  return piece->get();
 }
 
 void History::Record(std::int64_t tick, const std::vector<BodyState>& states) {
@@ -48,7 +62,7 @@ const BodyState* History::At(std::int64_t tick, int body) const {
   static const BodyState kNothing;
   if (!Has(tick)) return nullptr;
   const int slot = static_cast<int>(tick % capacity_);
-  const std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
+  const std::shared_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
   return piece == nullptr ? &kNothing : &(*piece)[static_cast<std::size_t>(slot % kPiece)];
 }
 
@@ -56,9 +70,7 @@ BodyState* History::At(std::int64_t tick, int body) {
   SEAM_ASSERT(body >= 0 && body < bodies_);
   if (!Has(tick)) return nullptr;
   const int slot = static_cast<int>(tick % capacity_);
-  std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
-  if (piece == nullptr) piece = std::make_unique<Piece>();
-  return &(*piece)[static_cast<std::size_t>(slot % kPiece)];
+  return &(*Own(&pieces_[PieceOf(slot, body)]))[static_cast<std::size_t>(slot % kPiece)];
 }
 
 std::int64_t History::newest() const { return count_ == 0 ? -1 : newest_; }
@@ -70,19 +82,45 @@ void History::Persist(StateArchive& a, const std::function<bool(int)>& still) {
   a.Int(&count_, 0, capacity_);
   a.Int(&newest_, -1, StateArchive::kTickMost);
   a.Require(newest_ >= count_ - 1, "it is of no such tick");
-  for (int body = 0; body < bodies_ && a.ok(); ++body) {
-    bool one = !a.reading() && count_ > 0 && still(body);
-    a.Flag(&one);
-    if (!one) {
-      PersistPieces(a, body);
-      continue;
+  if (a.reading()) return Load(a);
+  std::vector<std::optional<BodyState>> poses(static_cast<std::size_t>(bodies_));
+  Pieces pieces;  // of the bodies without a pose
+  for (int body = 0; body < bodies_; ++body) {
+    const auto first = pieces_.begin() + static_cast<std::ptrdiff_t>(PieceOf(0, body));
+    if (count_ > 0 && still(body)) {
+      poses[static_cast<std::size_t>(body)] = *std::as_const(*this).At(newest_, body);
+    } else {
+      pieces.insert(pieces.end(), first, first + pieces_each_);
     }
-    BodyState pose = a.reading() ? BodyState() : *std::as_const(*this).At(newest_, body);
-    PersistStates(a, &pose, 1);
-    if (!a.reading()) continue;
-    for (std::int64_t tick = oldest(); tick <= newest_; ++tick) *At(tick, body) = pose;
   }
-  if (!a.reading() || count_ == 0) return;
+  a.Later([poses = std::move(poses), pieces = std::move(pieces),
+           each = pieces_each_](StateArchive& out) {
+    auto next = pieces.begin();
+    for (std::optional<BodyState> pose : poses) {
+      bool one = pose.has_value();
+      out.Flag(&one);
+      if (one) PersistStates(out, &*pose, 1);
+      for (int k = 0; !one && k < each; ++k) {
+        std::shared_ptr<Piece> piece = *next++;
+        PersistPiece(out, &piece);
+      }
+    }
+  });
+}
+
+void History::Load(StateArchive& a) {
+  for (int body = 0; body < bodies_ && a.ok(); ++body) {
+    bool one = false;
+    a.Flag(&one);
+    for (int k = 0; !one && k < pieces_each_ && a.ok(); ++k) {
+      PersistPiece(a, &pieces_[PieceOf(k * kPiece, body)]);
+    }
+    if (!one) continue;
+    BodyState pose;
+    PersistStates(a, &pose, 1);
+    for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick) *At(tick, body) = pose;
+  }
+  if (count_ == 0) return;
   const int slot = static_cast<int>(newest_ % capacity_);
   piece_ = slot / kPiece;
   in_piece_ = slot % kPiece;
@@ -95,17 +133,14 @@ bool History::IsOnePose(const Piece& piece) {
   return std::all_of(piece.begin(), piece.end(), as_first);
 }
 
-void History::PersistPieces(StateArchive& a, int body) {
-  for (int slot = 0; slot < capacity_ && a.ok(); slot += kPiece) {
-    std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
-    bool there = piece != nullptr, one = there && !a.reading() && IsOnePose(*piece);
-    a.Flag(&there);
-    if (a.reading()) piece = there ? std::make_unique<Piece>() : nullptr;
-    if (!there) continue;
-    a.Flag(&one);
-    PersistStates(a, piece->data(), one ? 1 : piece->size());
-    if (one) piece->fill(piece->front());
-  }
+void History::PersistPiece(StateArchive& a, std::shared_ptr<Piece>* piece) {
+  bool there = *piece != nullptr, one = there && !a.reading() && IsOnePose(**piece);
+  a.Flag(&there);
+  if (a.reading()) *piece = there ? std::make_shared<Piece>() : nullptr;
+  if (!there) return;
+  a.Flag(&one);
+  PersistStates(a, (*piece)->data(), one ? 1 : kPiece);
+  if (a.reading() && one) (*piece)->fill((*piece)->front());
 }
 
 void History::TakePast(Pieces* before, int from, int body) {
@@ -114,8 +149,8 @@ void History::TakePast(Pieces* before, int from, int body) {
   }
   for (int k = 1; k <= capacity_ - count_; ++k) {  // recorded before Clear
     const int slot = static_cast<int>((newest_ + k) % capacity_);
-    const std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
-    if (piece != nullptr) (*piece)[static_cast<std::size_t>(slot % kPiece)] = BodyState();
+    std::shared_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
+    if (piece != nullptr) (*Own(&piece))[static_cast<std::size_t>(slot % kPiece)] = BodyState();
   }
 }
 
@@ -136,7 +171,7 @@ void History::Renumber(const BodyRemap& change) {
       past = now;
       if (origin.body < 0) continue;
       const int slot = static_cast<int>(tick % capacity_);
-      const std::unique_ptr<Piece>& piece = before[PieceOf(slot, origin.body)];
+      const std::shared_ptr<Piece>& piece = before[PieceOf(slot, origin.body)];
       const auto in_piece = static_cast<std::size_t>(slot % kPiece);
       past = Carried(origin, piece == nullptr ? kNothing : (*piece)[in_piece]);
     }

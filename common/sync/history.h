@@ -37,7 +37,8 @@ class History final : public TableEntry {
   std::int64_t oldest() const;  ///< -1 when empty
   void Clear();
   /// Saves or loads the ring. `still(body)`: true if the body has one pose at all its ticks.
-  /// Reading requires a history of the same capacity and bodies.
+  /// Reading requires a history of the same capacity and bodies. Writing copies nothing: it keeps
+  /// what is there now, and its bytes are made by StateDraft::Finish.
   void Persist(StateArchive& a, const std::function<bool(int)>& still);
 
  private:
@@ -45,6 +46,8 @@ class History final : public TableEntry {
   // most bodies are never accessed, and the cost of a tick is the memory that it touches.
   static constexpr int kPiece = 12;  // ticks
   using Piece = std::array<BodyState, kPiece>;
+  /// A piece that is being saved has two owners; who changes it changes a copy.
+  using Pieces = std::vector<std::shared_ptr<Piece>>;
   bool Has(std::int64_t tick) const {
     return count_ > 0 && tick <= newest_ && tick > newest_ - count_;
   }
@@ -52,10 +55,12 @@ class History final : public TableEntry {
     return static_cast<std::size_t>(body * pieces_each_ + slot / kPiece);
   }
 
-  using Pieces = std::vector<std::unique_ptr<Piece>>;
   void Renumber(const BodyRemap& change) override;
+  /// Returns the piece for a change: made if it is not there, copied if it is being saved.
+  Piece* Own(std::shared_ptr<Piece>* piece);
   static bool IsOnePose(const Piece& piece);
-  void PersistPieces(StateArchive& a, int body);
+  static void PersistPiece(StateArchive& a, std::shared_ptr<Piece>* piece);
+  void Load(StateArchive& a);
   /// Moves the past of an unchanged body to its new number.
   void TakePast(Pieces* before, int from, int body);
 
@@ -67,6 +72,7 @@ class History final : public TableEntry {
   std::int64_t newest_ = -1;
   int piece_ = 0, in_piece_ = 0;  // position of the newest tick, of each body
   Pieces pieces_;
+  Pieces replaced_;  // in this tick, by copies: readers may still look at them
 };
 
 }  // namespace seam
