@@ -118,7 +118,8 @@ void History::Load(StateArchive& a) {
     if (!one) continue;
     BodyState pose;
     PersistStates(a, &pose, 1);
-    for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick) *At(tick, body) = pose;
+    for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick)
+      *At(tick, body) = pose;
   }
   if (count_ == 0) return;
   const int slot = static_cast<int>(newest_ % capacity_);
