@@ -130,7 +130,7 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all fuzz check check-includes objects docs help deps demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
+.PHONY: all fuzz check check-includes objects docs help deps demo fleet-demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
 	lint compile_commands.json install install-built python deb clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
@@ -421,6 +421,9 @@ compile_commands.json:               ## how each .cpp is compiled, for editors
 
 demo: all                            ## run the main job and draw it, into out/demo/
 	SEAM_BIN=$(OUT) tests/demo.sh out/demo
+
+fleet-demo: build/.deps-fleet build/.deps-report all   ## a room on three servers with etcd: one is killed, one drained; drawn in out/fleet/
+	SEAM_BIN=$(OUT) tests/fleet_demo.sh out/fleet
 
 bench: all                           ## cost of a step beside Box2D, hard cases: out/bench/
 	@mkdir -p out/bench

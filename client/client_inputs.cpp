@@ -78,7 +78,7 @@ void Client::OnWorldPiece(const Chunk& chunk) {
     came.push_back(replica_->inputs(p).Export(p, static_cast<int>(kInputsMax)));
   }
   MakeReplica(&replica_->world().topology());
-  replica_->Persist(archive);
+  replica_->Persist(archive, Replica::Past::kNone);
   if (archive.ok() && archive.left() > 0) archive.Fail("there is more than the world");
   if (!archive.ok()) {
     fatal_ = "cannot use the server's world: " + archive.status().why();

@@ -38,6 +38,8 @@ LoadedLog LoadLog(const RenderOptions& options, std::size_t i) {
     oracle = std::move(truth.oracle);
   } else if (PolicyOf(recording.room).IsOracle()) {
     oracle = OracleFromRecording(recording);
+  } else if (const std::string why = WhyNoOracle(recording); !why.empty()) {
+    PrintError("seam-render", "note: " + path + ": no oracle and no errors: " + why);
   } else {
     oracle = ComputeOracle(recording, JudgeOf(recording.room));
   }

@@ -110,15 +110,17 @@ MeasuredRun MeasureLog(std::size_t i, const Options& options,
                  path.c_str(), changes.c_str());
   }
   RequireRange(options.range, recording, path);
-  const Oracle oracle = truth ? GivenOracle(*truth, recording, options, path)
-                              : ComputeOracle(recording, JudgeOf(recording.room));
+  const std::string no_oracle = truth ? "" : WhyNoOracle(recording);
+  Oracle oracle;
+  if (truth) oracle = GivenOracle(*truth, recording, options, path);
+  if (!truth && no_oracle.empty()) oracle = ComputeOracle(recording, JudgeOf(recording.room));
   KeepRange(options.range, &recording);  // the oracle needs the whole of it
   MeasuredRun run;
   run.run = options.names.empty() ? BaseName(path) + SessionSuffix(recording) : options.names[i];
   run.room = recording.room;
   run.measures = Measure(recording, oracle);
   MeasureResponse(recording, oracle, &run.measures);
-  run.valid = WhyNotValid(recording, oracle, run.measures);
+  run.valid = no_oracle.empty() ? WhyNotValid(recording, oracle, run.measures) : no_oracle;
   run.lacks = LackOf(recording);
   run.gaps = recording.bus_gaps;
   run.skipped_bytes = recording.skipped_bytes;
@@ -129,8 +131,8 @@ MeasuredRun MeasureLog(std::size_t i, const Options& options,
     std::fprintf(stderr, "seam-measure: note: %s: %s\n", path.c_str(), partial.c_str());
   }
   if (run.measures.compared == 0) {
-    std::fprintf(stderr, "seam-measure: warning: %s: no view of a tick that the oracle has\n",
-                 path.c_str());
+    const std::string why = no_oracle.empty() ? "no view of a tick that the oracle has" : no_oracle;
+    std::fprintf(stderr, "seam-measure: warning: %s: no errors: %s\n", path.c_str(), why.c_str());
   }
   return run;
 }

@@ -65,7 +65,7 @@ void InputRoom::GiveWorlds(std::int64_t now_us, const EditLog& edits) {
 
 bool InputRoom::GiveWorld(std::int64_t now_us, const EditLog& edits, Session& session) {
   StateArchive archive;
-  replica_.Persist(archive);
+  replica_.Persist(archive, Replica::Past::kNone);
   const Bytes world = archive.Take();
   bool sent = true;
   const auto send = [&](const auto& message) {

@@ -20,6 +20,7 @@
 #include "common/net/udp.h"
 #include "common/record/doctor.h"
 #include "common/sync/method.h"
+#include "server/fleet/agones.h"
 #include "server/fleet/fleet_host.h"
 #include "server/hub/hub.h"
 #include "server/hub/hub_door.h"
@@ -301,6 +302,7 @@ int Serve(const Flags& f) {
     hub.SetElsewhere([&](const std::string& room) { return member->Find(room); });
     member->Start();
   }
+  const std::unique_ptr<Agones> agones = f.agones ? std::make_unique<Agones>() : nullptr;
   ProgressLine line(f.quiet);
   while (g_stop == 0 && (fleet || !hub.done())) {
     const std::int64_t now = SteadyClockUs();
@@ -308,7 +310,9 @@ int Serve(const Flags& f) {
     if (fleet) FollowFleet(*member, hub);
     if (door != nullptr) door->Poll(now);
     page.Poll(now, hub, member.get());
-    for (const std::string& news : hub.TakeReports()) {
+    std::vector<std::string> lines = hub.TakeReports();
+    if (agones != nullptr) agones->Poll(now, hub, &lines);
+    for (const std::string& news : lines) {
       line.End();
       PrintError("seam-server", news);
     }

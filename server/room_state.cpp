@@ -184,7 +184,7 @@ void RoomState::Persist(StateArchive& a, std::int64_t now_us, std::vector<int>* 
   }
   a.List(present, static_cast<std::size_t>(players),
          [&](int* player) { a.Int(player, 0, players - 1); });
-  parts_.replica.Persist(a);
+  parts_.replica.Persist(a, Replica::Past::kAll);
   if (!a.ok()) return;
   parts_.authority.Persist(a);
   parts_.edits.Persist(a);

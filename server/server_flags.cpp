@@ -122,6 +122,8 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
       .Range(1, kRoomsMax);
   app.Switch("--gateway", f.gateway,
              "have no rooms: send each client to the server of the --directory that has its room");
+  app.Switch("--agones", f.agones,
+             "tell the sidecar of an Agones pod that the server is ready, healthy and at its end");
   app.Option("--store", f.store,
              "put sessions, players, scores and events into this SQLite database (seam-log top)");
   app.Option("--events", f.events,

@@ -51,6 +51,7 @@ struct ServerFlags {
   std::string advertise;  // address under which clients reach it
   int capacity = 64;
   bool gateway = false;
+  bool agones = false;
 };
 
 /// Defines the flags, which set `flags`.

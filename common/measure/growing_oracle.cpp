@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/codec/event.h"
 #include "common/measure/owners.h"
 #include "common/measure/revisions.h"
 #include "common/scene/expected.h"
@@ -125,7 +126,21 @@ OracleOptions JudgeOf(const Room& room) {
   return JudgedByBarriers(room) ? WithBarriers(room) : OracleOptions();
 }
 
+std::string WhyNoOracle(const Recording& recording) {
+  const auto has = [&](EventKind kind) {
+    return std::any_of(
+        recording.events.begin(), recording.events.end(),
+        [kind](const Event& event) { return event.kind == static_cast<std::int8_t>(kind); });
+  };
+  if (recording.first_tick <= 0 || has(EventKind::kStarted)) return "";
+  const std::string tick = std::to_string(recording.first_tick);
+  return has(EventKind::kResumed) ? "the room goes on at tick " + tick + " of an earlier session"
+                                  : "the log begins at tick " + tick + " of its session";
+}
+
 Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
+  const std::string why = WhyNoOracle(recording);
+  if (!why.empty()) throw OperatorError("no oracle: " + why);
   GrowingOracle growing(recording.room, options);
   const std::int64_t states = std::max(1, growing.world().body_count());
   if (recording.last_tick > kOracleStatesMax / states) {

@@ -98,11 +98,16 @@ OracleOptions WithBarriers(const Room& room);
 /// Returns the options of the oracle for the room's method, by JudgedByBarriers.
 OracleOptions JudgeOf(const Room& room);
 
+/// Returns why no oracle can be computed: "the log begins at tick 180 of its session", or a room
+/// that goes on with an earlier session; its inputs and edits before are not there. "" if one can.
+std::string WhyNoOracle(const Recording& recording);
+
 /// Simulates the recording's scene in one world from tick 0 to the recording's last tick, with the
 /// recorded inputs: each in the tick it names, axes held over ticks without one, buttons acting on
 /// the tick they go down. Applies recorded edits with an external cause, each after its tick;
 /// breaks, bonds and insertions by the physics are found by the simulation itself. Throws
-/// OperatorError when the scene does not parse or the session is too long (kOracleStatesMax).
+/// OperatorError with WhyNoOracle, when the scene does not parse, or when the session is too long
+/// (kOracleStatesMax).
 Oracle ComputeOracle(const Recording& recording, const OracleOptions& options = {});
 
 /// Returns the distance of two oracles of a recording, m: RMS of the largest displacement of a

@@ -8,8 +8,6 @@
 namespace seam {
 namespace {
 
-/// Length of the history, s. An older state is corrected without a comparable past.
-constexpr int kHistory = 3;
 /// Mechanisms stay coupled for 1 s / kCoupledPart after they last touched: contact flickers.
 constexpr int kCoupledPart = 4;
 /// Tolerances of free fall: the change of velocity in a tick may differ from gravity's by this
@@ -246,7 +244,7 @@ std::vector<char> BodyMemory::Still() const {
 }
 
 void BodyMemory::PersistPast(StateArchive& a, std::int64_t from, const std::vector<char>& still) {
-  history_.Persist(a, [&](int body) { return still[static_cast<std::size_t>(body)] != 0; });
+  history_.Persist(a, from, [&](int body) { return still[static_cast<std::size_t>(body)] != 0; });
   a.Require(history_.newest() == world_.tick(), "it ends at another tick");
   a.Section("heard");
   for (int body = 0; a.ok() && body < table_.bodies(); ++body) snapshots_.Persist(a, body, from);

@@ -19,6 +19,8 @@ namespace seam {
 
 /// Tick of an event that never happened: so long ago that it no longer counts.
 constexpr std::int64_t kLongAgo = -1000000;
+/// Length of the history, s. An older state is corrected without a comparable past.
+constexpr int kHistory = 3;
 
 /// State of a puller between two messages.
 struct PullTrack {
@@ -122,7 +124,7 @@ class BodyMemory {
   /// Requires that no body is parked. Reading: call when the world is at its tick. The past and the
   /// states heard begin with the world's poses, until PersistPast.
   void Persist(StateArchive& a);
-  /// Saves or loads the past, and the states heard of tick `from` or later. `still`: see Still.
+  /// Saves the past and the states heard from tick `from` on, or loads them. `still`: see Still.
   void PersistPast(StateArchive& a, std::int64_t from, const std::vector<char>& still);
   /// Returns 1 for each body that has had one pose in the whole recorded past, as far as is known
   /// without a look at it; by body.

@@ -77,20 +77,28 @@ std::int64_t History::newest() const { return count_ == 0 ? -1 : newest_; }
 std::int64_t History::oldest() const { return count_ == 0 ? -1 : newest_ - count_ + 1; }
 void History::Clear() { count_ = 0; }
 
-void History::Persist(StateArchive& a, const std::function<bool(int)>& still) {
+void History::Persist(StateArchive& a, std::int64_t from, const std::function<bool(int)>& still) {
   a.Section("history");
-  a.Int(&count_, 0, capacity_);
+  auto count = static_cast<int>(std::clamp<std::int64_t>(newest_ - from + 1, 0, count_));
+  a.Int(&count, 0, capacity_);
+  if (a.reading()) count_ = count;
   a.Int(&newest_, -1, StateArchive::kTickMost);
-  a.Require(newest_ >= count_ - 1, "it is of no such tick");
+  a.Require(newest_ >= count - 1, "it is of no such tick");
   if (a.reading()) return Load(a);
+  std::vector<char> with_ticks(static_cast<std::size_t>(pieces_each_), 0);
+  for (std::int64_t tick = newest_ - count + 1; tick <= newest_; ++tick) {
+    with_ticks[static_cast<std::size_t>(tick % capacity_ / kPiece)] = 1;
+  }
   std::vector<std::optional<BodyState>> poses(static_cast<std::size_t>(bodies_));
   Pieces pieces;  // of the bodies without a pose
   for (int body = 0; body < bodies_; ++body) {
-    const auto first = pieces_.begin() + static_cast<std::ptrdiff_t>(PieceOf(0, body));
-    if (count_ > 0 && still(body)) {
+    if (count > 0 && still(body)) {
       poses[static_cast<std::size_t>(body)] = *std::as_const(*this).At(newest_, body);
-    } else {
-      pieces.insert(pieces.end(), first, first + pieces_each_);
+      continue;
+    }
+    for (int k = 0; k < pieces_each_; ++k) {
+      const bool kept = with_ticks[static_cast<std::size_t>(k)] != 0;
+      pieces.push_back(kept ? pieces_[PieceOf(k * kPiece, body)] : nullptr);
     }
   }
   a.Later([poses = std::move(poses), pieces = std::move(pieces),

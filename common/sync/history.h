@@ -36,10 +36,10 @@ class History final : public TableEntry {
   std::int64_t newest() const;  ///< -1 when empty
   std::int64_t oldest() const;  ///< -1 when empty
   void Clear();
-  /// Saves or loads the ring. `still(body)`: true if the body has one pose at all its ticks.
-  /// Reading requires a history of the same capacity and bodies. Writing copies nothing: it keeps
-  /// what is there now, and its bytes are made by StateDraft::Finish.
-  void Persist(StateArchive& a, const std::function<bool(int)>& still);
+  /// Saves the ring from tick `from` on, or loads it. `still(body)`: true if the body has one pose
+  /// at all its ticks. Reading requires a history of the same capacity and bodies. Writing copies
+  /// nothing: it keeps what is there now, and its bytes are made by StateDraft::Finish.
+  void Persist(StateArchive& a, std::int64_t from, const std::function<bool(int)>& still);
 
  private:
   // A body's ticks lie together, in pieces that are allocated at the first write: in a large room

@@ -67,12 +67,14 @@ class Replica {
   void GoOnFrom(const World& before);
   std::int64_t tick() const { return world_.tick(); }
   void Step();
+  /// kAll: for who will still hear of ticks that are over.
+  enum class Past { kNone, kAll };
   /// Saves or loads all that decides how this copy continues: bodies, roles, inputs, rest, edits
-  /// found, the past as far as a replay reaches, and the states heard. Not saved: the view. Call
-  /// between ticks with no edit queued. Writing makes this tick a barrier (World::Barrier). Reading
-  /// requires a new replica of the same topology and config; after an error it must not be used any
-  /// more.
-  void Persist(StateArchive& a);
+  /// found, and so much of the past and of the states heard. Not saved: the view. Call between
+  /// ticks with no edit queued. Writing makes this tick a barrier (World::Barrier). Reading
+  /// requires a new replica of the same topology and config, and takes either past; after an error
+  /// it must not be used any more.
+  void Persist(StateArchive& a, Past past);
 
   const World& world() const { return world_; }
   /// The table of the world's bodies and mechanisms, for columns of readers. They must not outlive

@@ -104,7 +104,8 @@ std::optional<std::uint64_t> Replica::PastHash(std::int64_t tick) const {
   return hash;
 }
 
-void Replica::Persist(StateArchive& a) {
+void Replica::Persist(StateArchive& a, Past past) {
+  const std::int64_t from = past == Past::kAll ? tick() - kHistory * config_.tick_hz : tick();
   WorldSnapshot loaded;
   std::shared_ptr<const WorldSnapshot> now;
   std::vector<char> still(static_cast<std::size_t>(world_.body_count()), 0);
@@ -117,7 +118,7 @@ void Replica::Persist(StateArchive& a) {
     }
     now = replay_.BarrierNow();
   }
-  replay_.PersistBarriers(a);
+  replay_.PersistBarriers(a, from);
   if (a.reading()) {
     seam::Persist(a, &loaded);
     now = std::make_shared<const WorldSnapshot>(std::move(loaded));
@@ -142,7 +143,7 @@ void Replica::Persist(StateArchive& a) {
     FollowRoles();
     for (int body = 0; body < world_.body_count(); ++body) display_.Reset(body);
   }
-  memory_.PersistPast(a, tick() - kReplayMax * config_.tick_hz, still);
+  memory_.PersistPast(a, from, still);
   corrector_.Persist(a);
   touches_.Persist(a, world_.scene().parts.size());
   if (config_.policy->SendsCompleteTicks()) reach_.Look();

@@ -185,7 +185,7 @@ void HostedRoom::RedirectAll(std::int64_t now_us, const Redirect& to) {
 
 Status HostedRoom::Control(std::int64_t now_us, const std::string& command) {
   if (done() || over()) return Status::Error("the room is over");
-  return control_->Do(std::max(now_us, ran_us_), command);
+  return control_->Do(std::max(now_us, ran_us()), command);
 }
 
 std::int64_t HostedRoom::due_us() const {

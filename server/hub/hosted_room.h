@@ -2,6 +2,7 @@
 /// One room of a server program: a Server with its end of the socket, its simulated network and its
 /// recording. Runs when due, and measures its load.
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -57,6 +58,8 @@ class HostedRoom : public Runnable {
   /// Thread-safe: returns the last published Load, with utime 0 before the first, and the
   /// histograms up to the last tick.
   RoomLoad newest() const;
+  /// Thread-safe: the time of the last Run.
+  std::int64_t ran_us() const { return ran_us_; }
   /// Thread-safe: true after the last tick of a room with an end.
   bool done() const;
   /// Thread-safe: returns the lines for the operator since the last call: warnings, and players
@@ -119,7 +122,7 @@ class HostedRoom : public Runnable {
   std::unique_ptr<RoomControl> control_;  // null: nobody changes it
   std::unique_ptr<RoomKeeper> keeper_;    // null: the room is not kept
   LoadWatch watch_;
-  std::int64_t ran_us_ = 0;
+  std::atomic<std::int64_t> ran_us_{0};
   bool trouble_reported_ = false;
   std::vector<Summary> summaries_;
   mutable std::mutex mutex_;  // guards all below

@@ -148,6 +148,12 @@ bool Hub::done() const {
   return std::all_of(rooms_.begin(), rooms_.end(), [](const auto& room) { return room->done(); });
 }
 
+bool Hub::AllRan(std::int64_t since_us) const {
+  return std::all_of(rooms_.begin(), rooms_.end(), [since_us](const auto& room) {
+    return room->done() || room->ran_us() >= since_us;
+  });
+}
+
 void Hub::Close() {
   lanes_.reset();
   for (const auto& room : rooms_) room->Close(SteadyClockUs());

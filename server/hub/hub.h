@@ -51,6 +51,8 @@ class Hub {
   void Wait();
   /// True if every room has done its last tick.
   bool done() const;
+  /// True if every room that is not done has run at this time or later: none hangs.
+  bool AllRan(std::int64_t since_us) const;
   /// Ends the threads, says goodbye to all clients, and flushes the simulated networks.
   void Close();
 

@@ -6,7 +6,9 @@
 #include <memory>
 #include <sstream>
 
+#include "common/base/check.h"
 #include "common/base/random.h"
+#include "common/measure/oracle.h"
 #include "common/record/damage.h"
 #include "common/record/log_file.h"
 #include "common/record/recording.h"
@@ -209,6 +211,25 @@ TEST_F(LogProgram, CapturesOfOtherMachinesMergeIntoTheWholeWithoutDuplicates) {
     before_us = event.timestamp_us;
   }
   Run({"merge", At("a.lcm"), "-o", At("one.lcm")}, 2);
+}
+
+TEST_F(LogProgram, ACutWithoutTheBeginningHasNoErrors) {
+  Run({"cut", At("run.lcm"), "--from", "1", "-o", At("late.lcm")});
+  Run({"cut", At("run.lcm"), "--to", "3", "-o", At("early.lcm")});
+  const std::string why = "the log begins at tick 60 of its session";
+  EXPECT_EQ(WhyNoOracle(ReadRecording(At("late.lcm"))), why);
+  EXPECT_EQ(WhyNoOracle(ReadRecording(At("early.lcm"))), "");
+  EXPECT_THROW(ComputeOracle(ReadRecording(At("late.lcm"))), OperatorError);
+  Program measure({BuiltProgram("seam-measure"), At("late.lcm"), At("early.lcm"), "--wide"});
+  ASSERT_TRUE(measure.Wait(120));
+  EXPECT_EQ(measure.status(), 0) << measure.Story();
+  EXPECT_NE(measure.errors().find("no errors: " + why), std::string::npos) << measure.errors();
+  EXPECT_NE(measure.output().find(why), std::string::npos) << measure.output();
+  Program render(
+      {BuiltProgram("seam-render"), At("late.lcm"), "--sheet", "2", "-o", At("late.png")});
+  ASSERT_TRUE(render.Wait(120));
+  EXPECT_EQ(render.status(), 0) << render.Story();
+  EXPECT_NE(render.errors().find(why), std::string::npos) << render.errors();
 }
 
 }  // namespace log_program_test

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/state_archive.h"
 
@@ -87,10 +88,10 @@ TEST(History, ALoadedRingIsTheSavedOne) {
       }
       const auto second = [still](int body) { return still && body == 1; };
       StateArchive out;
-      history.Persist(out, second);
+      history.Persist(out, 0, second);
       const Bytes bytes = out.Take();
       StateArchive in(bytes);
-      loaded.Persist(in, second);
+      loaded.Persist(in, 0, second);
       ASSERT_TRUE(in.ok()) << in.status().why();
       for (std::int64_t tick = newest + 1; tick <= newest + 3; ++tick) {
         ASSERT_EQ(loaded.oldest(), history.oldest());
@@ -106,6 +107,55 @@ TEST(History, ALoadedRingIsTheSavedOne) {
   }
 }
 
+TEST(History, ADraftHasTheRingOfItsMoment) {
+  const BodyTable bodies(2, 0);
+  History history(bodies, 15, Now), now(bodies, 15, Now);
+  for (std::int64_t tick = 7; tick <= 40; ++tick) history.Record(tick, StatesOf(tick));
+  const auto none = [](int) { return false; };
+  const BodyState* const then = std::as_const(history).At(38, 1);
+  StateArchive out;
+  history.Persist(out, 0, none);
+  StateDraft draft = out.TakeDraft();
+  history.At(38, 1)->position = {900, 900};
+  EXPECT_EQ(then->position, StatesOf(38)[1].position) << "a reader of the same tick";
+  for (std::int64_t tick = 41; tick <= 50; ++tick) history.Record(tick, StatesOf(10 * tick));
+  const Bytes bytes = draft.Finish();
+  StateArchive in(bytes);
+  now.Persist(in, 0, none);
+  ASSERT_TRUE(in.ok()) << in.status().why();
+  EXPECT_EQ(now.newest(), 40);
+  for (std::int64_t tick = now.oldest(); tick <= 40; ++tick) {
+    for (int body = 0; body < 2; ++body) {
+      EXPECT_EQ(now.At(tick, body)->position,
+                StatesOf(tick)[static_cast<std::size_t>(body)].position);
+    }
+  }
+  EXPECT_EQ(std::as_const(history).At(38, 1)->position, Vec2(900, 900));
+}
+
+TEST(History, ThePastBeforeATickIsLeftOut) {
+  const BodyTable bodies(2, 0);
+  History history(bodies, 30, Now);
+  for (std::int64_t tick = 7; tick <= 40; ++tick) history.Record(tick, StatesOf(tick));
+  std::size_t whole = 0;
+  for (const std::int64_t from : {0, 35, 40}) {
+    SCOPED_TRACE(from);
+    StateArchive out;
+    history.Persist(out, from, [](int) { return false; });
+    const Bytes bytes = out.Take();
+    whole = std::max(whole, bytes.size());
+    EXPECT_EQ(bytes.size() < whole, from > 0);
+    History loaded(bodies, 30, Now);
+    StateArchive in(bytes);
+    loaded.Persist(in, 0, [](int) { return false; });
+    ASSERT_TRUE(in.ok()) << in.status().why();
+    EXPECT_EQ(loaded.oldest(), std::max<std::int64_t>(from, 11));
+    for (std::int64_t tick = loaded.oldest(); tick <= 40; ++tick) {
+      EXPECT_EQ(loaded.At(tick, 1)->position, StatesOf(tick)[1].position);
+    }
+  }
+}
+
 TEST(History, DamagedStatesAreRefused) {
   const BodyTable bodies(2, 0);
   History history(bodies, 15, Now);
@@ -113,11 +163,11 @@ TEST(History, DamagedStatesAreRefused) {
   states[1].spin = 1e30f;
   history.Record(7, states);
   StateArchive out;
-  history.Persist(out, [](int) { return false; });
+  history.Persist(out, 0, [](int) { return false; });
   const Bytes bytes = out.Take();
   StateArchive in(bytes);
   History loaded(bodies, 15, Now);
-  loaded.Persist(in, [](int) { return false; });
+  loaded.Persist(in, 0, [](int) { return false; });
   EXPECT_FALSE(in.ok());
 }
 

@@ -71,9 +71,9 @@ class Replay {
   /// Makes this tick a barrier, also for replays, and returns it.
   std::shared_ptr<const WorldSnapshot> BarrierNow();
   // Saved rooms (replay_saved.cpp): PersistBarriers, then Persist.
-  /// Saves or loads the barriers before this tick's. Reading leaves the world in any state: load it
-  /// afterwards.
-  void PersistBarriers(StateArchive& a);
+  /// Saves the barriers of tick `from` or later before this tick's, or loads them. Reading leaves
+  /// the world in any state: load it afterwards.
+  void PersistBarriers(StateArchive& a, std::int64_t from);
   /// Saves or loads all else. `now`: the barrier of this tick.
   void Persist(StateArchive& a, std::shared_ptr<const WorldSnapshot> now);
 

@@ -34,11 +34,15 @@ void Replay::PersistAll(StateArchive& a, std::vector<Barrier>* barriers) {
   });
 }
 
-void Replay::PersistBarriers(StateArchive& a) {
+void Replay::PersistBarriers(StateArchive& a, std::int64_t from) {
   std::vector<Barrier> before;
   if (!a.reading()) {
-    if (!barriers_.empty()) before.assign(barriers_.begin(), barriers_.end() - 1);
-    for (Barrier& barrier : before) barrier.edits -= edits_before_;
+    for (const Barrier& barrier : barriers_) {
+      const std::int64_t tick = barrier.world->tick;
+      if (tick < from || tick == world_.tick()) continue;
+      before.push_back(barrier);
+      before.back().edits -= edits_before_;
+    }
     a.Later([before](StateArchive& out) mutable { PersistAll(out, &before); });
     return;
   }

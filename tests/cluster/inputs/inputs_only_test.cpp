@@ -131,6 +131,18 @@ TEST(InputsOnly, APlayerWhoComesLateBeginsWithTheSameBits) {
   }
 }
 
+TEST(InputsOnly, AJoinerOfALargeRoomBeginsWithTheSameBits) {
+  ClusterConfig config = With("lockstep");
+  config.scene = "gas";  // 200 discs that never rest
+  Cluster cluster(config);
+  cluster.RunToTick(200);
+  cluster.Leave(1);
+  cluster.RunToTick(230);
+  cluster.Revive(1);
+  cluster.RunToTick(300);
+  ExpectOneWorld(cluster);
+}
+
 TEST(InputsOnly, TheRoomStandsForAPlayerWhoStallsUntilThatPlayerIsDropped) {
   for (const char* mode : {"lockstep", "ggpo"}) {
     SCOPED_TRACE(mode);
