@@ -134,12 +134,13 @@ TEST(InputsOnly, APlayerWhoComesLateBeginsWithTheSameBits) {
 TEST(InputsOnly, AJoinerOfALargeRoomBeginsWithTheSameBits) {
   ClusterConfig config = With("lockstep");
   config.scene = "gas";  // 200 discs that never rest
+  config.duration_s = 10;
   Cluster cluster(config);
   cluster.RunToTick(200);
   cluster.Leave(1);
   cluster.RunToTick(230);
   cluster.Revive(1);
-  cluster.RunToTick(300);
+  cluster.RunToTick(500);
   ExpectOneWorld(cluster);
 }
 

@@ -145,7 +145,7 @@ TEST(RoomState, ThePresentAloneIsMuchSmallerAndGoesOnAlike) {
   const Bytes all = saved(&replica, Replica::Past::kAll);
   const Bytes present = saved(&replica, Replica::Past::kNone);
   std::printf("200 discs: %zu bytes, with the past %zu\n", present.size(), all.size());
-  EXPECT_LT(present.size(), all.size() / 8);
+  EXPECT_LT(present.size(), all.size() / 6);
   for (const Bytes& bytes : {all, present}) {
     Replica loaded(scene, config, 0, -1);
     StateArchive from(bytes);
