@@ -67,7 +67,7 @@ class Replica {
   void GoOnFrom(const World& before);
   std::int64_t tick() const { return world_.tick(); }
   void Step();
-  /// kAll: for who will still hear of ticks that are over.
+  /// kAll: for a copy that will still hear of ticks that are over.
   enum class Past { kNone, kAll };
   /// Saves or loads all that decides how this copy continues: bodies, roles, inputs, rest, edits
   /// found, and so much of the past and of the states heard. Not saved: the view. Call between
