@@ -184,6 +184,10 @@ void AddScenes(Interface* interface) {
       {"[[trigger]]", ball + "[[trigger]]"},
       {"[[charges]]", ball + "[[charges]]"},
       {"[[script]]", ball + "[[script]]"},
+      {"[lcm]", "[lcm]"},
+      {"[[lcm.publish]]", "[[lcm.publish]]"},
+      {"[[lcm.drive]]", "[[lcm.drive]]"},
+      {"[[lcm.message]]", "[[lcm.message]]"},
       {"[[watch]]", ball + "[[watch]]"}};
   for (const auto& [name, text] : tables) {
     interface->Add("scene key " + std::string(name), KnownKeys(text));

@@ -200,6 +200,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/scene/motion", "common/scene(/toml)?"},
       {"common/scene/charges", "common/scene(/toml)?"},
       {"common/scene/planner", "common/scene(/toml)?"},
+      {"common/scene/lcm", "common/scene(/toml)?"},
       {"common/scene/saved", "common/scene"},
       {"common/scene/toml", "common/scene"},
       {"render/canvas", "none"},

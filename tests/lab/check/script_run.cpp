@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/physics/part_places.h"
+#include "common/scene/lcm/lcm_tables.h"
 #include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "server/rules/script_room.h"
@@ -130,6 +131,11 @@ class DryRoom {
       }
     }
     CallTouches();
+    for (const std::string& channel : scene_.lcm->message) {
+      const LcmHeard heard{channel, {0, "test", {}, ""}};
+      Call("on_message('" + channel + "', {name = 'test', text = '', values = {}})",
+           [&](Script& s) { s.OnMessage(heard); });
+    }
     for (const Seat& seat : scene_.seats) {
       for (const char* news : {"in", "out", "far", "taken"}) {
         if (scene_.players.empty()) continue;
