@@ -93,7 +93,7 @@ TEST_F(LcmRover, IsParkedByTheExampleProgram) {
   }
   EXPECT_TRUE(scored) << "it stands in the bay";
 
-  // The stock logger has the poses, from fixed ticks: 30 a second are every other one.
+  // The stock logger has the poses: at 30 a second one for two ticks.
   LogReader reader(folder_ / "stock.lcm");
   std::int64_t before = -1;
   int poses = 0;
@@ -101,8 +101,7 @@ TEST_F(LcmRover, IsParkedByTheExampleProgram) {
     LcmPose pose;
     if (event.channel != "ROVER.POSE" || !Decode(event.data, &pose).ok()) continue;
     if (pose.name != "rover") continue;
-    EXPECT_EQ(pose.tick % 2, 0);
-    EXPECT_GT(pose.tick, before);
+    EXPECT_GT(pose.tick / 2, before / 2);
     before = pose.tick;
     ++poses;
   }

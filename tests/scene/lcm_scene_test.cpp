@@ -57,7 +57,7 @@ TEST(LcmScene, SaysItsChannels) {
 TEST(LcmScene, EachMistakeIsALineWithItsCure) {
   const std::string publish = "[[lcm.publish]]\n", parts = "parts = \"crate.0\"\n";
   const std::pair<std::string, const char*> mistakes[] = {
-      {publish + parts, "s.toml:10: lcm.publish: needs 'channel'"},
+      {publish + parts, "s.toml:10: lcm.publish: channel is missing"},
       {publish + "channel = \"\"\n" + parts,
        "s.toml:11: lcm.publish: channel must be 1 to 63 letters, digits or _ - . /"},
       {publish + "channel = \"a*\"\n" + parts,
@@ -82,7 +82,7 @@ TEST(LcmScene, EachMistakeIsALineWithItsCure) {
       {publish + "chanel = \"A\"\n", "s.toml:11: lcm.publish: unknown key 'chanel'"},
       {publish + "channel = \"A\"\n" + parts + "[[lcm.drive]]\nchannel = \"A\"\nplayer = \"ann\"\n",
        "s.toml:14: lcm.drive: channel 'A' is used by another table of [lcm]: each has its own"},
-      {"[[lcm.drive]]\nchannel = \"A\"\n", "s.toml:10: lcm.drive: needs 'player'"},
+      {"[[lcm.drive]]\nchannel = \"A\"\n", "s.toml:10: lcm.drive: player is missing"},
       {"[[lcm.drive]]\nchannel = \"A\"\nplayer = \"ann\"\n[[lcm.drive]]\nchannel = \"B\"\n"
        "player = \"ann\"\n",
        "s.toml:15: lcm.drive: player 'ann' is driven by channel 'A' already"},

@@ -18,7 +18,8 @@ bool PosePublisher::Publishes(const Scene& scene) const {
 void PosePublisher::Publish(const World& world, std::int64_t tick, std::int32_t peer,
                             std::int64_t utime, const std::function<BodyState(int body)>& read) {
   const Scene& scene = world.scene();
-  const std::int64_t before = std::min(last_tick_, tick);  // a client that joins anew goes back
+  // A client that joins anew may go back.
+  const std::int64_t before = last_tick_ >= 0 && last_tick_ < tick ? last_tick_ : tick - 1;
   last_tick_ = tick;
   for (const LcmPublishing& publishing : scene.lcm->publish) {
     const auto periods = [&](std::int64_t at) {

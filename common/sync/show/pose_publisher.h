@@ -15,7 +15,8 @@ class PosePublisher {
   PosePublisher(Recorder& recorder, int player) : recorder_(recorder), player_(player) {}
 
   /// Publishes the poses that are due at a tick: those of rate R at each tick t at which
-  /// floor(t R / tick_hz) has grown since the tick of the last call. `read`: the state of a body.
+  /// floor(t R / tick_hz) grows; once if there are several since the last call. `read`: the state
+  /// of a body.
   void Publish(const World& world, std::int64_t tick, std::int32_t peer, std::int64_t utime,
                const std::function<BodyState(int body)>& read);
   /// True if a scene has anything to publish here.

@@ -131,6 +131,12 @@ class DryRoom {
       }
     }
     CallTouches();
+    for (std::size_t i = 0; i < scripts_.size() && scene_.lcm->message.empty(); ++i) {
+      if (!scripts_[i]->Defines("on_message")) continue;
+      findings_->push_back({scripts_[i]->LineOf("on_message"),
+                            "script '" + scene_.scripts[i].name +
+                                "': nothing calls on_message: the scene has no [[lcm.message]]"});
+    }
     for (const std::string& channel : scene_.lcm->message) {
       const LcmHeard heard{channel, {0, "test", {}, ""}};
       Call("on_message('" + channel + "', {name = 'test', text = '', values = {}})",
