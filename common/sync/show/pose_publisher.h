@@ -11,7 +11,7 @@ namespace seam {
 
 class PosePublisher {
  public:
-  /// Publishes what `player`'s client is to publish; -1: the server.
+  /// Publishes for this player's client; -1: for the server.
   PosePublisher(Recorder& recorder, int player) : recorder_(recorder), player_(player) {}
 
   /// Publishes the poses that are due at a tick: those of rate R at each tick t at which
