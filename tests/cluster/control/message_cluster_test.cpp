@@ -158,6 +158,11 @@ TEST(Messages, AreInTheTailOfAResumedRoom) {
   EXPECT_EQ(again.tick(), 300);
   EXPECT_EQ(Heard(again), Heard(cluster.server()));
   EXPECT_EQ(again.replica().world().Hash(), cluster.server().replica().world().Hash());
+  // The script itself has heard them, too, and goes on with its count.
+  EXPECT_TRUE(again.rules()->Queue({"KICK", {0, "kick", {0, 0}, "one more"}}));
+  again.Tick(again.next_tick_us(), 0);
+  EXPECT_EQ(again.tick(), 301);
+  EXPECT_EQ(Heard(again), Heard(cluster.server()) + 1);
 }
 
 TEST(Messages, AreRefusedBeyondWhatATickMayHave) {
