@@ -191,7 +191,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"server/saved", "server"},
       {"server/fleet", "server(/hub|/saved)?"},
       {"server/control", "server(/edits)?"},
-      {"server/hub", "server(/control|/load|/sessions|/saved)?"},
+      {"server/hub", "server(/control|/load|/rules|/sessions|/saved)?"},
       {"server/script", "none"},
       {"server/token", "none"},
       {"server/rules", "server/script"},
