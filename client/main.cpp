@@ -15,6 +15,7 @@
 #include "client/input_lines.h"
 #include "client/key_file.h"
 #include "client/keyboard.h"
+#include "client/lcm_link.h"
 #include "client/progress_text.h"
 #include "client/terminal_view.h"
 #include "common/base/command_line.h"
@@ -30,6 +31,7 @@
 #include "common/net/udp.h"
 #include "common/record/sink.h"
 #include "common/record/trouble_report.h"
+#include "common/scene/lcm/lcm_tables.h"
 
 namespace {
 
@@ -68,7 +70,9 @@ void Define(Command& app, Flags& f) {
   app.Option("--name", f.name, "player of the scene to be");
   app.Switch("--watch", f.watch, "only look on, as a guest or under --name");
   app.Switch("--show", f.show, "draw the world in this terminal (--drive keyboard does that too)");
-  app.Option("--drive", f.drive, "none | bot | keyboard | name of the player whose script to play");
+  app.Option("--drive", f.drive,
+             "none | bot | keyboard | lcm (the scene's [[lcm.drive]]) | lcm:CHANNEL | name of the "
+             "player whose script to play");
   app.Option("--inputs", f.inputs,
              "drive by the lines DRIVE LIFT BUTTONS of this file or pipe (-: standard input), as "
              "seam-view --drive prints them; the keyboard may drive too");
@@ -146,7 +150,16 @@ void CheckDrive(const Flags& f) {
     throw OperatorError("--drive " + f.drive + ": there is none, bot, keyboard or a player's name" +
                         DidYouMean(f.drive, {"keyboard"}));
   }
-  CheckName("--drive", f.drive);
+  if (f.drive.rfind("lcm:", 0) != 0) return CheckName("--drive", f.drive);
+  const Status channel = CheckLcmChannel(f.drive.substr(4));
+  if (!channel.ok()) throw OperatorError("--drive lcm:CHANNEL: " + channel.why());
+}
+
+/// Returns the channel to drive by, "": the scene's; nullopt: other inputs are asked for.
+std::optional<std::string> LcmDriveOf(const Flags& f) {
+  if (f.drive == "lcm") return "";
+  if (f.drive.rfind("lcm:", 0) == 0) return f.drive.substr(4);
+  return std::nullopt;
 }
 
 ClientConfig Configure(const Flags& f) {
@@ -187,7 +200,7 @@ ClientConfig Configure(const Flags& f) {
     config.drive = Drive::kLive;
   } else if (f.drive == "bot") {
     config.drive = Drive::kBot;
-  } else if (f.drive == "keyboard") {
+  } else if (f.drive == "keyboard" || LcmDriveOf(f)) {
     config.drive = Drive::kLive;
   } else if (f.drive != "none") {
     config.drive = Drive::kScript;
@@ -231,6 +244,11 @@ int Play(const Flags& f) {
   UdpNet udp(kAnyAddress);
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
   Sink sink(f.lcm_url, f.record, f.force, f.room.empty() ? "main" : f.room);
+  std::unique_ptr<LcmLink> lcm;
+  if (LcmDriveOf(f)) {
+    if (sink.bus() == nullptr) throw OperatorError("--drive lcm: not with --lcm-url none");
+    lcm = std::make_unique<LcmLink>(*sink.bus(), *LcmDriveOf(f));
+  }
   OsEntropy entropy;
   std::unique_ptr<RoomWatch> rooms;
   if (!f.directory.empty()) rooms = std::make_unique<RoomWatch>(f.directory, f.fleet, config.room);
@@ -242,10 +260,13 @@ int Play(const Flags& f) {
   ProgressLine line(f.quiet);
   TroubleReport recording("seam-client", "the game goes on");
   std::string notice, waiting;
+  Status followed;
   std::int64_t notice_until_us = 0;
-  while (g_stop == 0 && !client.closed() && client.fatal().empty()) {
+  while (g_stop == 0 && !client.closed() && client.fatal().empty() && followed.ok()) {
     const std::int64_t now = SteadyClockUs();
-    if (config.drive == Drive::kLive) {
+    if (lcm != nullptr) {
+      client.SetLiveInput(lcm->Read(now));
+    } else if (config.drive == Drive::kLive) {
       const Input keys = keyboard != nullptr ? keyboard->Poll(now, client.running()) : Input();
       client.SetLiveInput(lines != nullptr ? Both(keys, lines->Poll()) : keys);
       if (keyboard != nullptr && keyboard->quit()) break;
@@ -256,6 +277,7 @@ int Play(const Flags& f) {
     client.Tick(now, static_cast<std::int64_t>(static_cast<double>(CpuUs()) * f.throttle));
     throttle.Slow();
     if (key_file != nullptr && client.key() != key_file->key()) key_file->Write(client.key());
+    if (lcm != nullptr) followed = lcm->Follow(client);
     sink.Poll();
     recording.Look(sink.trouble(), line);
     const std::string told = client.TakeNotice();
@@ -268,6 +290,7 @@ int Play(const Flags& f) {
       line.End();
       std::fprintf(stderr, "seam-client: %s\n", told.c_str());
     }
+    if (lcm != nullptr) lcm->Report("seam-client", line);
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
@@ -293,6 +316,7 @@ int Play(const Flags& f) {
   if (client.fatal().empty() || client.peer() >= 0) client.Shutdown(SteadyClockUs());
   DrainNetwork(udp, net);
   if (!client.fatal().empty()) throw OperatorError(client.fatal());
+  if (!followed.ok()) throw OperatorError(followed.why());
   sink.Flush();
   recording.Look(sink.trouble(), line);
   const Stats& s = client.stats();
@@ -315,11 +339,12 @@ int Play(const Flags& f) {
 
 int main(int argc, char** argv) {
   Flags flags;
-  const ProgramText text{"seam-client",
-                         "seam-client: simulate and show one player's part of a room",
-                         VersionLine("seam-client"),
-                         "",
-                         {{"--impair", ProfileNames()}, {"--drive", {"none", "bot", "keyboard"}}}};
+  const ProgramText text{
+      "seam-client",
+      "seam-client: simulate and show one player's part of a room",
+      VersionLine("seam-client"),
+      "",
+      {{"--impair", ProfileNames()}, {"--drive", {"none", "bot", "keyboard", "lcm"}}}};
   return RunCommandLine(
       text, argc, argv, [&](Command& app) { Define(app, flags); }, [&] { return Play(flags); });
 }

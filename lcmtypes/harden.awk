@@ -3,7 +3,8 @@
 #
 #   arrays   count < 0 or beyond the bytes that are left: return -1 before the resize
 #   strings  length < 1 or beyond the bytes that are left, or no NUL at the end: return -1
-#   floats   copied through integers: the stock cast of float* to int32_t* breaks strict aliasing
+#   floats   copied through integers: the stock cast of float* to int32_t* breaks strict aliasing;
+#            doubles likewise
 #
 # Exits with status 1 and one line on an allocation that it cannot guard, so that a newer lcm-gen
 # or a new kind of field cannot slip through. Works with mawk and gawk.
@@ -44,24 +45,30 @@ function between(from, to,    rest) {
 
 /(reserve|malloc|calloc|new|alloc)[ (]/ && !/^ *[\/*]/ { fail("unknown allocation") }
 
-# Codes a float array through a vector of integers with the same bits.
-/__float_(de|en)code_array\(.*&this->[a-z0-9_]+\[0\], this->[a-z0-9_]+\);$/ {
-  values = "this->" between("&this->", "[0]") ".data()"
+# Codes a float or double, or an array of them, through a vector of integers with the same bits.
+/__(float|double)_(de|en)code_array\(buf, offset \+ pos, maxlen - pos, &this->/ &&
+/&this->[a-z0-9_]+(\[0\], this->[a-z0-9_]+|, 1)\);$/ {
+  array = index($0, "[0], ") > 0
+  real = $0 ~ /__float_/ ? "float" : "double"
+  integer = real == "float" ? "int32_t" : "int64_t"
+  values = array ? "this->" between("&this->", "[0]") ".data()" : "&this->" between("&this->", ",")
+  n = array ? between("[0], ", ")") : "1"
   bits = "__bits__.data()"
-  bytes = "sizeof(float) * __bits__.size()"
+  bytes = "sizeof(" real ") * __bits__.size()"
   where = "(buf, offset + pos, maxlen - pos, " bits ", "
-  n = between("[0], ", ")")
-  print "        std::vector< int32_t > __bits__(" n ");"
+  if (!array) print "    {"
+  print "        std::vector< " integer " > __bits__(" n ");"
   if ($0 ~ /decode/) {
-    print "        tlen = __int32_t_decode_array" where n ");"
+    print "        tlen = __" integer "_decode_array" where n ");"
     print "        memcpy(" values ", " bits ", " bytes ");"
   } else {
     print "        memcpy(" bits ", " values ", " bytes ");"
-    print "        tlen = __int32_t_encode_array" where n ");"
+    print "        tlen = __" integer "_encode_array" where n ");"
   }
+  if (!array) print "    }"
   next
 }
-/__(float|double)_(de|en)code_array\(/ { fail("a floating-point field, not an array of floats") }
+/__(float|double)_(de|en)code_array\(/ { fail("a floating-point field of an unknown form") }
 
 /_decodeNoHash\(const void \*buf.*\)$/ { decoders++ }
 

@@ -198,6 +198,10 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Publish(At(now_us, inputs));
   }
   ApplyEdits(now_us);
+  if (rules_ != nullptr) {
+    for (const LcmHeard& heard : rules_->TakeQueued())
+      broadcast_.NoteAccepted(now_us, 0, -1, heard);
+  }
   broadcast_.NoteStep();
   replica_.Step();
   ApplyQueued(now_us);  // edits of this very tick
@@ -340,11 +344,5 @@ void Server::RunRules(std::int64_t now_us) {
     broadcast_.ToAll(meta);
   }
 }
-
-std::vector<std::string> Server::TakeWarnings() {
-  return commands_ == nullptr ? std::vector<std::string>{} : commands_->TakeWarnings();
-}
-
-bool Server::script_stopped() const { return rules_ != nullptr && rules_->stopped(); }
 
 }  // namespace seam

@@ -163,7 +163,7 @@ class Server {
   /// The server's lasting keys, for another server that is to be this one.
   std::shared_ptr<const KeyPair> keys() const { return sessions_.keys(); }
   /// The room's rules (health, scores, scripts); nullptr if the scene has none.
-  const Rules* rules() const { return rules_.get(); }
+  Rules* rules() const { return rules_.get(); }
   const TrustLadder& ladder() const { return ladder_; }       ///< trust in each player's client
   const Chronicle& chronicle() const { return *chronicle_; }  ///< events, and the session's sum
   Chronicle& chronicle() { return *chronicle_; }

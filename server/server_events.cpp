@@ -4,7 +4,9 @@
 #include <variant>
 
 #include "server/chronicle.h"
+#include "server/rules/rules.h"
 #include "server/server.h"
+#include "server/server_commands.h"
 
 namespace seam {
 
@@ -74,5 +76,11 @@ void Server::AnswerOnly(std::int64_t now_us) {
   sessions_.TakeEvents();
   sessions_.Flush(now_us, &stats_.counters);
 }
+
+std::vector<std::string> Server::TakeWarnings() {
+  return commands_ == nullptr ? std::vector<std::string>{} : commands_->TakeWarnings();
+}
+
+bool Server::script_stopped() const { return rules_ != nullptr && rules_->stopped(); }
 
 }  // namespace seam

@@ -42,6 +42,10 @@ void Server::TakeLogged(std::int64_t now_us, const AnyMessage& message) {
 }
 
 void Server::TakeLogged(std::int64_t now_us, const Accepted& accepted) {
+  if (LcmHeard heard; rules_ != nullptr && Decode(accepted.data, &heard).ok()) {
+    rules_->OnMessage(std::move(heard));
+    return;
+  }
   const AnyMessage any = Decode(accepted.data);
   if (const auto* rest = std::get_if<Rest>(&any)) {
     replica_.Receive(*rest);

@@ -7,8 +7,8 @@
 
 namespace seam {
 
-/// Bus only: an encoded message of the edge. Accepted states, inputs and edits are on the bus as
-/// they are.
+/// Bus only: an encoded message of the edge, or an LcmHeard. Accepted states, inputs and edits are
+/// on the bus as they are.
 struct Accepted {
   std::int64_t utime = 0;
   std::int64_t session = 0;  ///< never 0

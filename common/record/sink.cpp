@@ -86,9 +86,8 @@ void Sink::Flush() {
 }
 
 void Sink::Poll() {
-  if (!record_path_.empty() && bus_ != nullptr) {
-    for (int n = 0; n < kPollsMax; ++n) bus_->Poll(0);
-  }
+  if (bus_ == nullptr || bus_->fd() < 0) return;
+  for (int n = 0; n < kPollsMax; ++n) bus_->Poll(0);
 }
 
 }  // namespace seam

@@ -33,8 +33,11 @@ class Sink : public Recorder {
   bool listening() const override { return bus_ != nullptr || !record_path_.empty(); }
   /// Returns the first failure to write the log; ok if there is none, or no log.
   const Status& trouble() const;
-  /// Copies messages published by other peers into the log. Call it often; never blocks.
+  /// Handles the messages of other programs that have come on the bus: copies those of the room's
+  /// peers into the log. Call it often; never blocks.
   void Poll();
+  /// Returns the bus; null without one.
+  Bus* bus() { return bus_.get(); }
   /// Passes the log to the operating system, so that failures() includes a full disk.
   void Flush();
   /// Returns the end of what is in the log, see RoomLog::Pin; its begin if there is none.

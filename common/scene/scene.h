@@ -22,6 +22,7 @@ struct Strand;        // strand.h
 struct Thrust;        // forces.h
 struct Expected;      // expected.h
 struct Grouping;      // grouping.h
+struct LcmTables;     // lcm/lcm_tables.h
 struct PartMotion;    // motion/part_motion.h
 struct PartRules;     // part_rules.h
 struct PlannerRules;  // planner/planner_rules.h
@@ -251,6 +252,7 @@ struct Scene {
   std::vector<WatchCollision> watch;
   Feature<Expected> expected;
   Feature<PlannerRules> planner;
+  Feature<LcmTables> lcm;
   Camera camera;
   std::string text;  ///< the file's text
 };

@@ -94,6 +94,8 @@ void ReadTriggers(const SceneReader& root, SceneDraft* draft);
 void ReadCharges(const SceneReader& root, SceneDraft* draft);
 /// [[script]]. Requires the text.
 void ReadScripts(const SceneReader& root, SceneDraft* draft);
+/// [lcm]. Requires parts, players, scripts and the solver.
+void ReadLcm(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.
 void ReadWatch(const SceneReader& root, SceneDraft* draft);
 /// [planner].

@@ -108,11 +108,11 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 
   const SceneReader root(
       tree, file_name, "scene",
-      {"title",   "gravity",       "duration",  "buffer",      "speed_limit", "size_max",
-       "bounds",  "solver",        "part",      "bricks",      "character",   "joint",
-       "thrust",  "water",         "player",    "seat",        "watch",       "camera",
-       "trigger", "script",        "grouping",  "input_delay", "expect",      "follow",
-       "strand",  "server_follow", "propeller", "charges",     "planner",     "show_age"});
+      {"title",       "gravity",  "duration", "buffer",    "speed_limit",   "size_max",  "bounds",
+       "solver",      "part",     "bricks",   "character", "joint",         "thrust",    "water",
+       "player",      "seat",     "watch",    "camera",    "trigger",       "script",    "grouping",
+       "input_delay", "expect",   "follow",   "strand",    "server_follow", "propeller", "charges",
+       "planner",     "show_age", "lcm"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -143,6 +143,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadTriggers(root, &draft);
   ReadCharges(root, &draft);
   ReadScripts(root, &draft);
+  ReadLcm(root, &draft);
   ReadWatch(root, &draft);
   ReadCamera(root, &draft);
   CheckScene(scene, file_name);

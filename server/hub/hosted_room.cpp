@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/process.h"
+#include "common/scene/lcm/lcm_tables.h"
 #include "common/sync/method.h"
 #include "server/chronicle.h"
 
@@ -52,6 +53,7 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
   if (plan.control) {
     control_ = std::make_unique<RoomControl>(*server_, impaired_, plan.config.impair);
   }
+  OpenLcm();
   if (!plan.writers.empty()) server_->chronicle().Keep();
   if (plan.resumed == nullptr) return;
   GoOn(*plan.resumed);
@@ -59,12 +61,22 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
   if (keeper_ != nullptr && plan.resumed->new_log) keeper_->Finish(*server_, SteadyClockUs());
 }
 
+/// Opens the channels of the scene's [lcm].
+void HostedRoom::OpenLcm() {
+  const LcmTables& lcm = *plan_.scene.lcm;
+  if (sink_.bus() != nullptr) {
+    lcm_ = std::make_unique<LcmBridge>(*server_, *sink_.bus());
+  } else if (!lcm.publish.empty() || !lcm.message.empty()) {
+    news_.push_back("the scene's [lcm] does nothing: the room is not on the bus (--lcm-url)");
+  }
+}
+
 void HostedRoom::GoOn(const ResumedRoom& resumed) {
   const std::int64_t begin_us = SteadyClockUs();
   const Status status = server_->Resume(*resumed.saved, begin_us, &resumed.tail);
   if (!status.ok()) throw OperatorError(plan_.state + ": " + status.why());
   TakeSummaries();
-  news_ = resumed.notes;
+  news_.insert(news_.end(), resumed.notes.begin(), resumed.notes.end());
   char line[200];
   std::snprintf(line, sizeof line,
                 "resumed at tick %lld: snapshot of tick %lld and %lld ticks of the log, in %.0f ms",
@@ -102,11 +114,13 @@ void HostedRoom::Run(std::int64_t now_us) {
   const std::int64_t tick = server_->tick(), due_us = server_->next_tick_us();
   const std::int64_t cpu_us = plan_.alone ? 0 : ThreadCpuUs();
   if (control_ != nullptr) control_->BeforeTick(now_us);
+  if (lcm_ != nullptr) lcm_->Listen(now_us);
   server_->Tick(now_us, CpuForStats(now_us));
   sink_.Poll();
   watch_.NoteCall(*server_, now_us, SteadyClockUs() - now_us, tick, due_us);
   if (!plan_.alone) watch_.NoteCpu(ThreadCpuUs() - cpu_us);
   if (server_->tick() != tick) NoteTicks();
+  if (server_->tick() != tick && lcm_ != nullptr) lcm_->Publish();
   if (server_->tick() != tick && keeper_ != nullptr) keeper_->AfterTick(*server_, now_us);
   CollectReports();
   if (watch_.Due(now_us)) Tell(now_us);
@@ -215,6 +229,9 @@ void HostedRoom::Tell(std::int64_t now_us) {
 /// Prefixes each event with its time: "12.3 s: bob is gone: left".
 void HostedRoom::CollectReports() {
   std::vector<std::string> told = server_->TakeWarnings();
+  if (lcm_ != nullptr) {
+    for (std::string& refused : lcm_->TakeReports()) told.push_back(std::move(refused));
+  }
   const std::vector<std::string> come_and_gone = server_->TakeReports();
   if (plan_.news && !come_and_gone.empty()) {
     char when[40] = "";

@@ -16,6 +16,7 @@
 #include "common/record/store/session_writer.h"
 #include "server/control/room_control.h"
 #include "server/hub/lanes.h"
+#include "server/hub/lcm_bridge.h"
 #include "server/hub/room_net.h"
 #include "server/load/load_watch.h"
 #include "server/saved/resumed_room.h"
@@ -109,6 +110,7 @@ class HostedRoom : public Runnable {
   void CollectReports();
   void StopIfSuperseded(std::int64_t now_us);
   void EndIfDone(std::int64_t now_us);
+  void OpenLcm();
   void GoOn(const ResumedRoom& resumed);
   void TakeSummaries();
   void Put(const Summary& summary, std::vector<Event> events);
@@ -120,6 +122,7 @@ class HostedRoom : public Runnable {
   OsEntropy entropy_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<RoomControl> control_;  // null: nobody changes it
+  std::unique_ptr<LcmBridge> lcm_;        // null: the scene has no [lcm], or there is no bus
   std::unique_ptr<RoomKeeper> keeper_;    // null: the room is not kept
   LoadWatch watch_;
   std::atomic<std::int64_t> ran_us_{0};

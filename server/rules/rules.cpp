@@ -48,6 +48,12 @@ Rules::~Rules() = default;
 void Rules::OnJoin(int player) { player_events_.push_back({player, true}); }
 void Rules::OnLeave(int player) { player_events_.push_back({player, false}); }
 
+bool Rules::Queue(LcmHeard message) {
+  if (queued_.size() == kMessagesMax) return false;
+  queued_.push_back(std::move(message));
+  return true;
+}
+
 void Rules::AfterTick() {
   NoteNewParts();
   RunTriggers();
@@ -59,6 +65,7 @@ void Rules::AfterTick() {
   happened_.clear();
   player_events_.clear();
   seat_events_.clear();
+  messages_.clear();
   struck_by_.clear();
   violence_ = Violence{};
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/codec/lcm_types.h"
 #include "common/physics/world.h"
 #include "common/sync/metadata.h"
 #include "server/rules/rule_source.h"
@@ -51,6 +52,8 @@ enum class SeatNews { kGotIn, kGotOut, kTooFar, kTaken };
 
 class Rules {
  public:
+  static constexpr std::size_t kMessagesMax = 256;
+
   /// True if the scene has triggers, scripts, charges or parts with health; else no Rules are
   /// needed.
   static bool Needed(const Scene& scene);
@@ -69,6 +72,13 @@ class Rules {
   void OnLeave(int player);
   /// A player asked for a seat in vain: scripts hear of it likewise.
   void OnSeat(int player, int seat, SeatNews news) { seat_events_.push_back({player, seat, news}); }
+  /// Queues a message of another program for the next tick. Returns false if kMessagesMax wait.
+  bool Queue(LcmHeard message);
+  /// Call before each tick: gives the queued messages to the scripts, which get them after the tick
+  /// before all else, and returns them for the log.
+  const std::vector<LcmHeard>& TakeQueued() { return messages_ = std::exchange(queued_, {}); }
+  /// Gives a message of the log to the scripts in the same way.
+  void OnMessage(LcmHeard message) { messages_.push_back(std::move(message)); }
 
   /// True if a script was stopped, and that has been told.
   bool stopped() const { return !stopped_reported_.empty(); }
@@ -154,6 +164,8 @@ class Rules {
   std::vector<std::int64_t> charge_due_;          // by charge: tick at which it detonates
   std::vector<PlayerEvent> player_events_;
   std::vector<SeatEvent> seat_events_;
+  std::vector<LcmHeard> queued_;      // not saved, as datagrams are not
+  std::vector<LcmHeard> messages_;    // none between ticks
   std::vector<int> seated_;           // by seat: player after the last tick, -1: none
   std::unique_ptr<ScriptRoom> room_;  // host of the scripts
   std::vector<std::unique_ptr<Script>> scripts_;

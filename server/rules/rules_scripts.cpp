@@ -49,6 +49,7 @@ void Rules::RunScripts() {
   for (const auto& script : scripts_) {
     if (!script->stopped()) {
       script->BeginTick();
+      for (const LcmHeard& heard : messages_) script->OnMessage(heard);
       for (const PlayerEvent& event : player_events_) {
         const std::string player = PlayerName(event.player);
         event.joins ? script->OnJoin(player) : script->OnLeave(player);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/codec/lcm_types.h"
 #include "common/scene/part_rules.h"
 #include "common/scene/toml/toml_tree.h"
 #include "server/script/saved_script.h"
@@ -15,8 +16,8 @@
 namespace seam {
 
 /// The callbacks that the server calls.
-inline constexpr const char* kScriptCallbacks[] = {"on_join",  "on_leave",   "on_seat",
-                                                   "on_touch", "on_trigger", "on_tick"};
+inline constexpr const char* kScriptCallbacks[] = {
+    "on_join", "on_leave", "on_seat", "on_touch", "on_trigger", "on_tick", "on_message"};
 
 class Script {
  public:
@@ -41,6 +42,7 @@ class Script {
   void OnLeave(const std::string& player);
   /// `news`: in, out, far or taken.
   void OnSeat(const std::string& player, const std::string& seat, const char* news);
+  void OnMessage(const LcmHeard& heard);
   /// True if the script currently has a callback of this name.
   bool Defines(const char* callback) const;
   /// Returns the line of the scene file on which a global function begins; 0: there is no global of

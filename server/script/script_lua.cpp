@@ -83,8 +83,7 @@ struct Script::Impl {
   ~Impl() { Close(); }
 
   void Close() {
-    if (state != nullptr) lua_close(state);
-    state = nullptr;
+    if (state != nullptr) lua_close(std::exchange(state, nullptr));
   }
 
   void Open(std::uint64_t seed) {
@@ -226,6 +225,7 @@ struct Script::Impl {
     const char* text[3];
     int flag;  // -1: none
     const double* number;
+    const LcmMessage* message = nullptr;
   };
 
   void Run(const Callback& callback) {
@@ -244,6 +244,7 @@ struct Script::Impl {
       }
       if (c.number != nullptr) lua_pushnumber(L, *c.number);
       if (c.flag >= 0) lua_pushboolean(L, c.flag);
+      if (c.message != nullptr) PushLuaMessage(L, *c.message);
       lua_call(L, lua_gettop(L) - 2, 0);
       return 0;
     });
@@ -322,6 +323,10 @@ void Script::OnJoin(const std::string& player) {
 
 void Script::OnLeave(const std::string& player) {
   impl_->Run({"on_leave", {player.c_str(), nullptr, nullptr}, -1, nullptr});
+}
+
+void Script::OnMessage(const LcmHeard& m) {
+  impl_->Run({"on_message", {m.channel.c_str(), nullptr, nullptr}, -1, nullptr, &m.message});
 }
 
 void Script::OnSeat(const std::string& player, const std::string& seat, const char* news) {

@@ -10,6 +10,7 @@
 #include <exception>
 #include <lua5.4/lua.hpp>
 
+#include "common/codec/lcm_types.h"
 #include "common/scene/part_rules.h"
 #include "server/script/saved_script.h"
 #include "server/script/script_host.h"
@@ -104,6 +105,8 @@ constexpr int kLuaNodeSlots = 24;
 ScriptValue ReadLuaRoom(lua_State* L);
 /// Pushes the value. May raise an error of memory.
 void PushLuaValue(lua_State* L, const ScriptValue& value);
+/// Pushes a message as the table {name, text, utime, values}. May raise an error of memory.
+void PushLuaMessage(lua_State* L, const LcmMessage& message);
 /// Remembers the function math.random, on top, of which the next two get and set the state.
 void KeepLuaRandom(lua_State* L);
 SavedScript::Random LuaRandom(lua_State* L);

@@ -163,6 +163,23 @@ void PushLuaValue(lua_State* L, const ScriptValue& value) {
   }
 }
 
+void PushLuaMessage(lua_State* L, const LcmMessage& message) {
+  luaL_checkstack(L, 4, nullptr);
+  lua_newtable(L);
+  lua_pushlstring(L, message.name.data(), message.name.size());
+  lua_setfield(L, -2, "name");
+  lua_pushlstring(L, message.text.data(), message.text.size());
+  lua_setfield(L, -2, "text");
+  lua_pushinteger(L, message.utime);
+  lua_setfield(L, -2, "utime");
+  lua_newtable(L);
+  for (std::size_t i = 0; i < message.value.size(); ++i) {
+    lua_pushnumber(L, message.value[i]);
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+  }
+  lua_setfield(L, -2, "values");
+}
+
 void KeepLuaRandom(lua_State* L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &kRandom); }
 
 SavedScript::Random LuaRandom(lua_State* L) {

@@ -131,6 +131,11 @@ const Mistake kMistakes[] = {
      "no part begins with 'box.'"},
     {"function on_tick(t)\n  if t > 9 then world.add_part('x') end\nend\n", 2,
      "argument 1 of world.add_part is 'x', not a table"},
+    {"function on_message(channel, m)\n  world.say(m.name)\nend\n", 1,
+     "nothing calls on_message: the scene has no [[lcm.message]]"},
+    {"function on_message(channel, m)\n  world.say('at ' .. m.values[1])\nend\n"
+     "'''\n[[lcm.message]]\nchannel = 'M'\n#",
+     2, "is stopped: on_message('M', {name = 'test', text = '', values = {}}): attempt to"},
     {"world.add_part{name = 'b', bx = {1, 1}, position = {0, 5}}\n", 1, "bx"},
 };
 

@@ -184,6 +184,10 @@ void AddScenes(Interface* interface) {
       {"[[trigger]]", ball + "[[trigger]]"},
       {"[[charges]]", ball + "[[charges]]"},
       {"[[script]]", ball + "[[script]]"},
+      {"[lcm]", ball + "[lcm]"},
+      {"[[lcm.publish]]", ball + "[[lcm.publish]]"},
+      {"[[lcm.drive]]", ball + "[[lcm.drive]]"},
+      {"[[lcm.message]]", ball + "[[lcm.message]]"},
       {"[[watch]]", ball + "[[watch]]"}};
   for (const auto& [name, text] : tables) {
     interface->Add("scene key " + std::string(name), KnownKeys(text));

@@ -61,6 +61,8 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {ball + "[[trigger]]", "## `[[trigger]]`"},
       {ball + "[[charges]]", "## `[[charges]]`"},
       {ball + "[[script]]", "## `[[script]]`"},
+      {ball + "[[lcm.publish]]", "## `[lcm]`"},
+      {ball + "[[lcm.drive]]", "## `[lcm]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {
     const auto from = page.find(heading + "\n");

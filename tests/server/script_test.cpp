@@ -33,6 +33,19 @@ TEST(Script, ReceivesCallbacksForEvents) {
   EXPECT_FALSE(room.script.Defines("on_rain"));
 }
 
+TEST(Script, ReceivesMessagesOfOtherPrograms) {
+  FakeRoom room(R"(
+    function on_message(channel, m)
+      print(channel, m.name, m.text, m.utime, #m.values, m.values[1], m.values[2])
+    end
+  )");
+  room.Step();
+  room.script.OnMessage({"A.B", {7, "gate", {0.5, -2}, "it's open"}});
+  room.script.OnMessage({"A.B", {8, "none", {}, ""}});
+  EXPECT_EQ(room.script.error(), "");
+  EXPECT_EQ(room.host.said, (Lines{"A.B gate it's open 7 2 0.5 -2.0", "A.B none  8 0 nil nil"}));
+}
+
 TEST(Script, ReadsPartsPlayersAndInputs) {
   FakeRoom room(R"(
     local p = world.part("ball")

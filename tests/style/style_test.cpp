@@ -332,6 +332,10 @@ TEST(LcmTypes, TheHardeningRefusesUnknownCode) {
   EXPECT_FALSE(Hardens(decoder + "        this->x.reserve(this->count);\n"));
   EXPECT_FALSE(Hardens(decoder + assign)) << "a string without the stock check";
   EXPECT_FALSE(Hardens(decoder + check + assign + assign)) << "one check, two strings";
+  const std::string reals = "    tlen = __double_decode_array(buf, offset + pos, maxlen - pos, ";
+  EXPECT_TRUE(Hardens(decoder + reals + "&this->d, 1);\n"));
+  EXPECT_TRUE(Hardens(decoder + reals + "&this->d[0], this->count);\n"));
+  EXPECT_FALSE(Hardens(decoder + reals + "&this->d, 2);\n"));
   EXPECT_FALSE(Hardens(decoder + "    tlen = __double_decode_array(buf, 0, 8, &this->d, 1);\n"));
 }
 

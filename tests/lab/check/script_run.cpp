@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/physics/part_places.h"
+#include "common/scene/lcm/lcm_tables.h"
 #include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "server/rules/script_room.h"
@@ -130,6 +131,17 @@ class DryRoom {
       }
     }
     CallTouches();
+    for (std::size_t i = 0; i < scripts_.size() && scene_.lcm->message.empty(); ++i) {
+      if (!scripts_[i]->Defines("on_message")) continue;
+      findings_->push_back({scripts_[i]->LineOf("on_message"),
+                            "script '" + scene_.scripts[i].name +
+                                "': nothing calls on_message: the scene has no [[lcm.message]]"});
+    }
+    for (const std::string& channel : scene_.lcm->message) {
+      const LcmHeard heard{channel, {0, "test", {}, ""}};
+      Call("on_message('" + channel + "', {name = 'test', text = '', values = {}})",
+           [&](Script& s) { s.OnMessage(heard); });
+    }
     for (const Seat& seat : scene_.seats) {
       for (const char* news : {"in", "out", "far", "taken"}) {
         if (scene_.players.empty()) continue;

@@ -47,6 +47,17 @@ follow = {player = "ann", axis = "lift", reach = [0, 1]}
 name = "c"
 position = [20, 0]
 torque = {}
+[[lcm.publish]]
+channel = "A"
+parts = "a"
+[[lcm.drive]]
+channel = "B"
+player = "ann"
+[[lcm.message]]
+channel = "C"
+[[script]]
+name = "s"
+code = "function on_message() end"
 )";
 
 /// Notes tables by their path in the file: "", "part", "part.repeat".
