@@ -25,6 +25,7 @@
 #include "server/hub/hub_door.h"
 #include "server/hub/progress.h"
 #include "server/metrics_page.h"
+#include "server/saved/old_segments.h"
 #include "server/saved/resumed_room.h"
 #include "server/server_flags.h"
 
@@ -102,6 +103,12 @@ void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms,
     throw OperatorError("--control: one room, and no --directory");
   }
   plan->news = !f.quiet;
+  if (f.state.empty() && f.resume.empty()) {
+    if (f.keep.empty() && f.segment_mb == kNotGiven.segment_mb) return;
+    throw OperatorError("--segment-mb and --keep are of the logs of --state and --resume");
+  }
+  plan->segment_bytes = std::llround(f.segment_mb * 1024 * 1024);
+  if (!f.keep.empty()) plan->keep_s = ParseKeep(f.keep);
 }
 
 /// Refuses flags that say what the folder of --resume says.
