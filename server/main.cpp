@@ -103,11 +103,10 @@ void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms,
     throw OperatorError("--control: one room, and no --directory");
   }
   plan->news = !f.quiet;
-  if (f.state.empty() && f.resume.empty()) {
-    if (f.keep.empty() && f.segment_mb == kNotGiven.segment_mb) return;
+  const bool kept = !f.state.empty() || !f.resume.empty();
+  if (!kept && (!f.keep.empty() || f.segment_mb != kNotGiven.segment_mb))
     throw OperatorError("--segment-mb and --keep are of the logs of --state and --resume");
-  }
-  plan->segment_bytes = std::llround(f.segment_mb * 1024 * 1024);
+  if (kept) plan->segment_bytes = std::llround(f.segment_mb * 1024 * 1024);
   if (!f.keep.empty()) plan->keep_s = ParseKeep(f.keep);
 }
 

@@ -119,8 +119,9 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
   };
   const auto written = static_cast<std::uint32_t>(seal.log_crc);
   const bool same = with(crc_) == written || with(own_crc_) == written;
-  // A later segment's first event is a seal, which goes on from the segment before.
-  const bool begins = first_ && !skipped_ && !same && seal.log_events == 1;
+  // A later segment's first event is a seal, which goes on from the segment before; the numbers do
+  // too. In a capture of a stock logger they begin anew.
+  const bool begins = first_ && !skipped_ && !same && seal.log_events == 1 && event.number > 0;
   if (begins) begins_after_ = seal.tick;
   first_ = false;
   const bool good = begins || (same && !skipped_ && events_ + 1 == seal.log_events);

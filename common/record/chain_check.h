@@ -80,7 +80,7 @@ class ChainCheck {
   std::uint32_t own_crc_ = 0;  // begun anew, as by a log that was appended to another
   std::int64_t events_ = 0;
   bool skipped_ = false;
-  bool first_;  // nothing came yet, and what is before is not known
+  bool first_;  // nothing came yet, and the log before is not known
   std::optional<std::int64_t> begins_after_;
   std::set<std::string> channels_;
   std::int64_t tick_ = -1;  // of the last good one

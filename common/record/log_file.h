@@ -15,8 +15,8 @@
 #include "common/base/status.h"
 #include "common/record/chain_check.h"
 #include "common/record/log_place.h"
-#include "common/record/log_segments.h"
 #include "common/record/recorder.h"
+#include "common/record/segments/log_segments.h"
 
 namespace seam {
 
@@ -101,7 +101,7 @@ class LogReader {
   /// Returns the place in the file behind the last event, and the file's segment.
   std::int64_t place_bytes() const { return at_; }
   std::int32_t segment() const { return segments_[segment_].number; }
-  /// Returns the tick behind which a log begins whose first segments are not there.
+  /// Returns the tick before a log of which the first segments are not there.
   std::optional<std::int64_t> begins_after() const { return check_.begins_after(); }
 
  private:

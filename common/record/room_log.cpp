@@ -16,7 +16,7 @@
 #include "common/record/disk_thread.h"
 #include "common/record/log_bytes.h"
 #include "common/record/log_file.h"
-#include "common/record/log_segments.h"
+#include "common/record/segments/log_segments.h"
 
 namespace seam {
 

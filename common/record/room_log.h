@@ -26,9 +26,9 @@
 #include "common/base/bytes.h"
 #include "common/base/status.h"
 #include "common/record/keyed_chain.h"
-#include "common/record/keyframe.h"
 #include "common/record/log_place.h"
 #include "common/record/recorder.h"
+#include "common/record/segments/keyframe.h"
 
 namespace seam {
 
@@ -74,7 +74,7 @@ class RoomLog : public Recorder {
   static constexpr std::int64_t kSyncUs = 40000;
 
  private:
-  /// What a sync may use longer than this object lives.
+  /// A sync may use these longer than this object lives.
   using File = std::shared_ptr<std::FILE>;
   struct Syncs {
     std::atomic<bool> syncing{false};

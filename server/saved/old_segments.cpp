@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/base/check.h"
-#include "common/record/log_segments.h"
+#include "common/record/segments/log_segments.h"
 #include "server/saved/resumed_room.h"
 #include "server/saved/snapshot_file.h"
 

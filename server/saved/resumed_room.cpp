@@ -7,16 +7,14 @@
 
 #include "common/base/check.h"
 #include "common/base/names.h"
-#include "common/record/log_segments.h"
 #include "common/record/room_log.h"
+#include "common/record/segments/log_segments.h"
 #include "server/saved/snapshot_file.h"
 
 namespace seam {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kLogEnding = ".lcm";
 
 /// Gives a log that cannot be gone on with another name. Returns a line that says so.
 std::string PutAside(const std::string& log) {

@@ -15,7 +15,7 @@
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/net/crc32c.h"
-#include "common/record/log_segments.h"
+#include "common/record/segments/log_segments.h"
 
 namespace seam {
 namespace {

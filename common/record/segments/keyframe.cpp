@@ -1,4 +1,4 @@
-#include "common/record/keyframe.h"
+#include "common/record/segments/keyframe.h"
 
 #include <algorithm>
 #include <optional>

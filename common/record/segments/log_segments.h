@@ -9,6 +9,9 @@
 
 namespace seam {
 
+/// Ending of the names of logs.
+constexpr const char* kLogEnding = ".lcm";
+
 struct LogSegment {
   std::int32_t number = 0;
   std::string path;

@@ -1,4 +1,4 @@
-#include "common/record/log_segments.h"
+#include "common/record/segments/log_segments.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLogEnding = ".lcm";
 /// Stands in a file's name before the segment's number, of at least four digits.
 constexpr const char* kSegmentMark = ".s";
 
