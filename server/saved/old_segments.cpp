@@ -64,8 +64,8 @@ std::string RemoveOldSegments(const std::string& folder, const std::string& room
   }
   if (count == 0) return "";
   SyncFolderOf(old.front().path);
-  return "room " + room + ": removed " + std::to_string(count) + " segment(s) of its log, up to " +
-         removed + " (--keep)";
+  return "removed " + std::to_string(count) + " segment(s) of its log, up to " + removed +
+         " (--keep)";
 }
 
 }  // namespace seam

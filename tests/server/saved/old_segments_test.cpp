@@ -89,9 +89,9 @@ TEST_F(OldSegments, AreRemovedUpToTheOlderSnapshot) {
   ASSERT_GT(SegmentOf(180), first);
   EXPECT_EQ(Remove(), "") << "all are young";
   Age(SegmentOf(210), 8);
-  EXPECT_EQ(Remove(),
-            "room main: removed " + std::to_string(first) + " segment(s) of its log, up to " +
-                fs::path(SegmentPath(Log(), first - 1)).filename().string() + " (--keep)");
+  EXPECT_EQ(Remove(), "removed " + std::to_string(first) + " segment(s) of its log, up to " +
+                          fs::path(SegmentPath(Log(), first - 1)).filename().string() +
+                          " (--keep)");
   EXPECT_EQ(Numbers().front(), first);
   EXPECT_EQ(Numbers().back(), SegmentOf(210));
   EXPECT_EQ(Remove(), "");
