@@ -50,7 +50,7 @@ std::string RemoveOldSegments(const std::string& folder, const std::string& room
   const auto limit = fs::file_time_type::clock::now() - std::chrono::seconds(keep_s);
   std::error_code error;
   const auto young = std::find_if(old.begin(), old.end(), [&](const LogSegment& segment) {
-    return segment.number == last || fs::last_write_time(segment.path, error) >= limit || error;
+    return fs::last_write_time(segment.path, error) >= limit || error;
   });
   old.erase(young, old.end());
   if (old.empty()) return "";
