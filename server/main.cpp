@@ -26,6 +26,7 @@
 #include "server/hub/hub_door.h"
 #include "server/hub/progress.h"
 #include "server/metrics_page.h"
+#include "server/saved/old_segments.h"
 #include "server/saved/resumed_room.h"
 #include "server/server_flags.h"
 
@@ -103,6 +104,11 @@ void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms,
     throw OperatorError("--control: one room, and no --directory");
   }
   plan->news = !f.quiet;
+  const bool kept = !f.state.empty() || !f.resume.empty();
+  if (!kept && (!f.keep.empty() || f.segment_mb != kNotGiven.segment_mb))
+    throw OperatorError("--segment-mb and --keep are of the logs of --state and --resume");
+  if (kept) plan->segment_bytes = std::llround(f.segment_mb * 1024 * 1024);
+  if (!f.keep.empty()) plan->keep_s = ParseKeep(f.keep);
 }
 
 /// Refuses flags that say what the folder of --resume says.

@@ -108,6 +108,11 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
              "keep the rooms in this folder: the log of each, and a snapshot each 5 s");
   app.Option("--resume", f.resume,
              "go on with the rooms in such a folder, and keep them there; takes no scene");
+  app.Option("--segment-mb", f.segment_mb,
+             "size at which the log of such a room goes on in another file, MB")
+      .Range(0.01, 1e6);
+  app.Option("--keep", f.keep,
+             "remove what such a log has of longer ago, such as 7d, 12h or 30m (default: nothing)");
   app.Option("--drain-to", f.drain_to,
              "after SIGTERM send the clients to the server at this address, which goes on with the "
              "rooms (--resume); fleet: to one of the --directory");

@@ -28,6 +28,8 @@ struct ServerFlags {
   bool force = false;
   std::string state;   // folder to keep the rooms in
   std::string resume;  // the same, of rooms to go on with
+  double segment_mb = 256;
+  std::string keep;    // "": all
   std::string store;   // database of past sessions
   std::string events;
   std::string summary;  // file for the sums of the sessions

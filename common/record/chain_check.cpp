@@ -41,15 +41,17 @@ struct ChainCheck::Seal {
   Bytes keyed;
 };
 
-ChainCheck::ChainCheck(const LogPlace& from, const Secret* key) : crc_(from.crc) {
+ChainCheck::ChainCheck(const LogPlace& from, const Secret* key)
+    : crc_(from.crc), first_(from.bytes == 0 && from.segment == 0) {
   if (key != nullptr) key_ = *key, keyed_.emplace(*key, from.keyed);
 }
 
 std::optional<ChainCheck::Seal> ChainCheck::SealOf(const AnyMessage& message) {
   const auto read = [](const auto& m, std::size_t ticks, const Bytes& keyed) {
     const std::int64_t before = ticks > 0 ? static_cast<std::int64_t>(ticks) - 1 : 0;
-    return Seal{m.session,    m.peer,    m.tick, m.tick - before, m.messages, m.messages_crc,
-                m.log_events, m.log_crc, keyed};
+    const std::int64_t first = m.messages < 0 ? m.tick + 1 : m.tick - before;  // -1: of no tick
+    return Seal{m.session,      m.peer,       m.tick,    first, m.messages,
+                m.messages_crc, m.log_events, m.log_crc, keyed};
   };
   if (const auto* seal = std::get_if<LogSeal>(&message)) {
     return read(*seal, TicksOf(*seal)->size(), seal->log_keyed);
@@ -64,6 +66,7 @@ void ChainCheck::Note(ByteView header, const LogEvent& event) {
   if (event.channel.find(".chain") != std::string::npos) seal = SealOf(Decode(event.data));
   if (seal && seal->messages >= 0) CheckMessages({room, seal->session, seal->peer}, *seal);
   if (seal && seal->log_events > 0) return CheckBytes(header, event, *seal);
+  first_ = false;
   for (std::uint32_t* crc : {&crc_, &own_crc_}) {
     *crc = Crc32c(event.data, Crc32c(TextBytes(event.channel), Crc32c(header, *crc)));
   }
@@ -116,8 +119,13 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
   };
   const auto written = static_cast<std::uint32_t>(seal.log_crc);
   const bool same = with(crc_) == written || with(own_crc_) == written;
-  const bool good = same && !skipped_ && events_ + 1 == seal.log_events;
-  const bool keyed = KeyedAsWritten(header, event, seal);
+  // A later segment's first event is a seal, which goes on from the segment before; the numbers do
+  // too. In a capture of a stock logger they begin anew.
+  const bool begins = first_ && !skipped_ && !same && seal.log_events == 1 && event.number > 0;
+  if (begins) begins_after_ = seal.tick;
+  first_ = false;
+  const bool good = begins || (same && !skipped_ && events_ + 1 == seal.log_events);
+  const bool keyed = KeyedAsWritten(header, event, seal) || begins;
   // In a log of another logger none is: it has numbers of its own, and a filter leaves out messages
   // of ticks.
   sealed_ = sealed_ || (good && seal.tick > 0);

@@ -39,7 +39,8 @@ std::int32_t ChainedCrc(std::int32_t crc, const std::string& channel, ByteView m
 class ChainCheck {
  public:
   /// `from`: the place of the first event. With `key` the log must be one that was written with it,
-  /// from there on and without anything before.
+  /// from there on and without anything before. A log that begins with a later segment is checked
+  /// from that on.
   explicit ChainCheck(const LogPlace& from = LogPlace(), const Secret* key = nullptr);
   /// Notes bytes that belong to no event.
   void NoteSkipped() { skipped_ = true; }
@@ -47,6 +48,8 @@ class ChainCheck {
   void Note(ByteView header, const LogEvent& event);
   /// Returns the damaged parts so far, in the order of the log. Call after the last event.
   std::vector<DamagedRange> Damage() const;
+  /// Returns the tick before a log that begins with a later segment; nullopt: it does not.
+  std::optional<std::int64_t> begins_after() const { return begins_after_; }
   /// True if all bytes before the last seal of a log are as they were written.
   bool intact() const { return bytes_damage_.empty() && !damaged_; }
 
@@ -77,6 +80,8 @@ class ChainCheck {
   std::uint32_t own_crc_ = 0;  // begun anew, as by a log that was appended to another
   std::int64_t events_ = 0;
   bool skipped_ = false;
+  bool first_;  // nothing came yet, and the log before is not known
+  std::optional<std::int64_t> begins_after_;
   std::set<std::string> channels_;
   std::int64_t tick_ = -1;  // of the last good one
 

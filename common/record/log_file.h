@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "common/record/chain_check.h"
 #include "common/record/log_place.h"
 #include "common/record/recorder.h"
+#include "common/record/segments/log_segments.h"
 
 namespace seam {
 
@@ -73,11 +75,13 @@ struct LogEvent {
 
 /// Reads event by event; after damage, searches for the next plausible header. An event with
 /// damaged lengths may come out truncated or merged with the next: validate the data by decoding.
+/// All segments of a log are read as one, without the keyframes between them.
 class LogReader {
  public:
   /// Throws OperatorError when the file cannot be opened, is no regular file, or has no event at
   /// all ("not an LCM log"). Reads the present contents only, not bytes appended later.
-  /// With `key`, damage() also has the parts that nobody with the key wrote.
+  /// With `key`, damage() also has the parts that nobody with the key wrote. `path`: of a log, all
+  /// its segments; a folder, those of the log in it; a later segment, it alone.
   explicit LogReader(const std::string& path, const Secret* key = nullptr);
   /// Reads from a place on that RoomLog gave. Throws also when the log is shorter than that.
   LogReader(const std::string& path, const LogPlace& from, const Secret* key = nullptr);
@@ -94,12 +98,16 @@ class LogReader {
   std::vector<DamagedRange> damage() const { return check_.Damage(); }
   /// True if all before the last end of a tick is as RoomLog wrote it.
   bool intact() const { return check_.intact(); }
-  /// Returns the place in the file behind the last event.
+  /// Returns the place in the file behind the last event, and the file's segment.
   std::int64_t place_bytes() const { return at_; }
+  std::int32_t segment() const { return segments_[segment_].number; }
+  /// Returns the tick before a log of which the first segments are not there.
+  std::optional<std::int64_t> begins_after() const { return check_.begins_after(); }
 
  private:
   struct Header;
-  void Open(const std::string& path);
+  void Open(std::size_t segment);
+  bool NextInSegment(LogEvent* event);
   std::size_t ReadAt(std::int64_t at, std::uint8_t* to, std::size_t bytes);
   const std::uint8_t* Peek(std::int64_t at, std::size_t bytes);
   bool ReadHeader(std::int64_t at, bool magic_matters, Header* header);
@@ -107,6 +115,9 @@ class LogReader {
   bool FollowedByEvent(std::int64_t end);
   bool ContainsNextEvent(std::int64_t at, const Header& header);
 
+  std::vector<LogSegment> segments_;
+  std::size_t segment_ = 0;  ///< index of the open one
+  int keyframe_seals_ = 0;   ///< left until its keyframe is over
   std::FILE* file_ = nullptr;
   Bytes window_;  ///< a stretch of the file, from window_at_
   std::int64_t window_at_ = 0;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <variant>
 
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
+#include "common/codec/codec.h"
 #include "common/record/log_file.h"
 
 namespace seam {
@@ -30,27 +32,39 @@ struct LogReader::Header {
   std::int64_t end;  ///< end of the event in the file
 };
 
-void LogReader::Open(const std::string& path) {
-  file_ = OpenPlainFile(path, FileUse::kRead);
-  if (file_ == nullptr) throw OperatorError(path + ": cannot be opened: " + std::strerror(errno));
+void LogReader::Open(std::size_t segment) {
+  const std::string& path = segments_[segment].path;
+  std::FILE* const file = OpenPlainFile(path, FileUse::kRead);
+  if (file == nullptr) throw OperatorError(path + ": cannot be opened: " + std::strerror(errno));
+  if (file_ != nullptr) std::fclose(file_);
+  file_ = file;
   struct stat status = {};
-  if (fstat(fileno(file_), &status) == 0) size_bytes_ = static_cast<std::int64_t>(status.st_size);
+  size_bytes_ = fstat(fileno(file_), &status) == 0 ? static_cast<std::int64_t>(status.st_size) : 0;
+  segment_ = segment;
+  window_.clear();
 }
 
 LogReader::LogReader(const std::string& path, const Secret* key) : check_(LogPlace(), key) {
-  Open(path);
-  if (FindHeader(0, size_bytes_) == size_bytes_) {
+  const std::string log = LogNamed(path);
+  segments_ = ListSegments(log);
+  if (segments_.empty()) segments_ = {{0, log}};
+  Open(0);
+  if (FindHeader(0, size_bytes_) == size_bytes_ && segments_.size() == 1) {
     std::fclose(file_);
     throw OperatorError(path + ": not an LCM log: no event in it");
   }
 }
 
 LogReader::LogReader(const std::string& path, const LogPlace& from, const Secret* key)
-    : at_(from.bytes), check_(from, key) {
-  Open(path);
+    : segments_(ListSegments(path, from.segment)), at_(from.bytes), check_(from, key) {
+  const LogSegment first = {from.segment, SegmentPath(path, from.segment)};
+  if (segments_.empty() || segments_[0].number != first.number) {
+    segments_.insert(segments_.begin(), first);
+  }
+  Open(0);
   if (from.bytes <= size_bytes_) return;
   std::fclose(file_);
-  throw OperatorError(path + ": is shorter than it was");
+  throw OperatorError(first.path + ": is shorter than it was");
 }
 
 LogReader::~LogReader() { std::fclose(file_); }
@@ -145,6 +159,27 @@ bool LogReader::ContainsNextEvent(std::int64_t at, const Header& header) {
 }
 
 bool LogReader::Next(LogEvent* event) {
+  for (;;) {
+    if (NextInSegment(event)) {
+      if (keyframe_seals_ == 0) return true;
+      if (event->channel.find(".chain") == std::string::npos) continue;
+      const AnyMessage any = Decode(event->data);
+      if (std::holds_alternative<LogSeal>(any)) --keyframe_seals_;
+      continue;
+    }
+    if (segment_ + 1 == segments_.size()) return false;
+    try {
+      Open(segment_ + 1);
+    } catch (const OperatorError&) {  // it has gone since
+      check_.NoteSkipped();
+      return false;
+    }
+    at_ = 0;
+    keyframe_seals_ = 2;  // it stands between two seals
+  }
+}
+
+bool LogReader::NextInSegment(LogEvent* event) {
   const std::int64_t expected = at_;
   Header header;
   for (;; ++at_) {

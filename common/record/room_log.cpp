@@ -16,6 +16,7 @@
 #include "common/record/disk_thread.h"
 #include "common/record/log_bytes.h"
 #include "common/record/log_file.h"
+#include "common/record/segments/log_segments.h"
 
 namespace seam {
 
@@ -31,8 +32,24 @@ void LockLog(const std::string& path, std::FILE* stream) {
 
 /// Opens a new log, or one in place of a log that nobody writes.
 std::FILE* OpenUnused(const std::string& path, bool force) {
-  if (force) RequireUnused(path);
+  const std::vector<LogSegment> there = ListSegments(path);
+  for (const LogSegment& segment : there) {
+    if (force) RequireUnused(segment.path);
+  }
+  for (const LogSegment& segment : there) {
+    if (segment.number == 0) continue;
+    if (!force) throw OperatorError(segment.path + ": exists (--force replaces it)");
+    std::remove(segment.path.c_str());
+  }
   return LogWriter::Open(path, force);
+}
+
+Status NotWritten(const std::string& path, int error) {
+  return Status::Error(path + ": cannot be written: " + std::strerror(error));
+}
+
+[[noreturn]] void ThrowNotWritten(const std::string& path) {
+  throw OperatorError(NotWritten(path, errno).why());
 }
 
 }  // namespace
@@ -43,30 +60,41 @@ void RequireUnused(const std::string& path) {
   if (log != nullptr) LockLog(path, log.get());
 }
 
-RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key)
-    : path_(path), disk_(disk), file_(std::make_shared<File>(OpenUnused(path, force))) {
-  LockLog(path, file_->stream);
+RoomLog::RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key,
+                 std::int64_t segment_bytes)
+    : path_(path),
+      disk_(disk),
+      segment_bytes_(segment_bytes),
+      file_(OpenUnused(path, force), &std::fclose) {
+  LockLog(path, file_.get());
   if (key != nullptr) key_ = *key, keyed_.emplace(*key);
 }
 
 RoomLog::RoomLog(const std::string& path, const LogPlace& place, DiskThread* disk,
-                 const Secret* key)
-    : path_(path), disk_(disk), end_(place) {
+                 const Secret* key, std::int64_t segment_bytes)
+    : path_(path), disk_(disk), segment_bytes_(segment_bytes), end_(place), tick_(place.tick) {
   if (key != nullptr) key_ = *key, keyed_.emplace(*key, place.keyed);
-  std::FILE* const stream = OpenPlainFile(path, FileUse::kGoOn);
-  if (stream == nullptr) {
-    throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
+  unbegun_ = place.segment > 0 && place.bytes == 0;
+  const std::string open = SegmentPath(path, place.segment);
+  std::FILE* const stream =
+      unbegun_ ? LogWriter::Open(open, false) : OpenPlainFile(open, FileUse::kGoOn);
+  if (stream == nullptr) ThrowNotWritten(open);
+  file_.reset(stream, &std::fclose);
+  LockLog(open, stream);
+  const std::vector<LogSegment> later = ListSegments(path, place.segment + 1);
+  for (const LogSegment& segment : later) RequireUnused(segment.path);
+  for (auto segment = later.rbegin(); segment != later.rend(); ++segment) {
+    if (std::remove(segment->path.c_str()) != 0) ThrowNotWritten(segment->path);
   }
-  file_ = std::make_shared<File>(stream);
-  LockLog(path, stream);
-  if (ftruncate(fileno(stream), static_cast<off_t>(place.bytes)) != 0) {
-    throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
-  }
+  if (ftruncate(fileno(stream), static_cast<off_t>(place.bytes)) != 0) ThrowNotWritten(open);
 }
 
 RoomLog::~RoomLog() { Flush(); }
 
 void RoomLog::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
+  if (room_.empty()) room_ = RoomOfChannel(channel);
+  if (session_ == 0) session_ = SessionOf(message).value_or(0);
+  if (starts_.empty()) BeginSegmentIfDue(utime);
   if (!trouble_.ok()) {
     ++failures_;
     return;
@@ -77,9 +105,8 @@ void RoomLog::Publish(const std::string& channel, std::int64_t utime, ByteView m
                              std::to_string(message.size) + " bytes does not fit a log");
     return;
   }
-  if (room_.empty()) room_ = RoomOfChannel(channel);
-  if (session_ == 0) session_ = SessionOf(message).value_or(0);
   last_utime_ = utime;
+  if (segment_bytes_ > 0) keyframe_.Note(channel, message);
   starts_.push_back(buffer_.size());
   AppendEvent(&buffer_, 0, utime, channel, message);
 }
@@ -90,26 +117,70 @@ void RoomLog::EndTick(const std::string& channel, const LogSeal& seal, bool kept
   } else {
     open_[channel] = seal;
   }
+  if (room_.empty()) room_ = RoomOfChannel(channel);
+  if (starts_.empty()) BeginSegmentIfDue(seal.utime);
   Write(channel, seal, kept);
 }
 
 void RoomLog::Flush() {
   KeepSeal();
-  if (!starts_.empty() && !room_.empty()) {
-    LogSeal seal;
-    seal.utime = last_utime_;
-    seal.session = session_ == 0 ? 1 : session_;
-    seal.sequence = own_seals_++;
-    seal.tick = tick_;
-    seal.messages = -1;
-    Write(ChannelName(room_, MessageTraits<LogSeal>::kKind), seal, true);
-  }
+  if (!starts_.empty() && !room_.empty()) WriteOwnSeal();
   // The last of them stands there already.
   for (auto it = open_.begin(); open_.size() > 1 && it != open_.end(); ++it) {
     it->second.utime = last_utime_;  // a log's times do not run backwards
     Write(it->first, it->second, true);
   }
   open_.clear();
+}
+
+/// Writes the events with a seal that says nothing of a publisher's messages.
+void RoomLog::WriteOwnSeal() {
+  LogSeal seal;
+  seal.utime = last_utime_;
+  seal.session = session_ == 0 ? 1 : session_;
+  seal.sequence = own_seals_++;
+  seal.tick = tick_;
+  seal.messages = -1;
+  Write(ChannelName(room_, MessageTraits<LogSeal>::kKind), seal, true);
+}
+
+/// Begins the next segment if this one is full, between two ticks. If that cannot be written, this
+/// one stays the log's last.
+void RoomLog::BeginSegmentIfDue(std::int64_t utime) {
+  const bool full = segment_bytes_ > 0 && end_.bytes >= segment_bytes_;
+  if ((!full && !unbegun_) || room_.empty() || !trouble_.ok()) return;
+  const LogPlace end = Pin();
+  const File file = file_;
+  if (!unbegun_) trouble_ = OpenSegment();
+  if (!trouble_.ok()) return;
+  unbegun_ = false;
+  last_utime_ = utime;
+  WriteOwnSeal();
+  keyframe_.Each([this, utime](const std::string& channel, ByteView message) {
+    starts_.push_back(buffer_.size());
+    AppendEvent(&buffer_, 0, utime, channel, message);
+  });
+  WriteOwnSeal();
+  if (trouble_.ok()) return;
+  std::remove(SegmentPath(path_, end_.segment).c_str());
+  end_ = end;
+  file_ = file;
+}
+
+/// Creates the next segment. Returns one line if it cannot.
+Status RoomLog::OpenSegment() {
+  const std::string path = SegmentPath(path_, end_.segment + 1);
+  const File file(OpenPlainFile(path, FileUse::kCreate), [](std::FILE* open) {
+    if (open != nullptr) std::fclose(open);
+  });
+  if (file == nullptr || flock(fileno(file.get()), LOCK_EX | LOCK_NB) != 0) {
+    return NotWritten(path, errno);
+  }
+  file_ = file;
+  end_.segment += 1;
+  end_.bytes = 0;
+  if (disk_ != nullptr) disk_->Do([path] { SyncFolderOf(path); });
+  return Status::Ok();
 }
 
 LogPlace RoomLog::Pin() {
@@ -123,6 +194,7 @@ void RoomLog::KeepSeal() {
   end_.bytes += static_cast<std::int64_t>(seal_.size());
   end_.number += 1;
   end_.crc = seal_crc_;
+  end_.tick = tick_;
   end_.keyed = seal_keyed_;
   if (keyed_) keyed_.emplace(*key_, seal_keyed_);
   unsealed_ = 0;
@@ -131,7 +203,7 @@ void RoomLog::KeepSeal() {
 
 /// Writes the events and the seal, in the place of the last seal unless that was kept.
 void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
-  if (const int error = file_->sync_error.exchange(0)) Fail(error);
+  if (const int error = syncs_->error.exchange(0)) Fail(error);
   if (!trouble_.ok()) {
     ++failures_;
     return;
@@ -183,8 +255,8 @@ void RoomLog::AddKeyed(std::size_t seal_at) {
 /// Returns 0, or the error.
 int RoomLog::WriteAt(std::int64_t at, const Bytes& bytes) {
   for (std::size_t written = 0; written < bytes.size();) {
-    const ssize_t now = pwrite(fileno(file_->stream), bytes.data() + written,
-                               bytes.size() - written, at + static_cast<std::int64_t>(written));
+    const ssize_t now = pwrite(fileno(file_.get()), bytes.data() + written, bytes.size() - written,
+                               at + static_cast<std::int64_t>(written));
     if (now == 0) return ENOSPC;
     if (now > 0) written += static_cast<std::size_t>(now);
     if (now < 0 && errno != EINTR) return errno;
@@ -193,7 +265,7 @@ int RoomLog::WriteAt(std::int64_t at, const Bytes& bytes) {
 }
 
 int RoomLog::CutOff(std::int64_t bytes) {
-  return ftruncate(fileno(file_->stream), static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  return ftruncate(fileno(file_.get()), static_cast<off_t>(bytes)) == 0 ? 0 : errno;
 }
 
 /// Takes back a tick of which only a part could be written.
@@ -202,7 +274,7 @@ void RoomLog::Fail(int error) {
   buffer_.clear();
   starts_.clear();
   if (!trouble_.ok()) return;
-  trouble_ = Status::Error(path_ + ": cannot be written: " + std::strerror(error));
+  trouble_ = NotWritten(SegmentPath(path_, end_.segment), error);
   if (CutOff(end_.bytes) != 0 || WriteAt(end_.bytes, seal_) != 0) ++failures_;
 }
 
@@ -210,13 +282,13 @@ void RoomLog::Fail(int error) {
 void RoomLog::Sync(bool at_once) {
   if (disk_ == nullptr) return;
   const std::int64_t now_us = SteadyClockUs();
-  const bool due = now_us - synced_us_ >= kSyncUs && !file_->syncing.exchange(true);
+  const bool due = now_us - synced_us_ >= kSyncUs && !syncs_->syncing.exchange(true);
   if (!due && !at_once) return;
   synced_us_ = now_us;
   KeepSeal();
-  disk_->Do([file = file_] {
-    if (fdatasync(fileno(file->stream)) != 0) file->sync_error = errno;
-    file->syncing = false;
+  disk_->Do([file = file_, syncs = syncs_] {
+    if (fdatasync(fileno(file.get())) != 0) syncs->error = errno;
+    syncs->syncing = false;
   });
 }
 

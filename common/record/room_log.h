@@ -10,6 +10,9 @@
 /// written over. A process that is killed loses the tick that it has not written; a machine that
 /// loses power the last three ticks at 60 Hz, more if the disk is slow. With a key each seal also
 /// has a keyed hash, so that nobody else can change the log.
+///
+/// A log of more than `segment_bytes` goes on in another file, the next segment. That begins with a
+/// Keyframe between two seals, of which the first goes on from the last seal of the segment before.
 
 #include <atomic>
 #include <cstdint>
@@ -25,23 +28,26 @@
 #include "common/record/keyed_chain.h"
 #include "common/record/log_place.h"
 #include "common/record/recorder.h"
+#include "common/record/segments/keyframe.h"
 
 namespace seam {
 
 class DiskThread;
 
-/// Throws OperatorError if a process writes this log now.
+/// Throws OperatorError if a process writes this file of a log now.
 void RequireUnused(const std::string& path);
 
 class RoomLog : public Recorder {
  public:
   /// Begins a log. `disk` syncs it, and must outlive this; nullptr: nothing does. `key`:
-  /// nullptr: none. Throws OperatorError as LogWriter does.
-  RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key = nullptr);
-  /// Goes on with a log at `place`; cuts off the bytes behind it. Throws OperatorError if it cannot
-  /// be written, or another program has it open by this constructor.
+  /// nullptr: none. `segment_bytes`: 0: all in one file. Throws OperatorError as LogWriter does.
+  RoomLog(const std::string& path, bool force, DiskThread* disk, const Secret* key = nullptr,
+          std::int64_t segment_bytes = 0);
+  /// Goes on with a log at `place`; cuts off the bytes behind it, and removes later segments. At
+  /// the begin of a later segment, which must not be there, begins that. Throws OperatorError if it
+  /// cannot be written, or another program has it open by this constructor.
   RoomLog(const std::string& path, const LogPlace& place, DiskThread* disk,
-          const Secret* key = nullptr);
+          const Secret* key = nullptr, std::int64_t segment_bytes = 0);
   /// Flushes.
   ~RoomLog() override;
   RoomLog(const RoomLog&) = delete;
@@ -68,16 +74,15 @@ class RoomLog : public Recorder {
   static constexpr std::int64_t kSyncUs = 40000;
 
  private:
-  /// The open file, which a sync may use longer than this object lives.
-  struct File {
-    explicit File(std::FILE* open) : stream(open) {}
-    ~File() { std::fclose(stream); }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    std::FILE* stream;
+  /// A sync may use these longer than this object lives.
+  using File = std::shared_ptr<std::FILE>;
+  struct Syncs {
     std::atomic<bool> syncing{false};
-    std::atomic<int> sync_error{0};
+    std::atomic<int> error{0};
   };
+  void BeginSegmentIfDue(std::int64_t utime);
+  Status OpenSegment();
+  void WriteOwnSeal();
   void Write(const std::string& channel, LogSeal seal, bool kept);
   void AddKeyed(std::size_t seal_at);
   int WriteAt(std::int64_t at, const Bytes& bytes);
@@ -88,7 +93,11 @@ class RoomLog : public Recorder {
 
   const std::string path_;
   DiskThread* const disk_;
-  std::shared_ptr<File> file_;
+  const std::int64_t segment_bytes_;
+  File file_;
+  const std::shared_ptr<Syncs> syncs_ = std::make_shared<Syncs>();
+  Keyframe keyframe_;     // of the next segment
+  bool unbegun_ = false;  // file_ is a later segment, and empty
   Status trouble_;
   LogPlace end_;               // of the written events, without a seal that is not kept
   std::int32_t unsealed_ = 0;  // events since the last kept seal; end_.crc includes them

@@ -14,18 +14,24 @@ constexpr int kPollsMax = 64;
 }  // namespace
 
 Sink::Sink(const std::string& lcm_url, const std::string& record_path, bool force,
-           const std::string& room, std::shared_ptr<const Secret> log_key)
-    : record_path_(record_path), force_(force), log_key_(std::move(log_key)) {
+           const std::string& room, std::shared_ptr<const Secret> log_key,
+           std::int64_t segment_bytes)
+    : record_path_(record_path),
+      force_(force),
+      log_key_(std::move(log_key)),
+      segment_bytes_(segment_bytes) {
   if (!record_path.empty()) LogWriter::Check(record_path, force);
   Listen(lcm_url, room);
 }
 
 Sink::Sink(const std::string& lcm_url, const std::string& record_path, const LogPlace& place,
-           const std::string& room, std::shared_ptr<const Secret> log_key)
+           const std::string& room, std::shared_ptr<const Secret> log_key,
+           std::int64_t segment_bytes)
     : record_path_(record_path),
       force_(false),
       log_key_(std::move(log_key)),
-      log_(std::make_unique<RoomLog>(record_path, place, &disk_, log_key_.get())) {
+      segment_bytes_(segment_bytes),
+      log_(std::make_unique<RoomLog>(record_path, place, &disk_, log_key_.get(), segment_bytes)) {
   Listen(lcm_url, room);
 }
 
@@ -42,7 +48,7 @@ void Sink::Listen(const std::string& lcm_url, const std::string& room) {
 
 void Sink::OpenLog() {
   try {
-    log_ = std::make_unique<RoomLog>(record_path_, force_, &disk_, log_key_.get());
+    log_ = std::make_unique<RoomLog>(record_path_, force_, &disk_, log_key_.get(), segment_bytes_);
   } catch (const OperatorError& error) {
     // Possible despite the check at the start: the file or folder may have changed since.
     not_opened_ = Status::Error(error.what());

@@ -18,13 +18,15 @@ namespace seam {
 /// because a log without its beginning has no scene.
 class Sink : public Recorder {
  public:
-  /// `log_key`: of the log, see RoomLog; null: none. Throws OperatorError from Bus, or if the file
-  /// cannot be written.
+  /// `log_key` (null: none) and `segment_bytes`: of the log, see RoomLog. Throws OperatorError from
+  /// Bus, or if the file cannot be written.
   Sink(const std::string& lcm_url, const std::string& record_path, bool force,
-       const std::string& room, std::shared_ptr<const Secret> log_key = nullptr);
+       const std::string& room, std::shared_ptr<const Secret> log_key = nullptr,
+       std::int64_t segment_bytes = 0);
   /// Goes on with the log at a place, see RoomLog.
   Sink(const std::string& lcm_url, const std::string& record_path, const LogPlace& place,
-       const std::string& room, std::shared_ptr<const Secret> log_key = nullptr);
+       const std::string& room, std::shared_ptr<const Secret> log_key = nullptr,
+       std::int64_t segment_bytes = 0);
 
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
   /// Ends the tick on the bus and in the log, which is then with the operating system.
@@ -53,6 +55,7 @@ class Sink : public Recorder {
   std::string record_path_;
   bool force_;
   std::shared_ptr<const Secret> log_key_;
+  std::int64_t segment_bytes_;
   std::unique_ptr<Bus> bus_;
   DiskThread disk_;
   std::unique_ptr<RoomLog> log_;  ///< null until it begins

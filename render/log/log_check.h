@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,8 @@ struct LogCheck {
   std::int64_t foreign = 0;      ///< events of other channels
   std::int64_t undecodable = 0;  ///< of ours
   std::int64_t skipped_bytes = 0;
+  /// Tick behind which it begins, if its first segments are not there.
+  std::optional<std::int64_t> begins_after;
   std::int64_t missing = 0;  ///< messages, by their numbers; counted only if the log is damaged
   std::vector<DamagedRange> damage;
   std::map<std::string, std::map<std::int64_t, SessionSpan>> rooms;  ///< by name and session

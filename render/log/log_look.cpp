@@ -41,6 +41,12 @@ void PrintSessions(const std::string& path, const std::string& room,
   }
 }
 
+/// Returns what the line of a whole log says of its begin.
+std::string AboutBegin(const LogCheck& check) {
+  if (!check.begins_after) return "";
+  return "; what precedes tick " + std::to_string(*check.begins_after + 1) + " is not in it";
+}
+
 }  // namespace
 
 int RunLogList(const LogsCommand& command) {
@@ -74,11 +80,12 @@ int RunLogVerify(const LogVerifyCommand& command) {
       std::printf("%s: all %lld events decode; it has no checksums\n", path.c_str(),
                   static_cast<long long>(check.events));
     } else {
-      std::printf("%s: whole: %lld events, %lld checksums%s\n", path.c_str(),
+      std::printf("%s: whole: %lld events, %lld checksums%s%s\n", path.c_str(),
                   static_cast<long long>(check.events), static_cast<long long>(check.seals),
                   key               ? ", all written with this key"
                   : check.keyed > 0 ? "; say --log-key to check that it is its writer's"
-                                    : "");
+                                    : "",
+                  AboutBegin(check).c_str());
     }
   }
   return status;

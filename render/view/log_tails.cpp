@@ -26,32 +26,38 @@ bool BeginsAsLog(const std::string& path) {
 }  // namespace
 
 LogTails::LogTails(const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) {
+  for (const std::string& named : paths) {
+    const std::string path = LogNamed(named);
     struct stat status = {};
     if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
       throw OperatorError(path + ": is no regular file");
     }
     if (status.st_size >= 4 && !BeginsAsLog(path)) LogReader check(path);  // throws if it is none
     tails_.push_back({path, {}, nullptr, std::nullopt});
+    const std::vector<LogSegment> segments = ListSegments(path);
+    if (!segments.empty()) tails_.back().place.segment = segments.front().number;
   }
 }
 
 /// Reads a log's next event, if it is whole. A reader knows the file as it was when opened.
 void LogTails::Fill(Tail* tail) {
   struct stat status = {};
-  if (tail->next || stat(tail->path.c_str(), &status) != 0) return;
-  if (status.st_size < tail->place.bytes) {
-    tail->place = {};
+  LogPlace& place = tail->place;
+  if (tail->next || stat(SegmentPath(tail->path, place.segment).c_str(), &status) != 0) return;
+  if (status.st_size < place.bytes) {
+    place.bytes = 0;
     tail->reader.reset();
   }
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (tail->reader == nullptr) {
-      if (status.st_size == tail->place.bytes) return;
-      tail->reader = std::make_unique<LogReader>(tail->path, tail->place);
+      const bool all_read = status.st_size == place.bytes;
+      if (all_read && ListSegments(tail->path, place.segment + 1).empty()) return;
+      tail->reader = std::make_unique<LogReader>(tail->path, place);
     }
     LogEvent event;
     if (tail->reader->Next(&event)) {
-      tail->place.bytes = tail->reader->place_bytes();
+      place.bytes = tail->reader->place_bytes();
+      place.segment = tail->reader->segment();
       tail->next = std::move(event);
       return;
     }

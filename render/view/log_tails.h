@@ -12,8 +12,8 @@ namespace seam {
 
 class LogTails {
  public:
-  /// Throws OperatorError for a path that is something else than a regular file. A file that does
-  /// not exist yet is waited for.
+  /// The paths are as for LogReader. Throws OperatorError for one that is something else. A file
+  /// that does not exist yet is waited for.
   explicit LogTails(const std::vector<std::string>& paths);
 
   /// Returns the next event of all logs; false when there is none now. A log that is cut is read
@@ -22,7 +22,7 @@ class LogTails {
 
  private:
   struct Tail {
-    std::string path;
+    std::string path;  // of the log, all its segments
     LogPlace place;  // behind the last event read
     std::unique_ptr<LogReader> reader;
     std::optional<LogEvent> next;

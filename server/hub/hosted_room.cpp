@@ -24,13 +24,15 @@ Net& Through(const RoomPlan& plan, Net& direct, Net& impaired) {
 }
 
 Sink MakeSink(const RoomPlan& plan) {
-  const bool goes_on = plan.resumed != nullptr && !plan.resumed->new_log;
+  const LogPlace place = plan.resumed != nullptr ? plan.resumed->tail.end : LogPlace();
+  const bool goes_on = plan.resumed != nullptr && (!plan.resumed->new_log || place.segment > 0);
   if (!goes_on) {
     // A log of this epoch without a snapshot is that of a server that died at once.
     const bool force = plan.force || (plan.resumed != nullptr && plan.config.epoch > 1);
-    return Sink(plan.lcm_url, plan.record, force, plan.config.room, plan.log_key);
+    return Sink(plan.lcm_url, plan.record, force, plan.config.room, plan.log_key,
+                plan.segment_bytes);
   }
-  return Sink(plan.lcm_url, plan.record, plan.resumed->tail.end, plan.config.room, plan.log_key);
+  return Sink(plan.lcm_url, plan.record, place, plan.config.room, plan.log_key, plan.segment_bytes);
 }
 
 }  // namespace
@@ -43,7 +45,8 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
   Net& net = Through(plan, net_, impaired_);
   newest_.room = plan.config.room;
   if (!plan.state.empty()) {
-    keeper_ = std::make_unique<RoomKeeper>(plan.state, plan.config.room, sink_, plan.config.epoch);
+    keeper_ = std::make_unique<RoomKeeper>(plan.state, plan.config.room, sink_, plan.config.epoch,
+                                           plan.keep_s);
   }
   if (plan.resumed == nullptr) {
     server_ = std::make_unique<Server>(plan_.scene, plan_.config, net, sink_, entropy_);
@@ -240,6 +243,9 @@ void HostedRoom::CollectReports() {
       std::snprintf(when, sizeof when, "%.1f s: ", tick / plan_.config.sync.tick_hz);
     }
     for (const std::string& news : come_and_gone) told.push_back(when + news);
+  }
+  if (keeper_ != nullptr) {
+    for (std::string& news : keeper_->TakeNews()) told.push_back(std::move(news));
   }
   if (!trouble_reported_ && !trouble().ok()) {
     trouble_reported_ = true;

@@ -35,6 +35,8 @@ struct RoomPlan {
   std::shared_ptr<const Secret> log_key;  ///< of the log; null: none
   bool force = false;
   std::string state;  ///< folder in which the room is kept, with its log; "": none
+  std::int64_t segment_bytes = 0;              ///< of its log, see RoomLog
+  std::int64_t keep_s = 0;                     ///< of its log, see RoomKeeper
   std::shared_ptr<const ResumedRoom> resumed;  ///< the room to go on with; null: it begins
   std::vector<std::shared_ptr<SessionWriter>> writers;  ///< that the sessions are put into
   bool control = false;  ///< an operator may change it: its network is always a simulated one

@@ -33,12 +33,18 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
                    std::int64_t tick, const Secret* key, LogTail* tail) {
   *tail = LogTail();
   tail->end = from;
+  tail->damaged_segment = from.segment;
   std::unique_ptr<LogReader> log;
   try {
     log = std::make_unique<LogReader>(path, from, key);
   } catch (const OperatorError& error) {
     return Status::Error(error.what());
   }
+  const auto damaged = [&](const std::string& what) {
+    tail->damage = SegmentPath(path, log->segment()) + ": " + what;
+    tail->damaged_segment = log->segment();
+    return Status::Ok();
+  };
   TickSplitter splitter(tick);
   LogEvent event;
   while (log->Next(&event)) {
@@ -48,8 +54,7 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
     const LogSeal* const seal = AsSeal(any);
     if (!good) {
       if (seal == nullptr) continue;
-      tail->damage = path + ": is damaged after tick " + std::to_string(tick);
-      return Status::Ok();
+      return damaged("is damaged after tick " + std::to_string(tick));
     }
     if (seal == nullptr) {
       if (ours && PublisherOfChannel(event.channel) == 0) splitter.Add(std::move(any));
@@ -58,8 +63,7 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
     if (seal->peer == 0) {
       for (TickMessages& next : splitter.End(*seal)) {
         if (next.tick != tick + 1) {
-          tail->damage = path + ": tick " + std::to_string(tick + 1) + " is missing";
-          return Status::Ok();
+          return damaged("tick " + std::to_string(tick + 1) + " is missing");
         }
         tick = next.tick;
         tail->ticks.push_back(std::move(next));
@@ -67,7 +71,8 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
       tail->begun = splitter.begun();
     }
     tail->end = {
-        log->place_bytes(), event.number + 1, static_cast<std::uint32_t>(seal->log_crc), {}};
+        log->place_bytes(), event.number + 1, static_cast<std::uint32_t>(seal->log_crc), {}, tick,
+        log->segment()};
     std::copy(seal->log_keyed.begin(), seal->log_keyed.end(), tail->end.keyed.begin());
   }
   for (const TickMessages& each : tail->ticks) {

@@ -19,6 +19,7 @@ struct LogTail {
   LogPlace end;                     ///< where the log is to go on
   std::optional<Summary> summary;   ///< the newest one of the session that wrote the log
   std::string damage;               ///< one line if more follows `end` than a tick that was cut off
+  std::int32_t damaged_segment = 0;  ///< of the log, in which that is
 };
 
 /// Reads the log from `from` on, which is behind tick `tick`, up to the first thing that is not as

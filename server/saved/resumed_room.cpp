@@ -8,14 +8,13 @@
 #include "common/base/check.h"
 #include "common/base/names.h"
 #include "common/record/room_log.h"
+#include "common/record/segments/log_segments.h"
 #include "server/saved/snapshot_file.h"
 
 namespace seam {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kLogEnding = ".lcm";
 
 /// Gives a log that cannot be gone on with another name. Returns a line that says so.
 std::string PutAside(const std::string& log) {
@@ -26,7 +25,16 @@ std::string PutAside(const std::string& log) {
   std::error_code error;
   fs::rename(log, to, error);
   if (error) throw OperatorError(log + ": cannot be renamed: " + error.message());
-  return "kept as " + to + ", a new log begins";
+  return "kept as " + to;
+}
+
+/// Does so with the segments of a log from a number on.
+std::string PutAside(const std::string& log, std::int32_t from) {
+  std::string kept;
+  for (const LogSegment& segment : ListSegments(log, from)) {
+    kept += "; " + PutAside(segment.path);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -80,16 +88,25 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
   const Status read =
       ReadLogTail(resumed.log, room, from, resumed.saved_tick, log_key, &resumed.tail);
   const std::string damage = read.ok() ? resumed.tail.damage : read.why();
+  LogTail& tail = resumed.tail;
   if (resumed.epoch > log_epoch) {
     if (!damage.empty()) resumed.notes.push_back(damage);
     resumed.log = StateLogOf(folder, room, resumed.epoch);
     resumed.new_log = true;
+    tail.end = LogPlace();
     return resumed;
   }
   if (damage.empty()) return resumed;
-  const bool there = fs::exists(resumed.log);
-  resumed.notes.push_back(damage + (there ? "; " + PutAside(resumed.log) : "; a new log begins"));
+  std::string note = damage + PutAside(resumed.log, tail.damaged_segment);
+  if (read.ok() && tail.damaged_segment > tail.end.segment) {
+    resumed.notes.push_back(note);  // the segment before is whole up to its end
+    return resumed;
+  }
+  resumed.notes.push_back(note + "; a new log begins");
   resumed.new_log = true;
+  // A later segment begins where the undamaged part of the one that it replaces has ended.
+  tail.end.bytes = 0;
+  if (tail.end.segment == 0) tail.end = LogPlace();
   return resumed;
 }
 

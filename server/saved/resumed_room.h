@@ -16,7 +16,9 @@ struct ResumedRoom {
   std::int64_t saved_tick = 0;
   LogTail tail;
   std::string log;                 ///< path; it goes on at tail.end
-  bool new_log = false;            ///< the old one cannot be gone on with, and was put aside
+  /// It goes on without the ticks since the snapshot: the old log, or its damaged segment and all
+  /// later ones, cannot be gone on with and were put aside.
+  bool new_log = false;
   std::vector<std::string> notes;  ///< lines for the operator: what is damaged, what is lost
 };
 

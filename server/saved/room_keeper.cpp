@@ -7,13 +7,19 @@
 #include "common/base/process.h"
 #include "common/sync/mode.h"
 #include "server/room_state.h"
+#include "server/saved/old_segments.h"
 #include "server/saved/snapshot_file.h"
 #include "server/server.h"
 
 namespace seam {
 
-RoomKeeper::RoomKeeper(std::string folder, std::string room, Sink& sink, std::int32_t epoch)
-    : folder_(std::move(folder)), room_(std::move(room)), sink_(sink), epoch_(epoch) {}
+RoomKeeper::RoomKeeper(std::string folder, std::string room, Sink& sink, std::int32_t epoch,
+                       std::int64_t keep_s)
+    : folder_(std::move(folder)),
+      room_(std::move(room)),
+      sink_(sink),
+      epoch_(epoch),
+      keep_s_(keep_s) {}
 
 void RoomKeeper::AfterTick(Server& server, std::int64_t now_us) {
   const int tick_hz = server.room().tick_hz;
@@ -31,12 +37,16 @@ void RoomKeeper::Save(Server& server, std::int64_t now_us) {
   copied_bytes_ = copy.size();
   shared_->writing = true;
   sink_.disk().Do([shared = shared_, folder = folder_, room = room_, epoch = epoch_,
-                   snapshot = std::move(snapshot), copy = std::move(copy)]() mutable {
+                   keep_s = keep_s_, snapshot = std::move(snapshot),
+                   copy = std::move(copy)]() mutable {
     snapshot.room = RoomState::Finish(std::move(copy));
     shared->bytes = snapshot.room.size();
     const Status status = WriteSnapshot(folder, room, snapshot, epoch);
+    std::string removed;
+    if (status.ok() && keep_s > 0) removed = RemoveOldSegments(folder, room, epoch, keep_s);
     shared->writing = false;
     const std::lock_guard<std::mutex> lock(shared->mutex);
+    if (!removed.empty()) shared->news.push_back(removed);
     if (!status.ok() && shared->trouble.ok()) shared->trouble = status;
   });
 }
@@ -48,6 +58,11 @@ void RoomKeeper::Finish(Server& server, std::int64_t now_us) {
   std::promise<void> done;
   sink_.disk().Do([&done] { done.set_value(); });
   done.get_future().wait();
+}
+
+std::vector<std::string> RoomKeeper::TakeNews() {
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return std::exchange(shared_->news, {});
 }
 
 Status RoomKeeper::trouble() const {

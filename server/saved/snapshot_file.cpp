@@ -15,6 +15,7 @@
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/net/crc32c.h"
+#include "common/record/segments/log_segments.h"
 
 namespace seam {
 namespace {
@@ -35,7 +36,7 @@ struct FileHeader {
   std::int64_t tick;
   std::int64_t log_bytes, log_number;
   std::uint32_t log_crc;
-  std::uint32_t unused;
+  std::uint32_t log_segment;   // 0 before version 3
   KeyedChain::Hash log_keyed;  // not in version 1
 };
 /// The checksum is of all bytes behind itself.
@@ -83,13 +84,6 @@ Status WriteWhole(const std::string& path, ByteView a, ByteView b) {
   return error == 0 ? Status::Ok() : failed(error);
 }
 
-void SyncFolder(const std::string& folder) {
-  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  fsync(fd);
-  close(fd);
-}
-
 }  // namespace
 
 std::string StemOf(const std::string& room, std::int32_t epoch) {
@@ -127,11 +121,12 @@ Status WriteSnapshot(const std::string& folder, const std::string& room,
                      const RoomSnapshot& snapshot, std::int32_t epoch) {
   FileHeader header{};
   std::memcpy(header.magic, kSnapshotMagic, sizeof kSnapshotMagic);
-  header.version = kSnapshotVersion;
+  header.version = snapshot.log.segment == 0 ? kSnapshotVersion - 1 : kSnapshotVersion;
   header.tick = snapshot.tick;
   header.log_bytes = snapshot.log.bytes;
   header.log_number = snapshot.log.number;
   header.log_crc = snapshot.log.crc;
+  header.log_segment = static_cast<std::uint32_t>(snapshot.log.segment);
   header.log_keyed = snapshot.log.keyed;
   const ByteView head(reinterpret_cast<const std::uint8_t*>(&header), sizeof header);
   header.crc = ChecksumOf(head, snapshot.room);
@@ -145,7 +140,7 @@ Status WriteSnapshot(const std::string& folder, const std::string& room,
     std::remove(unfinished.c_str());
     return status;
   }
-  SyncFolder(folder);
+  SyncFolderOf(path);
   const std::vector<SnapshotName> all = ListSnapshots(folder, room);
   for (std::size_t i = kSnapshotsKept; i < all.size(); ++i) std::remove(all[i].path.c_str());
   return status;
@@ -166,7 +161,7 @@ Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot) {
   if (std::memcmp(header.magic, kSnapshotMagic, sizeof kSnapshotMagic) != 0) {
     return refuse("is damaged, or no snapshot");
   }
-  if (header.version != 1 && header.version != kSnapshotVersion) {
+  if (header.version < 1 || header.version > kSnapshotVersion) {
     return refuse("is of version " + std::to_string(header.version) + ", this server reads " +
                   std::to_string(kSnapshotVersion));
   }
@@ -177,7 +172,10 @@ Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot) {
   const ByteView room(all.data + head, all.size - head);
   if (header.crc != ChecksumOf({all.data, head}, room)) return refuse("is damaged");
   snapshot->tick = header.tick;
-  snapshot->log = {header.log_bytes, header.log_number, header.log_crc, header.log_keyed};
+  if (header.log_segment > INT32_MAX) return refuse("is damaged");
+  snapshot->log = {header.log_bytes, header.log_number,
+                   header.log_crc,   header.log_keyed,
+                   header.tick,      static_cast<std::int32_t>(header.log_segment)};
   snapshot->room.assign(room.begin(), room.end());
   return Status::Ok();
 }

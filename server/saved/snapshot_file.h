@@ -2,7 +2,8 @@
 /// A saved room in a file, with the place in the room's log up to which it goes.
 ///
 ///   magic 8 bytes | version u32 | CRC-32C u32 of all that follows | tick i64
-///   | log: bytes i64, number i64, crc u32 | unused u32 | keyed 32 bytes (not in version 1)
+///   | log: bytes i64, number i64, crc u32, segment u32 (0 before version 3)
+///   | keyed 32 bytes (not in version 1)
 ///   | bytes of RoomState::Save   (this machine's byte order)
 
 #include <cstdint>
@@ -15,8 +16,9 @@
 
 namespace seam {
 
-/// Version of the file around the room; RoomState has its own.
-constexpr std::uint32_t kSnapshotVersion = 2;
+/// Version of the file around the room; RoomState has its own. A file has the first version that
+/// can hold it, so that servers before can read it.
+constexpr std::uint32_t kSnapshotVersion = 3;
 /// Snapshots of a room that are kept: the newest, and the one before in case that one is damaged.
 constexpr int kSnapshotsKept = 2;
 

@@ -12,7 +12,7 @@
 #include "server/saved/log_tail.h"
 #include "tests/lab/chaos/kept_log.h"
 #include "tests/support/arena.h"
-#include "tests/support/temporary_file.h"
+#include "tests/support/program.h"
 
 namespace seam {
 namespace resume_cluster_test {
@@ -20,7 +20,8 @@ namespace resume_cluster_test {
 /// The log of the server alone, as --state writes it.
 class ServerLog : public Recorder {
  public:
-  explicit ServerLog(const std::string& path) : log(path, true, nullptr) {}
+  ServerLog(const std::string& path, std::int64_t segment_bytes)
+      : log(path, true, nullptr, nullptr, segment_bytes) {}
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override {
     if (PublisherOfChannel(channel) == 0) log.Publish(channel, utime, message);
   }
@@ -33,17 +34,19 @@ class ServerLog : public Recorder {
 /// Plays to `tick` with a snapshot at `saved_tick`, and resumes the room from its log.
 class Killed {
  public:
-  Killed(ClusterConfig config, std::int64_t saved_tick, std::int64_t tick) {
+  Killed(ClusterConfig config, std::int64_t saved_tick, std::int64_t tick,
+         std::int64_t segment_bytes = 0) {
     config.keep = false;
-    ServerLog kept(file_.path());
+    const std::string path = folder_ / "main.lcm";
+    ServerLog kept(path, segment_bytes);
     config.recorder = &kept;
     cluster_ = std::make_unique<Cluster>(config);
     cluster_->RunToTick(saved_tick);
     EXPECT_EQ(cluster_->server().tick(), saved_tick);
-    const LogPlace place = kept.log.Pin();
+    place = kept.log.Pin();
     const Bytes bytes = cluster_->server().Save(cluster_->now_us());
     cluster_->RunToTick(tick);
-    Status status = ReadLogTail(file_.path(), "main", place, saved_tick, nullptr, &tail);
+    Status status = ReadLogTail(path, "main", place, saved_tick, nullptr, &tail);
     EXPECT_TRUE(status.ok()) << status.why();
     EXPECT_EQ(tail.damage, "");
     EXPECT_EQ(tail.ticks.empty() ? -1 : tail.ticks.back().tick, tick)
@@ -77,6 +80,7 @@ class Killed {
   }
   Server& dead() { return cluster_->server(); }
 
+  LogPlace place;  ///< of the snapshot
   LogTail tail;
   std::unique_ptr<Server> server;
 
@@ -86,7 +90,7 @@ class Killed {
     void Publish(const std::string&, std::int64_t, ByteView) override {}
     bool listening() const override { return false; }
   };
-  TemporaryFile file_;
+  Workspace folder_;
   std::unique_ptr<Cluster> cluster_;
   MemoryNetwork network_;
   Silence silence_;
@@ -95,18 +99,21 @@ class Killed {
 };
 
 /// Plays and resumes a room with bots; expects that the new server comes to the same bits in every
-/// tick of the log.
-void ExpectSameBits(ClusterConfig config, std::int64_t saved, std::int64_t killed) {
+/// tick of the log. Returns the number of segments that the log had begun since the snapshot.
+std::int32_t ExpectSameBits(ClusterConfig config, std::int64_t saved, std::int64_t killed,
+                            std::int64_t segment_bytes = 0) {
   config.drive = Drive::kBot;
   SCOPED_TRACE(config.scene + " over " + config.impair + ", seed " + std::to_string(config.seed) +
                ", ticks " + std::to_string(saved) + " to " + std::to_string(killed));
-  Killed room(config, saved, killed);
-  ASSERT_TRUE(room.server != nullptr);
+  Killed room(config, saved, killed, segment_bytes);
+  EXPECT_TRUE(room.server != nullptr);
+  if (room.server == nullptr) return 0;
   EXPECT_EQ(room.server->tick(), killed);
   EXPECT_EQ(room.server->replica().world().composition().hash,
             room.dead().replica().world().composition().hash);
   EXPECT_EQ(room.server->unlike_log(), -1);
   EXPECT_EQ(room.Jump(), 0);
+  return room.tail.end.segment - room.place.segment;
 }
 
 constexpr const char* kScenes[] = {"crossing", "arena", "rally", "playground", "seesaw",
@@ -117,6 +124,16 @@ TEST(ResumeCluster, TheWorldIsWhereItWas) {
     ClusterConfig config;
     config.scene = scene;
     for (const std::int64_t killed : {301, 450, 590}) ExpectSameBits(config, 300, killed);
+  }
+}
+
+TEST(ResumeCluster, ALogInSegmentsBringsTheWorldBackToo) {
+  for (const char* scene : {"crossing", "rally", "gluehouse"}) {
+    ClusterConfig config;
+    config.scene = scene;
+    for (const std::int64_t killed : {450, 590}) {
+      EXPECT_GE(ExpectSameBits(config, 300, killed, 40000), 2);
+    }
   }
 }
 

@@ -174,6 +174,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/base/spatial", "common/base"},
       {"common/record/events", "none"},
       {"common/record/store", "common/record(/events)?"},
+      {"common/record/segments", "common/record"},
       {"common/measure/contents", "common/measure"},
       {"common/measure/screen", "common/measure"},
       {"common/sync/show", "common/sync(/reach|/table)?"},
