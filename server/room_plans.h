@@ -1,0 +1,26 @@
+#pragma once
+/// The rooms that the flags of seam-server ask for.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/net/secret_file.h"
+#include "server/fleet/member.h"
+#include "server/hub/hosted_room.h"
+#include "server/server_flags.h"
+
+namespace seam {
+
+/// Returns the duration of a room of this scene, s; 0: until stopped.
+double DurationOf(const ServerFlags& flags, const Scene& scene);
+/// Returns the plan of a room that goes on from the folder of --resume, the one of `index` of so
+/// many rooms. `epoch`: in which it goes on; 0: in its own. Throws OperatorError if it cannot.
+RoomPlan PlanOfResumed(const ServerFlags& flags, const Secret* log_key, const std::string& name,
+                       int index, int rooms, std::int32_t epoch = 0);
+/// Returns the plans of all rooms that begin or go on at once, claimed from `member` (nullptr: no
+/// fleet). Throws OperatorError for flags that do not go together, and if a room cannot be.
+std::vector<RoomPlan> MakePlans(const ServerFlags& flags, const Secret* log_key,
+                                FleetMember* member);
+
+}  // namespace seam
