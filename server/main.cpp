@@ -23,7 +23,7 @@
 #include "server/hub/hub_door.h"
 #include "server/hub/progress.h"
 #include "server/metrics_page.h"
-#include "server/room_plans.h"
+#include "server/fleet/room_plans.h"
 #include "server/server_flags.h"
 
 namespace {

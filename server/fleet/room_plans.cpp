@@ -1,4 +1,4 @@
-#include "server/room_plans.h"
+#include "server/fleet/room_plans.h"
 
 #include <algorithm>
 #include <cmath>
