@@ -12,17 +12,23 @@
 #include "common/base/check.h"
 #include "common/base/json_text.h"
 #include "common/codec/version_line.h"
+#include "common/record/segments/log_segments.h"
 #include "render/panel_note.h"
 #include "render/playback/peer_report.h"
 
 namespace seam {
 namespace {
 
-/// Returns the 64-bit FNV-1a hash of a file's bytes.
+/// Returns the 64-bit FNV-1a hash of the bytes of a file, or of all segments of a log.
 std::string HashOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  return fmt::format("fnv1a-64:{:016x}", Fnv1a(bytes.data(), bytes.size()));
+  std::uint64_t hash = Fnv1a("", 0);
+  for (const LogSegment& segment : ListSegments(LogNamed(path))) {
+    std::ifstream file(segment.path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)),
+                            std::istreambuf_iterator<char>());
+    hash = Fnv1a(bytes.data(), bytes.size(), hash);
+  }
+  return fmt::format("fnv1a-64:{:016x}", hash);
 }
 
 std::string NameOf(const std::string& path) { return std::filesystem::path(path).filename(); }

@@ -138,9 +138,13 @@ std::string WhyNoOracle(const Recording& recording) {
                                   : "the log begins at tick " + tick + " of its session";
 }
 
-Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
+void RequireBeginning(const Recording& recording) {
   const std::string why = WhyNoOracle(recording);
   if (!why.empty()) throw OperatorError("no oracle: " + why);
+}
+
+Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
+  RequireBeginning(recording);
   GrowingOracle growing(recording.room, options);
   const std::int64_t states = std::max(1, growing.world().body_count());
   if (recording.last_tick > kOracleStatesMax / states) {

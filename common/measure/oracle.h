@@ -102,6 +102,9 @@ OracleOptions JudgeOf(const Room& room);
 /// that goes on with an earlier session; its inputs and edits before are not there. "" if one can.
 std::string WhyNoOracle(const Recording& recording);
 
+/// Throws OperatorError with WhyNoOracle.
+void RequireBeginning(const Recording& recording);
+
 /// Simulates the recording's scene in one world from tick 0 to the recording's last tick, with the
 /// recorded inputs: each in the tick it names, axes held over ticks without one, buttons acting on
 /// the tick they go down. Applies recorded edits with an external cause, each after its tick;

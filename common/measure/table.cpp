@@ -98,14 +98,17 @@ std::string Beside(const std::optional<double>& value, const std::optional<doubl
 std::string FormatMore(const MeasuredRun& run) {
   const Measures& m = run.measures;
   std::string out = fmt::format("\n{}\n", run.run);
-  out +=
-      fmt::format("  angle error      {:.6g} rad RMS over {} poses\n", m.error_rms_rad, m.compared);
+  const bool compared = m.compared > 0;
+  out += "  angle error      ";
+  out += compared ? fmt::format("{:.6g} rad RMS over {} poses\n", m.error_rms_rad, m.compared)
+                  : "does not apply\n";
   for (const auto& [peer, rms] : m.error_rms_by_peer_m) {
     out += fmt::format("  peer {:<2}          {:.6g} m RMS\n", peer, rms);
   }
-  out += fmt::format(
-      "  error shown      {:.6g} m RMS, {:.6g} m p95, {:.6g} m at most, at the tick shown\n",
-      m.shown_error_rms_m, m.shown_error_p95_m, m.shown_error_max_m);
+  out += "  error shown      ";
+  out += compared ? fmt::format("{:.6g} m RMS, {:.6g} m p95, {:.6g} m at most, at the tick shown\n",
+                                m.shown_error_rms_m, m.shown_error_p95_m, m.shown_error_max_m)
+                  : "does not apply\n";
   out += fmt::format("  error            {}\n",
                      Beside(m.error_server_m, std::nullopt, "m in the server's view"));
   out += fmt::format("  response         {}\n",

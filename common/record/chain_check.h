@@ -42,6 +42,8 @@ class ChainCheck {
   /// from there on and without anything before. A log that begins with a later segment is checked
   /// from that on.
   explicit ChainCheck(const LogPlace& from = LogPlace(), const Secret* key = nullptr);
+  /// The next event begins another segment, which has to go on from here.
+  void BeginSegment() { own_crc_ = crc_; }
   /// Notes bytes that belong to no event.
   void NoteSkipped() { skipped_ = true; }
   /// Notes an event, with the bytes of its header.

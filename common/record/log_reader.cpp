@@ -175,6 +175,7 @@ bool LogReader::Next(LogEvent* event) {
       return false;
     }
     at_ = 0;
+    check_.BeginSegment();
     keyframe_seals_ = 2;  // it stands between two seals
   }
 }

@@ -55,7 +55,7 @@ Status NotWritten(const std::string& path, int error) {
 }  // namespace
 
 void RequireUnused(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(std::fopen(path.c_str(), "rb"),
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(OpenPlainFile(path, FileUse::kRead),
                                                             &std::fclose);
   if (log != nullptr) LockLog(path, log.get());
 }

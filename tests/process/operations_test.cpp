@@ -102,7 +102,7 @@ TEST(Operations, TheUnitIsOneThatSystemdTakes) {
 }
 
 /// Returns the command of the unit as systemd hands it to the shell, for these programs and rooms.
-std::vector<std::string> Start(const std::string& state) {
+std::vector<std::string> Start(const std::string& state, const std::string& wait = "0") {
   const std::string unit = TextOf(std::string(kDeploy) + "seam-server@.service");
   const std::string key = "ExecStart=/bin/sh -ec '";
   const std::size_t begin = unit.find(key) + key.size();
@@ -112,8 +112,9 @@ std::vector<std::string> Start(const std::string& state) {
   return {"env",
           "STATE_DIRECTORY=" + state,
           "SCENES=" + (Root() / "scenes/crossing.toml").string(),
-          "OPTIONS=--wait 0 --duration 0 --bind 127.0.0.1 --port 7841 --metrics 9475 "
-          "--metrics-bind 127.0.0.2 --events " +
+          "OPTIONS=--wait " + wait +
+              " --duration 0 --bind 127.0.0.1 --port 7841 --metrics 9475 "
+              "--metrics-bind 127.0.0.2 --events " +
               state + "/events.json",
           "/bin/sh",
           "-ec",
@@ -152,6 +153,17 @@ TEST_F(Service, TheUnitBeginsARoomAndGoesOnWithIt) {
       << events;
   EXPECT_NE(events.find("\"kind\":\"started\""), std::string::npos) << events;
   EXPECT_NE(events.find("\"kind\":\"resumed\""), std::string::npos) << events;
+}
+
+TEST_F(Service, TheUnitBeginsARoomThatEndedBeforeItsFirstTick) {
+  SEAM_INSIDE_ONLY();
+  const Workspace state;
+  for (const int end : {SIGTERM, SIGKILL, SIGTERM}) {
+    Program server(Start(state.path(), "2"));  // nobody comes
+    ASSERT_TRUE(server.WaitForErrors("Ctrl-C ends it", kPatience)) << server.Story();
+    server.Signal(end);
+    ASSERT_TRUE(server.Wait(kPatience)) << server.Story();
+  }
 }
 
 TEST(MetricsPage, TheLatestOfManyRoomsAreShown) {

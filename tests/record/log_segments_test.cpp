@@ -204,6 +204,8 @@ TEST_F(LogSegments, AMissingOneIsNamedByItsTicks) {
   const auto [first, last] = TicksIn(2);
   fs::remove(segments_[2].path);
   ExpectDamage(first, last);
+  ASSERT_EQ(mkfifo(segments_[2].path.c_str(), 0600), 0);  // nobody writes into it
+  ExpectDamage(first, last);
 }
 
 TEST_F(LogSegments, ExchangedOnesAreNamed) {
@@ -215,12 +217,19 @@ TEST_F(LogSegments, ExchangedOnesAreNamed) {
   EXPECT_EQ(found.damage.front().first_tick, TicksIn(2).first);
 }
 
+TEST_F(LogSegments, TheFirstOneIsNoneOfTheOthers) {
+  fs::copy_file(log_, SegmentPath(log_, segments_.back().number + 1));
+  EXPECT_FALSE(ReadAll(log_).damage.empty());
+}
+
 TEST_F(LogSegments, OneOfAnotherLogIsNamed) {
   Workspace other;
   RoomLog log(other / "main.lcm", false, nullptr, nullptr, kSegment + 500);
   Writer(&log).Ticks(0, kTicks);
   fs::copy_file(other / "main.s0002.lcm", segments_[2].path, fs::copy_options::overwrite_existing);
   EXPECT_FALSE(ReadAll(log_).damage.empty());
+  fs::copy_file(other / "main.lcm", segments_[2].path, fs::copy_options::overwrite_existing);
+  EXPECT_FALSE(ReadAll(log_).damage.empty()) << "a first one";
 }
 
 TEST_F(LogSegments, TheFirstOnesMayBeGone) {

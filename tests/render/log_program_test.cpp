@@ -225,6 +225,14 @@ TEST_F(LogProgram, ACutWithoutTheBeginningHasNoErrors) {
   EXPECT_EQ(measure.status(), 0) << measure.Story();
   EXPECT_NE(measure.errors().find("no errors: " + why), std::string::npos) << measure.errors();
   EXPECT_NE(measure.output().find(why), std::string::npos) << measure.output();
+  Program more({BuiltProgram("seam-measure"), At("late.lcm"), "--more"});
+  ASSERT_TRUE(more.Wait(120));
+  EXPECT_NE(more.output().find("error shown      does not apply"), std::string::npos)
+      << more.output();
+  Program limit({BuiltProgram("seam-measure"), At("late.lcm"), "--limit"});
+  ASSERT_TRUE(limit.Wait(120));
+  EXPECT_EQ(limit.status(), 2) << limit.Story();
+  EXPECT_NE(limit.errors().find(why), std::string::npos) << limit.errors();
   Program render(
       {BuiltProgram("seam-render"), At("late.lcm"), "--sheet", "2", "-o", At("late.png")});
   ASSERT_TRUE(render.Wait(120));

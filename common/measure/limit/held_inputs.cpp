@@ -165,6 +165,7 @@ class Guesser {
 std::optional<double> HeldInputsError(const Recording& recording, int every) {
   SEAM_ASSERT(every >= 1);
   if (PolicyOf(recording.room).IsOracle()) return std::nullopt;
+  RequireBeginning(recording);
   Scene scene = RecordedScene(recording.room);
   scene.solver.tick_hz = recording.room.tick_hz;
   const KnownInputs known = FindKnownInputs(recording);

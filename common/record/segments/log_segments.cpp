@@ -69,7 +69,7 @@ std::vector<LogSegment> ListSegments(const std::string& log, std::int32_t from) 
     const std::int32_t number = NumberOf(entry.path().filename().string());
     const std::string path = SegmentPath(log, number);
     const bool ours = number > 0 && fs::path(path).filename() == entry.path().filename();
-    if (ours && number >= from) all.push_back({number, path});
+    if (ours && number >= from && entry.is_regular_file(error)) all.push_back({number, path});
   }
   std::sort(all.begin(), all.end(),
             [](const LogSegment& a, const LogSegment& b) { return a.number < b.number; });
