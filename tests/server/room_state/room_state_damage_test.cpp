@@ -95,6 +95,13 @@ TEST(RoomStateDamage, SignedDamageOfBondsSeatsAndWaterNeverCrashes) {
   }
 }
 
+// A sanitizer makes the copy fifteen times slower, and not the tick, which is the engine's.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kTimesCount = false;
+#else
+constexpr bool kTimesCount = true;
+#endif
+
 /// CPU time of this thread.
 template <typename F>
 double Milliseconds(F work) {
@@ -140,7 +147,9 @@ TEST(RoomStateDamage, SavingCostsNoMoreThanAFewTicks) {
     std::printf("%d bodies, tick %lld: %.2f ms, a tick %.2f ms, %zu bytes\n", bodies,
                 static_cast<long long>(tick), cost.copy_ms, cost.tick_ms, cost.bytes);
     busy_tick_ms = std::max(busy_tick_ms, cost.tick_ms);
-    EXPECT_LT(cost.copy_ms, 10 * busy_tick_ms);
+    if (kTimesCount) {
+      EXPECT_LT(cost.copy_ms, 10 * busy_tick_ms);
+    }
     EXPECT_LT(cost.bytes, static_cast<std::size_t>(bodies) * 8000);
   }
 }
