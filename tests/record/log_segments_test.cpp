@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <variant>
 
 #include "common/base/check.h"
@@ -14,6 +12,7 @@
 #include "common/record/log_file.h"
 #include "common/record/recording.h"
 #include "common/record/room_log.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/program.h"
 
 namespace seam {
@@ -23,16 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kSession = 77, kSegment = 6000;
 constexpr const char* kScene = "the scene";
-
-Bytes ReadBytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(file), {});
-}
-
-void WriteBytes(const std::string& path, const Bytes& bytes) {
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
-}
 
 /// A room's server that publishes one message of each kind of which a Keyframe knows, and others.
 class Writer {

@@ -118,7 +118,7 @@ double Milliseconds(F work) {
 /// Cost of saving a room.
 struct Cost {
   double copy_ms = 1e9, tick_ms = 1e9;  // the best of five
-  std::size_t bytes = 0;
+  std::size_t bytes = 0, in_the_tick = 0;  // written in all, and of these in the tick
 };
 
 Cost CostAt(LoneRoom* room, std::int64_t tick) {
@@ -131,7 +131,7 @@ Cost CostAt(LoneRoom* room, std::int64_t tick) {
     StateDraft copy;
     cost.copy_ms = std::min(
         cost.copy_ms, Milliseconds([&] { copy = room->server->CopyState(room->now_us, copied); }));
-    copied = copy.size();
+    cost.in_the_tick = copied = copy.size();
     cost.bytes = RoomState::Finish(std::move(copy)).size();
   }
   return cost;
@@ -144,12 +144,14 @@ TEST(RoomStateDamage, SavingCostsNoMoreThanAFewTicks) {
     const Cost cost = CostAt(&room, tick);
     const int bodies = room.server->replica().world().body_count();
     ASSERT_GE(bodies, 1000);
-    std::printf("%d bodies, tick %lld: %.2f ms, a tick %.2f ms, %zu bytes\n", bodies,
-                static_cast<long long>(tick), cost.copy_ms, cost.tick_ms, cost.bytes);
+    std::printf("%d bodies, tick %lld: %.2f ms, a tick %.2f ms, %zu bytes, %zu in it\n", bodies,
+                static_cast<long long>(tick), cost.copy_ms, cost.tick_ms, cost.bytes,
+                cost.in_the_tick);
     busy_tick_ms = std::max(busy_tick_ms, cost.tick_ms);
     if (kTimesCount) {
       EXPECT_LT(cost.copy_ms, 10 * busy_tick_ms);
     }
+    EXPECT_LT(cost.in_the_tick, cost.bytes / 4);
     EXPECT_LT(cost.bytes, static_cast<std::size_t>(bodies) * 8000);
   }
 }

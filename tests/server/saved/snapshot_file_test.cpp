@@ -5,26 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "common/base/check.h"
 #include "server/saved/resumed_room.h"
 #include "tests/support/arena.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/lone_room.h"
 #include "tests/support/program.h"
 
 namespace seam {
 namespace snapshot_file_test {
-
-Bytes ReadBytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(file), {});
-}
-
-void WriteBytes(const std::string& path, const Bytes& bytes) {
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
-}
 
 /// Saves a room at ticks 60, 120 ... with a log that ends there.
 void KeepArena(const Workspace& folder, std::int64_t last_tick) {
