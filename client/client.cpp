@@ -12,7 +12,8 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kPingFastUs = 50000;  // until the clock has settled and the room started
+constexpr std::int64_t kPingSettlingUs = 20000;  // until the clock has settled
+constexpr std::int64_t kPingFastUs = 50000;      // then, until the room has begun
 constexpr std::int64_t kPingSlowUs = 100000;
 constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
 /// An unanswered ping of a quiet room is repeated after the usual round trip and this, us: after
@@ -98,7 +99,8 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 }
 
 void Client::SendReadyAndPing(std::int64_t now_us) {
-  if (!said_ready_ && replica_ != nullptr && clock_.settled()) {
+  // A room that has begun waits for nobody: its world may come while our clock settles.
+  if (!said_ready_ && replica_ != nullptr && (clock_.settled() || timeline_.known())) {
     said_ready_ = true;
     redirects_ = 0;
     ++sessions_;
@@ -106,8 +108,8 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
     ready.utime = now_us;
     link_->SendReliable(Encode(ready));
   }
-  const bool settled = clock_.settled() && timeline_.known();
-  std::int64_t every_us = settled ? kPingSlowUs : kPingFastUs;
+  std::int64_t every_us = timeline_.known() ? kPingSlowUs : kPingFastUs;
+  if (!clock_.settled()) every_us = kPingSettlingUs;
   if (Quiet()) {
     every_us = PongOverdue(now_us) ? kPingAgainUs : kPingQuietUs;
   }
