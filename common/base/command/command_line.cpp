@@ -19,6 +19,9 @@ std::string ANumber(const std::string& text) {
   return nan ? text + " is not a number" : "";
 }
 
+/// Returns a line for a word without letters, as an unset variable of a shell makes one; else "".
+std::string SomeText(const std::string& text) { return text.empty() ? "has an empty value" : ""; }
+
 }  // namespace
 
 Flag& Flag::Range(int low, int high) { return option_->check(CLI::Range(low, high)), *this; }
@@ -40,7 +43,7 @@ Flag& Flag::OneValueEach() { return option_->allow_extra_args(false), *this; }
 Flag& Flag::CommaSeparated() { return option_->delimiter(','), *this; }
 
 Flag Command::Option(const std::string& names, std::string& value, const std::string& about) {
-  return Flag(app_->add_option(names, value, about));
+  return Flag(app_->add_option(names, value, about)->check(SomeText));
 }
 Flag Command::Option(const std::string& names, int& value, const std::string& about) {
   return Flag(app_->add_option(names, value, about));
@@ -64,7 +67,7 @@ Flag Command::Option(const std::string& names, std::optional<double>& value,
 }
 Flag Command::Option(const std::string& names, std::vector<std::string>& values,
                      const std::string& about) {
-  return Flag(app_->add_option(names, values, about));
+  return Flag(app_->add_option(names, values, about)->check(SomeText));
 }
 
 void Command::Switch(const std::string& names, bool& value, const std::string& about) {
