@@ -115,9 +115,12 @@ BodyArrays LogArrays::OracleBodies() {
 }
 
 Measures LogArrays::MeasureAll(std::string* valid) {
-  Measures measures = Measure(recording_, TheOracle());
-  MeasureResponse(recording_, TheOracle(), &measures);
-  *valid = WhyNotValid(recording_, TheOracle(), measures);
+  const std::string why = WhyNoOracle(recording_);
+  const Oracle none;
+  const Oracle& oracle = why.empty() ? TheOracle() : none;
+  Measures measures = Measure(recording_, oracle);
+  MeasureResponse(recording_, oracle, &measures);
+  *valid = why.empty() ? WhyNotValid(recording_, oracle, measures) : why;
   return measures;
 }
 

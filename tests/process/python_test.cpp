@@ -32,6 +32,8 @@ class PythonModule : public ::testing::Test {
     ASSERT_TRUE(lab.Wait(60) && lab.status() == 0) << lab.Story();
     Program exported({BuiltProgram("seam-export"), Log(), "--csv", "-o", *made_ / "views.csv"});
     ASSERT_TRUE(exported.Wait(60) && exported.status() == 0) << exported.Story();
+    Program cut({BuiltProgram("seam-log"), "cut", Log(), "--from", "1", "-o", *made_ / "cut.lcm"});
+    ASSERT_TRUE(cut.Wait(60) && cut.status() == 0) << cut.Story();
   }
   static void TearDownTestSuite() { made_.reset(); }
 
@@ -96,6 +98,17 @@ TEST_F(PythonModule, ThePrintedMeasuresAreThoseOfSeamMeasure) {
     EXPECT_NE(table.find(" " + number + " "), std::string::npos) << name << " " << number << "\n"
                                                                  << table;
   }
+}
+
+TEST_F(PythonModule, ALogWithoutItsBeginningHasMeasuresWithoutErrors) {
+  const auto run = Python({"-m", "seam", *made_ / "cut.lcm"});
+  EXPECT_EQ(run->status(), 0) << run->Story();
+  EXPECT_NE(run->output().find("not valid: the log begins at tick "), std::string::npos)
+      << run->Story();
+  EXPECT_NE(run->output().find("\n  bytes_per_s "), std::string::npos) << run->Story();
+  EXPECT_NE(run->output().find("\n  no oracle: the log begins at tick "), std::string::npos)
+      << run->Story();
+  EXPECT_EQ(run->output().find("error_others_m"), std::string::npos) << "there is no such number";
 }
 
 TEST_F(PythonModule, AMissingLogIsOneLineAndStatusTwo) {

@@ -33,7 +33,11 @@ def show(path: str) -> None:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             print(f"  {name:<22}{value:>12.6g}")
     for peer in log.peers:
-        error = log.error(peer)
+        try:
+            error = log.error(peer)
+        except seam.Error as why:
+            print(f"  {why}")
+            break
         name = "server" if peer == 0 else log.players[peer - 1] if peer <= len(log.players) else peer
         worst = np.nanmax(error) if np.any(~np.isnan(error)) else 0
         print(f"  error {name!s:<10} |{bars(error)}| at most {worst:.3g} m")
