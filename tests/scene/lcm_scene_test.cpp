@@ -73,6 +73,8 @@ TEST(LcmScene, EachMistakeIsALineWithItsCure) {
       {publish + "channel = \"A\"\n", "s.toml:10: lcm.publish: needs parts"},
       {publish + "channel = \"A\"\nparts = \"create.0\"\n",
        "s.toml:12: lcm.publish: parts: there is no part 'create.0'"},
+      {publish + "channel = \"A\"\nparts = [\"crate.*\", \"crate.1\"]\n",
+       "s.toml:12: lcm.publish: parts: 'crate.1' names a part twice"},
       {publish + "channel = \"A\"\n" + parts + "rate_hz = 0\n",
        "s.toml:13: lcm.publish: rate_hz must be"},
       {publish + "channel = \"A\"\n" + parts + "rate_hz = 61\n",

@@ -32,7 +32,13 @@ LcmPublishing ReadPublishing(const SceneReader& r, const SceneDraft& draft, Chan
   LcmPublishing publishing;
   publishing.channel = channels->Read(r);
   for (const std::string& name : r.Texts("parts")) {
-    for (const PartId part : FindParts(r, "parts", name, draft)) publishing.parts.push_back(part);
+    for (const PartId part : FindParts(r, "parts", name, draft)) {
+      const auto& parts = publishing.parts;
+      if (std::find(parts.begin(), parts.end(), part) != parts.end()) {
+        r.FailAt("parts", "parts: '" + name + "' names a part twice");
+      }
+      publishing.parts.push_back(part);
+    }
   }
   if (publishing.parts.empty()) r.FailAt("parts", "needs parts: the names of one or more");
   if (publishing.parts.size() > kLcmPartsMax) r.FailAt("parts", "parts: at most 64 on a channel");
