@@ -96,7 +96,17 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
     tail.end = LogPlace();
     return resumed;
   }
-  if (damage.empty()) return resumed;
+  if (damage.empty()) {
+    // Nothing of a later file belongs to the log; an empty one is a segment that was not begun.
+    for (const LogSegment& other : ListSegments(resumed.log, tail.end.segment + 1)) {
+      std::error_code error;
+      if (fs::file_size(other.path, error) == 0 || error) continue;
+      RequireUnused(other.path);
+      resumed.notes.push_back(other.path + ": not a whole tick of this log is in it; " +
+                              PutAside(other.path));
+    }
+    return resumed;
+  }
   std::string note = damage + PutAside(resumed.log, tail.damaged_segment);
   if (read.ok() && tail.damaged_segment > tail.end.segment) {
     resumed.notes.push_back(note);  // the segment before is whole up to its end

@@ -160,6 +160,22 @@ TEST_F(OldSegments, BehindAMissingOneAreKeptUnderAnotherName) {
   EXPECT_EQ(Numbers().back(), missing - 1);
 }
 
+TEST_F(OldSegments, AnotherFileInThePlaceOfTheNextIsKeptUnderAnotherName) {
+  const std::string next = SegmentPath(Log(), SegmentOf(210) + 1);
+  std::ofstream(next) << "somebody's only copy";
+  std::ofstream(SegmentPath(Log(), SegmentOf(210) + 2)) << "";  // a segment that was not begun
+  const ResumedRoom room = ReadResumedRoom(folder_.path(), "main");
+  EXPECT_EQ(LastTick(room), 210);
+  EXPECT_FALSE(room.new_log);
+  ASSERT_EQ(room.notes.size(), 1u);
+  EXPECT_EQ(room.notes[0].find(next + ": "), 0u) << room.notes[0];
+  RoomLog log(room.log, room.tail.end, nullptr, nullptr, kSegment);
+  std::string kept;
+  std::getline(std::ifstream(next + ".damaged-1"), kept);
+  EXPECT_EQ(kept, "somebody's only copy");
+  EXPECT_EQ(Numbers().back(), SegmentOf(210));
+}
+
 TEST_F(OldSegments, ADamagedOneIsReplacedByANewOne) {
   const std::int32_t damaged = SegmentOf(180);
   const std::string path = SegmentPath(Log(), damaged);
