@@ -12,8 +12,8 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kPingSettlingUs = 20000;  // until the clock has settled
-constexpr std::int64_t kPingFastUs = 50000;      // then, until the room has begun
+constexpr std::int64_t kPingFastUs = 50000;      // until the room has begun
+constexpr std::int64_t kPingSettlingUs = 20000;  // then, until the clock has settled
 constexpr std::int64_t kPingSlowUs = 100000;
 constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
 /// An unanswered ping of a quiet room is repeated after the usual round trip and this, us: after
@@ -99,8 +99,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 }
 
 void Client::SendReadyAndPing(std::int64_t now_us) {
-  // A room that has begun waits for nobody: its world may come while our clock settles.
-  if (!said_ready_ && replica_ != nullptr && (clock_.settled() || timeline_.known())) {
+  if (!said_ready_ && replica_ != nullptr && clock_.settled()) {
     said_ready_ = true;
     redirects_ = 0;
     ++sessions_;
@@ -108,8 +107,8 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
     ready.utime = now_us;
     link_->SendReliable(Encode(ready));
   }
-  std::int64_t every_us = timeline_.known() ? kPingSlowUs : kPingFastUs;
-  if (!clock_.settled()) every_us = kPingSettlingUs;
+  std::int64_t every_us = clock_.settled() ? kPingSlowUs : kPingSettlingUs;
+  if (!timeline_.known()) every_us = kPingFastUs;
   if (Quiet()) {
     every_us = PongOverdue(now_us) ? kPingAgainUs : kPingQuietUs;
   }

@@ -205,7 +205,7 @@ void Server::StepOnce(std::int64_t now_us) {
   broadcast_.NoteStep();
   replica_.Step();
   ApplyQueued(now_us);  // edits of this very tick
-  TakeWaitingBreaks();
+  TakeWaitingBreaks(now_us);
   TakeWaitingStates(now_us);
   FollowLadder(now_us);
   for (const FoundEdit& found : replica_.TakeProposals()) edits_->Add(found.edit, found.tick);

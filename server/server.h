@@ -231,7 +231,7 @@ class Server {
   bool BoreLoad(const EditOrder& proposal);
   /// Takes the proposals of breaks of which the server has felt the load; drops those that it has
   /// not felt in time.
-  void TakeWaitingBreaks();
+  void TakeWaitingBreaks(std::int64_t now_us);
   /// True if the player's vehicle is on probation.
   bool Doubted(int player) const;
   /// True if a proposal is a break of loaded glue in a room of which the server steps all.

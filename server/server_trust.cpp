@@ -19,6 +19,9 @@ constexpr double kCopyWaitS = 0.2;
 /// the ladder, if none was felt.
 constexpr double kLoadWaitS = 0.5;
 constexpr float kLoadlessWeight = 2;
+/// Time after a client came, or came back from a silence, in which nobody's differences are scored,
+/// us: copies part meanwhile, of what others' bodies met too.
+constexpr std::int64_t kReturnUs = TrustLadder::kReturnS * 1000000;
 
 std::vector<float> NumbersOf(const BodyState& state) {
   return {state.position.x(), state.position.y(), state.velocity.x(), state.velocity.y()};
@@ -77,7 +80,7 @@ bool Server::Doubted(int player) const {
   return false;
 }
 
-void Server::TakeWaitingBreaks() {
+void Server::TakeWaitingBreaks(std::int64_t now_us) {
   const auto most = static_cast<std::int64_t>(kLoadWaitS * scene_.solver.tick_hz);
   for (WaitingBreak& waiting : std::exchange(waiting_breaks_, {})) {
     Session* const session = sessions_.Find(waiting.peer);
@@ -90,7 +93,8 @@ void Server::TakeWaitingBreaks() {
     } else {
       ++stats_.counters.dropped_implausible;
       ++stats_.connections.loadless;
-      if (session->player >= 0) ladder_.Note(session->player, kLoadlessWeight);
+      const bool scored = session->player >= 0 && !sessions_.AnyReturned(now_us, kReturnUs);
+      if (scored) ladder_.Note(session->player, kLoadlessWeight);
     }
     AddDrops(stats_.counters, before, &session->account->dropped);
   }
@@ -103,8 +107,12 @@ void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
   const Doubt& gravest =
       *std::max_element(doubts.begin(), doubts.end(),
                         [](const Doubt& a, const Doubt& b) { return a.weight < b.weight; });
-  ladder_.Note(session.player, gravest.weight);
   ++stats_.connections.doubts;
+  if (!sessions_.AnyReturned(now_us, kReturnUs)) {
+    ladder_.Note(session.player, gravest.weight);
+  } else if (gravest.refused && config_.trust == TrustMode::kAct) {
+    ladder_.NoteParted(session.player, replica_.tick());
+  }
   Audit audit;
   audit.utime = now_us;
   audit.session = room_.session;

@@ -34,7 +34,7 @@ std::int64_t LineRate::NoteSent(std::int64_t now_us, std::size_t bytes) {
   if (looked_us_ < 0) looked_us_ = begun_us_ = now_us;
   sent_ += static_cast<double>(bytes);
   total_ += static_cast<std::int64_t>(bytes);
-  const std::int64_t silent_us = now_us - std::max(looked_us_, halved_us_);
+  const std::int64_t silent_us = now_us - std::max({looked_us_, heard_us_, halved_us_});
   const bool used = sent_ > kUsed * rate_ * static_cast<double>(kUnheardUs) * 1e-6;
   if (silent_us >= kUnheardUs && used) {
     halved_us_ = now_us;

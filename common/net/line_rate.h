@@ -21,7 +21,8 @@ class LineRate {
   /// Records that a datagram is sent. Returns the bytes sent so far, with it.
   std::int64_t NoteSent(std::int64_t now_us, std::size_t bytes);
   /// Records that a datagram has arrived.
-  void NoteArrived(std::size_t bytes) {
+  void NoteArrived(std::int64_t now_us, std::size_t bytes) {
+    heard_us_ = now_us;
     arrived_ += static_cast<double>(bytes);
     ++datagrams_;
   }
@@ -61,7 +62,8 @@ class LineRate {
   std::int64_t least_us_ = -1, least_before_us_ = -1, epoch_us_ = 0;
   // Since the last look.
   std::int64_t looked_us_ = -1;  // from which the next look is due; later while a queue drains
-  std::int64_t begun_us_ = 0, halved_us_ = 0;
+  std::int64_t begun_us_ = 0;
+  std::int64_t heard_us_ = 0, halved_us_ = 0;  // last arrival, and cut for silence
   std::int64_t rtt_least_us_ = -1, rtt_sum_us_ = 0, rtts_ = 0;
   double sent_ = 0, arrived_ = 0;
   int datagrams_ = 0;       // that have arrived

@@ -183,7 +183,7 @@ struct Link::Impl {
     if (record.acked) return;
     record.acked = ever_acked = true;
     acknowledged = std::max(acknowledged, number);
-    rate.NoteArrived(record.bytes);
+    rate.NoteArrived(now_us, record.bytes);
     if (sample && !quiet) {
       SampleRtt(now_us - record.sent_us);
       sampled = &record;

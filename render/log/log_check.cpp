@@ -68,7 +68,7 @@ LogCheck CheckLog(const std::string& path, const Secret* key) {
   check.skipped_bytes = reader.skipped_bytes();
   check.damage = reader.damage();
   check.begins_after = reader.begins_after();
-  if (check.damaged()) check.missing = CountMissing(path, check);
+  check.missing = CountMissing(path, check);
   return check;
 }
 

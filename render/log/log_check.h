@@ -28,7 +28,7 @@ struct LogCheck {
   std::int64_t skipped_bytes = 0;
   /// Tick behind which it begins, if its first segments are not there.
   std::optional<std::int64_t> begins_after;
-  std::int64_t missing = 0;  ///< messages, by their numbers; counted only if the log is damaged
+  std::int64_t missing = 0;  ///< messages, by their numbers
   std::vector<DamagedRange> damage;
   std::map<std::string, std::map<std::int64_t, SessionSpan>> rooms;  ///< by name and session
 

@@ -76,6 +76,13 @@ int RunLogVerify(const LogVerifyCommand& command) {
       for (const std::string& line : LinesOf(check)) {
         std::printf("%s: %s\n", path.c_str(), line.c_str());
       }
+    } else if (check.missing > 0) {
+      status = 1;
+      std::printf(
+          "%s: all %lld events are as they were written, but %lld messages are missing by "
+          "their numbers\n",
+          path.c_str(), static_cast<long long>(check.events),
+          static_cast<long long>(check.missing));
     } else if (check.seals == 0) {
       std::printf("%s: all %lld events decode; it has no checksums\n", path.c_str(),
                   static_cast<long long>(check.events));

@@ -117,6 +117,12 @@ void SessionTable::Forsake() {
   NoteChanged();
 }
 
+bool SessionTable::AnyReturned(std::int64_t now_us, std::int64_t within_us) const {
+  return std::any_of(in_order_.begin(), in_order_.end(), [&](const Session* session) {
+    return session->stage == SessionStage::kReady && now_us - session->returned_us < within_us;
+  });
+}
+
 bool SessionTable::AllTold() const {
   return std::none_of(in_order_.begin(), in_order_.end(),
                       [](const Session* session) { return session->link.reliable_pending(); });

@@ -163,8 +163,11 @@ Session* SessionTable::Admit(std::int64_t now_us, const SessionId& id, const Sea
 SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& session,
                                               const Address& from, const Bytes& datagram,
                                               const Deliver& deliver) {
+  const std::int64_t heard_us = session.link.last_receive_us();
+  const bool silent = heard_us >= 0 && now_us - heard_us > kSilentUs;
   bool over = false;
   const auto gate = [&](std::size_t messages) {
+    if (silent) session.returned_us = now_us;
     over = !session.budget.Take(now_us, datagram.size(), messages);
     return !over;
   };

@@ -31,8 +31,9 @@ void TrustLadder::Note(int player, float weight) {
   standing.score = std::min(kScoreMax, standing.score + weight);
 }
 
-void TrustLadder::NoteWithheld(int player, std::int64_t tick) {
-  standings_[static_cast<std::size_t>(player)].withheld_until = tick + kWithheldS * tick_hz_;
+void TrustLadder::Withhold(int player, std::int64_t until) {
+  std::int64_t& withheld = standings_[static_cast<std::size_t>(player)].withheld_until;
+  withheld = std::max(withheld, until);
 }
 
 bool TrustLadder::MayHold(int player, std::int64_t tick) const {

@@ -33,7 +33,12 @@ class TrustLadder {
   /// Adds a doubt about a player's client. Weight 1: a small difference told for .25 s.
   void Note(int player, float weight);
   /// Takes away the player's right to hold bodies for kWithheldS: it did not let go.
-  void NoteWithheld(int player, std::int64_t tick);
+  void NoteWithheld(int player, std::int64_t tick) {
+    Withhold(player, tick + kWithheldS * tick_hz_);
+  }
+  /// Does so for kReturnS: after somebody's silence its states differ from those that the server
+  /// has told everybody meanwhile. That is no doubt about its client.
+  void NoteParted(int player, std::int64_t tick) { Withhold(player, tick + kReturnS * tick_hz_); }
 
   struct Change {
     int player = -1;
@@ -43,7 +48,7 @@ class TrustLadder {
   std::vector<Change> Update(std::int64_t tick);
   TrustStep step(int player) const { return At(player).step; }
   float score(int player) const { return At(player).score; }
-  /// True for kWithheldS after NoteWithheld.
+  /// True for so long after NoteWithheld and NoteParted.
   bool Withholds(int player, std::int64_t tick) const { return tick < At(player).withheld_until; }
   /// True if the player's client may have authority.
   bool MayHold(int player, std::int64_t tick) const;
@@ -55,6 +60,9 @@ class TrustLadder {
   static constexpr float kNoted = 1, kWatched = 4, kDistrusted = 8;
   static constexpr float kLeakPerS = 1;
   static constexpr int kHeldS = 30, kInputsOnlyS = 120, kRememberS = 600, kWithheldS = 30;
+  /// Time after a silence in which differences are taken for its effects, s: a hand-over over any
+  /// network. Longer lets a client lie unscored after each silence, though nobody believes it.
+  static constexpr int kReturnS = 2;
 
  private:
   struct Standing {
@@ -67,6 +75,7 @@ class TrustLadder {
   };
   const Standing& At(int player) const { return standings_[static_cast<std::size_t>(player)]; }
   TrustStep Next(Standing* standing, std::int64_t tick) const;
+  void Withhold(int player, std::int64_t until);
 
   const int tick_hz_;
   std::vector<Standing> standings_;  // by player

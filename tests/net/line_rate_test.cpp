@@ -104,7 +104,7 @@ class Sender {
   }
   void TakeAcks() {
     for (; !acks_.empty() && acks_.front().at_ms <= now_ms_; acks_.pop_front()) {
-      for (const Datagram& one : acks_.front().of) rate_.NoteArrived(one.bytes);
+      for (const Datagram& one : acks_.front().of) rate_.NoteArrived(now_us(), one.bytes);
       const Datagram& newest = acks_.front().of.back();
       rate_.NoteRoundTrip(now_us(), static_cast<std::int64_t>(1000 * (now_ms_ - newest.sent_ms)),
                           newest.total);
@@ -181,10 +181,23 @@ TEST(LineRate, AQueueThatIsNotOursIsTakenForThePath) {
   for (int i = 0; i < 1200; ++i) {  // 20 s of 200 ms instead of 66, whatever is sent
     now_us += 16667;
     total = rate.NoteSent(now_us, static_cast<std::size_t>(rate.bytes_per_s() / 60));
-    rate.NoteArrived(static_cast<std::size_t>(rate.bytes_per_s() / 60));
+    rate.NoteArrived(now_us, static_cast<std::size_t>(rate.bytes_per_s() / 60));
     rate.NoteRoundTrip(now_us, 200000, total);
   }
   EXPECT_GT(rate.bytes_per_s(), 20000);
+}
+
+/// A peer at rest answers late: its round trips are not sampled (Link::SetQuiet).
+TEST(LineRate, ArrivalsWithoutRoundTripsDoNotLowerIt) {
+  LineRate rate;
+  std::int64_t now_us = 1'000'000;
+  for (int i = 0; i < 600; ++i) {
+    now_us += 16667;
+    const auto bytes = static_cast<std::size_t>(rate.bytes_per_s() / 60) + 1;
+    rate.NoteSent(now_us, bytes);
+    if (i % 6 == 0) rate.NoteArrived(now_us, bytes);
+  }
+  EXPECT_EQ(rate.bytes_per_s(), LineRate::kStart);
 }
 
 TEST(LineRate, ALineThatCarriesNothingIsLeftAlone) {

@@ -191,6 +191,16 @@ TEST_F(LogProgram, AllCountTheSameMessagesAsMissing) {
   EXPECT_GT(most, 10);
 }
 
+TEST_F(LogProgram, VerifyCountsWhatALoggerHasMissed) {
+  Capture("lost.lcm", 0, [](std::int64_t n) { return n < 500 || n > 540; });
+  const int missing = static_cast<int>(ReadRecording(At("lost.lcm")).bus_gaps);
+  EXPECT_GT(missing, 10);
+  const std::string says = Run({"verify", At("lost.lcm")}, 1);
+  EXPECT_NE(says.find("are as they were written, but " + std::to_string(missing) + " messages"),
+            std::string::npos)
+      << says;
+}
+
 TEST_F(LogProgram, CapturesOfOtherMachinesMergeIntoTheWholeWithoutDuplicates) {
   // Each logger missed others; one has a clock that is 7 s ahead.
   Capture("a.lcm", 0, [](std::int64_t n) { return n < 10 || n % 5 != 0; });
