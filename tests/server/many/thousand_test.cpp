@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -174,7 +175,8 @@ class Room {
       }
       const std::int64_t before_us = ThreadCpuUs();
       server.Tick(now_us_, 0);
-      server_us_ += static_cast<double>(ThreadCpuUs() - before_us);
+      if (instant % 4 == 0) ticks_us_.push_back(0);
+      ticks_us_.back() += static_cast<double>(ThreadCpuUs() - before_us);
     }
   }
   bool AllDrive() const {
@@ -186,12 +188,13 @@ class Room {
     constexpr int kJoiningMost = 600, kSettle = 60, kMeasured = 60;
     for (int ticks = 0; ticks < kJoiningMost && !AllDrive(); ++ticks) Run(1);
     Run(kSettle);
-    server_us_ = 0;
+    ticks_us_.clear();
     const double before = Bytes();
     Run(kMeasured);
     const double seconds = kMeasured / static_cast<double>(kTickHz);
     kbps_to_each = (Bytes() - before) * 1e-3 / seconds / static_cast<double>(drivers.size());
-    tick_us = server_us_ / kMeasured;
+    tick_us = std::accumulate(ticks_us_.begin(), ticks_us_.end(), 0.0) / kMeasured;
+    longest_us = *std::max_element(ticks_us_.begin(), ticks_us_.end());
   }
 
  private:
@@ -209,8 +212,8 @@ class Room {
  public:
   Server server;
   std::vector<std::unique_ptr<Driver>> drivers;
-  double tick_us = 0;       // CPU time of the server
-  double kbps_to_each = 0;  // kB/s
+  double tick_us = 0, longest_us = 0;  // CPU time of the server
+  double kbps_to_each = 0;             // kB/s
 
  private:
   double Bytes() const {
@@ -218,7 +221,7 @@ class Room {
     for (const auto& driver : drivers) sum += static_cast<double>(driver->guest.bytes_in);
     return sum;
   }
-  double server_us_ = 0;
+  std::vector<double> ticks_us_;  // of the server
 };
 
 TEST(Thousand, PlayersOfOneRoomDriveAndHearTheirNeighboursAtACostThatGrowsWithThem) {
@@ -241,9 +244,11 @@ TEST(Thousand, PlayersOfOneRoomDriveAndHearTheirNeighboursAtACostThatGrowsWithTh
   EXPECT_EQ(room.server.stats().dropped_right, 0);
   const double power = std::log(room.tick_us / some.tick_us) / std::log(1000.0 / 128);
   std::printf(
-      "[          ] 128 players: %.0f us a tick, %.1f kB/s to each; 1000: %.0f, %.1f; N^%.2f; %d "
-      "hear inputs\n",
-      some.tick_us, some.kbps_to_each, room.tick_us, room.kbps_to_each, power, hearers);
+      "[          ] 128 players: %.0f us a tick (longest %.0f), %.1f kB/s to each; 1000: %.0f "
+      "(%.0f), "
+      "%.1f; N^%.2f; %d hear inputs\n",
+      some.tick_us, some.longest_us, some.kbps_to_each, room.tick_us, room.longest_us,
+      room.kbps_to_each, power, hearers);
   // Of the bodies out of interest each is told so many a second, however large the room.
   constexpr double kDistantKbps = 0.02 * Broadcast::kDistantPerSecond;
   EXPECT_LT(room.kbps_to_each, some.kbps_to_each + kDistantKbps);
