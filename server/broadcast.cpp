@@ -44,6 +44,9 @@ void Broadcast::Tell(const std::vector<Grants>& changes) {
     return;
   }
   const std::int64_t now_us = changes.back().utime;
+  PeerSet clients;
+  sessions_.ForEachSentRoom([&](const Session& session) { clients.Add(session.peer); });
+  grant_audience_.Sort(clients);
   sessions_.ForEachSentRoom(
       [&](Session& session) { Send(now_us, session, grant_audience_.For(session.peer)); });
   SendRestToFollowers(now_us, changes);
@@ -66,18 +69,16 @@ void Broadcast::SendRestToFollowers(std::int64_t now_us, const std::vector<Grant
   }
 }
 
-/// Updates followers_. A request to release lists the holder as a follower, too: harmless.
+/// Updates followers_ from the table: a message does not list all followers of a crowd.
 void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
+  const AuthorityTable& table = replica_.authority();
   for (const Grants& grants : changes) {
-    auto next = grants.follower.begin();
-    for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {
-      const auto end = next + grants.followers[i];
-      const int m = replica_.authority().IndexOf(grants.mechanism[i]);
-      if (m >= 0) {
-        followers_[m].assign(next, end);
-        NoteUnsettled(m);
-      }
-      next = end;
+    for (const std::int32_t id : grants.mechanism) {
+      const int m = table.IndexOf(id);
+      if (m < 0) continue;
+      followers_[m].clear();
+      table.at(m).secondaries.Each([&](int peer) { followers_[m].push_back(peer); });
+      NoteUnsettled(m);
     }
   }
 }
@@ -119,23 +120,40 @@ void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, 
   });
 }
 
-/// True if a session is sent rest commits of the mechanism at once: if it is in interest, if the
-/// client simulates it, and always before the client is ready.
-bool Broadcast::NeedsRestNow(const Session& session, int mechanism) const {
-  return session.stage != SessionStage::kReady || Simulates(session.peer, mechanism) ||
-         interest_.Of(session.peer, mechanism) != Relevance::kNone;
+/// Returns the peers that are sent rest commits of the mechanism at once: those to which it is in
+/// interest, and those that simulate it.
+PeerSet Broadcast::HearingRest(int mechanism) const {
+  PeerSet hearing;
+  for (const int peer : interest_.ReceiversFar(mechanism)) hearing.Add(peer);
+  if (simulators_ == Policy::Simulators::kNear) return hearing;
+  const AuthorityRecord& record = replica_.authority().at(mechanism);
+  hearing.Add(record.authority);
+  hearing.Add(record.secondaries);
+  return hearing;
 }
 
 void Broadcast::TellRest(const Rest& rest, int from_peer) {
-  if (Plain() || interest_.small() || interest_.unknown()) {
+  const bool everyone = simulators_ == Policy::Simulators::kEveryone;
+  if (Plain() || everyone || interest_.small() || interest_.unknown()) {
     sessions_.SendToAll(Encode(rest), from_peer);
     return;
   }
+  PeerSet clients, all_ears;  // not ready yet, or not looked for
+  sessions_.ForEachSentRoom([&](const Session& session) {
+    if (session.peer == from_peer) return;
+    clients.Add(session.peer);
+    const bool looked_for = session.stage == SessionStage::kReady && interest_.Knows(session.peer);
+    if (!looked_for) all_ears.Add(session.peer);
+  });
   rest_audience_.Take(rest);
+  rest_audience_.Sort(clients, [&](int mechanism) {
+    PeerSet hearing = HearingRest(mechanism);
+    hearing.Add(all_ears);
+    return hearing;
+  });
   sessions_.ForEachSentRoom([&](Session& session) {
     if (session.peer == from_peer) return;
-    const auto hears = [&](int mechanism) { return NeedsRestNow(session, mechanism); };
-    const Rest told = rest_audience_.For(session.peer, hears);
+    const Rest told = rest_audience_.For(session.peer);
     if (!told.id.empty()) sessions_.SendTo(session, Encode(told));
   });
 }

@@ -179,7 +179,7 @@ class Broadcast {
   void FindFollowers();
   void RefreshDistant(std::int64_t now_us, Session& session);
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
-  bool NeedsRestNow(const Session& session, int mechanism) const;
+  PeerSet HearingRest(int mechanism) const;
   /// Sends the pending rest commits of these mechanisms to a session.
   void SendPendingRest(std::int64_t now_us, Session& session, const std::vector<int>& mechanisms);
   void SendRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes);

@@ -344,7 +344,7 @@ class Server {
   // Used while inputs are relayed to one session.
   InputsPacker inputs_packer_;
   std::vector<Receipt> input_receipts_;
-  std::vector<int> input_candidates_;
+  std::vector<std::vector<int>> hearers_;  // by player: peers to which it is relevant
 };
 
 }  // namespace seam

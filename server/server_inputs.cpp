@@ -1,7 +1,6 @@
 /// Server, inputs of players: taken, relayed; and rooms in which peers send inputs alone.
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,28 +82,31 @@ void Server::RelayInputs(std::int64_t now_us) {
   if (input_room_ != nullptr) {  // it writes some
     for (Inputs& newest : newest_inputs_) newest.drive.clear();
   }
+  for (const int p : inputs_due_) {  // ascending, and so are the sessions' lists
+    if (stepped || static_cast<std::size_t>(p) >= hearers_.size()) break;
+    for (const int peer : hearers_[static_cast<std::size_t>(p)]) {
+      Session* const session = sessions_.Find(peer);
+      const bool ready = session != nullptr && session->stage == SessionStage::kReady;
+      if (ready) session->due_players.push_back(p);
+    }
+  }
+  inputs_due_.clear();
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(scene_.players.size());
     if (stepped) {
       RelayInputs(now_us, session.relevant_players, session);
       return;
     }
-    const std::vector<int>& heard = session.relevant_players;
-    input_candidates_.clear();
-    std::set_intersection(inputs_due_.begin(), inputs_due_.end(), heard.begin(), heard.end(),
-                          std::back_inserter(input_candidates_));
+    std::vector<int>& players = session.due_players;
     const std::vector<int>& unsent = session.unsent_players;
-    const bool none = input_candidates_.empty();
-    if (none && (unsent.empty() || !session.link.Sends(now_us))) return;
-    const auto due = static_cast<std::ptrdiff_t>(input_candidates_.size());
-    input_candidates_.insert(input_candidates_.end(), unsent.begin(), unsent.end());
-    std::inplace_merge(input_candidates_.begin(), input_candidates_.begin() + due,
-                       input_candidates_.end());
-    const auto end = std::unique(input_candidates_.begin(), input_candidates_.end());
-    input_candidates_.erase(end, input_candidates_.end());
-    RelayInputs(now_us, input_candidates_, session);
+    if (players.empty() && (unsent.empty() || !session.link.Sends(now_us))) return;
+    const auto due = static_cast<std::ptrdiff_t>(players.size());
+    players.insert(players.end(), unsent.begin(), unsent.end());
+    std::inplace_merge(players.begin(), players.begin() + due, players.end());
+    players.erase(std::unique(players.begin(), players.end()), players.end());
+    RelayInputs(now_us, players, session);
+    players.clear();
   });
-  inputs_due_.clear();
 }
 
 /// Relays the inputs of these players, ascending, to one session.
@@ -153,11 +155,14 @@ void Server::FindRelevantPlayers() {
     session.relevant_players.clear();
     session.unsent_players.clear();  // the next tick checks all
   });
+  hearers_.assign(scene_.players.size(), {});
   const Drivers& drivers = replica_.drivers();
   for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
     const auto hears = [&](Session& session) {
       std::vector<int>& heard = session.relevant_players;
-      if (session.player != p && (heard.empty() || heard.back() != p)) heard.push_back(p);
+      if (session.player == p || (!heard.empty() && heard.back() == p)) return;
+      heard.push_back(p);
+      hearers_[static_cast<std::size_t>(p)].push_back(session.peer);
     };
     if (drivers.MovesBelt(p) || input_room_ != nullptr) {
       sessions_.ForEachReady(0, hears);

@@ -171,10 +171,9 @@ void Server::NoteCorrected(int body, const BodyState& by) {
   const int peer = replica_.authority().at(mechanism).authority;
   const auto& mechanisms = replica_.world().composition().mechanisms;
   const int owner = mechanisms[static_cast<std::size_t>(mechanism)].owner;
-  Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
-  sessions_.ForEachReady(0, [&](Session& other) {
-    if (peer == 0 && owner >= 0 && other.player == owner) session = &other;
-  });
+  const bool owned = peer == 0 && owner >= 0;
+  const int of = owned ? sessions_.PeerOfPlayer()[static_cast<std::size_t>(owner)] : peer;
+  Session* const session = of > 0 ? sessions_.Find(of) : nullptr;
   if (session != nullptr) ++session->account->corrections;
 }
 

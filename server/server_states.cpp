@@ -111,11 +111,15 @@ void Server::OnExactStates(std::int64_t now_us, Session& session, const ExactSta
     authority_.NoteCopyError(replica_.world().BodyOfId(id), off);
   }
   const Bytes bytes = Encode(kept);
-  sessions_.ForEachReady(session.peer, [&](Session& other) {
-    const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int32_t id) {
-      return authority_.Awaits(other.peer, replica_.world().BodyOfId(id));
-    });
-    if (awaits) sessions_.SendUrgentTo(other, bytes);
+  PeerSet awaiting;
+  for (const std::int32_t id : kept.id) {
+    authority_.AddAwaiting(replica_.world().BodyOfId(id), &awaiting);
+  }
+  awaiting.Remove(session.peer);
+  awaiting.Each([&](int peer) {
+    Session* const other = sessions_.Find(peer);
+    const bool ready = other != nullptr && other->stage == SessionStage::kReady;
+    if (ready) sessions_.SendUrgentTo(*other, bytes);
   });
 }
 

@@ -9,8 +9,11 @@ namespace seam {
 /// Peers are 0..kPeersMax - 1; 0 is the server. With more of them each session's tables grow.
 constexpr std::int32_t kPeersMax = 1024;
 /// Most players of a scene. Peer numbers are reserved for players; spectators take the rest.
-constexpr std::int32_t kPlayersMax = 256;
+constexpr std::int32_t kPlayersMax = 1000;
 static_assert(kPlayersMax < kPeersMax);
+/// Most players of a room that every peer follows whole. With more, a body that all follow would
+/// take each state to each of them: the cost of a room would be the square of its players.
+constexpr std::int32_t kPlayersFollowingMax = 256;
 
 /// Range of a scene's ticks per second. With fewer, bodies tunnel; more gain nothing.
 constexpr int kTickHzMin = 10, kTickHzMax = 960;

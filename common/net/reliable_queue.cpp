@@ -37,7 +37,6 @@ bool ReliableQueue::Push(ByteView message, bool urgent) {
   queued.bytes.assign(message.begin(), message.end());
   messages_.push_back(std::move(queued));
   FillWindow();
-  due_us_ = 0;
   return true;
 }
 
@@ -47,15 +46,15 @@ void ReliableQueue::MarkAcked(std::int64_t id) {
   while (!messages_.empty() && messages_.front().acked) {
     window_bytes_ -= messages_.front().bytes.size();
     --window_;
+    sent_ -= std::min<std::size_t>(sent_, 1);
     messages_.pop_front();
-    due_us_ = 0;  // the window has moved
   }
   FillWindow();
 }
 
 void ReliableQueue::SetRetransmissionTimeout(std::int64_t late_us) {
+  if (late_us < late_us_) due_us_ = 0;  // a resend may be due earlier now
   late_us_ = late_us;
-  due_us_ = 0;  // a resend may be due earlier now
 }
 
 void ReliableQueue::FillWindow() {
@@ -86,7 +85,7 @@ std::int64_t ReliableQueue::FirstDueUs() const {
 }
 
 bool ReliableQueue::Due(std::int64_t now_us) const {
-  return now_us >= due_us_ && now_us >= (due_us_ = FirstDueUs());
+  return HasUnsent() || (now_us >= due_us_ && now_us >= (due_us_ = FirstDueUs()));
 }
 
 void ReliableQueue::ChargeDuplicate(std::int64_t now_us, const Message& message) {
@@ -97,7 +96,7 @@ void ReliableQueue::ChargeDuplicate(std::int64_t now_us, const Message& message)
 
 void ReliableQueue::Take(std::int64_t now_us, bool rides, std::size_t most_bytes,
                          const Pack& pack) {
-  if (now_us < due_us_ && !rides) return;
+  if (now_us < due_us_ && !HasUnsent() && !rides) return;
   const std::int64_t chance_us = rides ? kDuplicateRidesUs : kDuplicateDelayUs;
   std::size_t budget = std::min(kTakeBytes, most_bytes);
   bool first = true;
@@ -112,6 +111,7 @@ void ReliableQueue::Take(std::int64_t now_us, bool rides, std::size_t most_bytes
       message.chance = false;
     }
     message.sent_us = now_us;
+    sent_ = std::max(sent_, i + 1);
     pack(message.id, message.bytes);
   }
   due_us_ = FirstDueUs();

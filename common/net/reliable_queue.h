@@ -43,6 +43,7 @@ class ReliableQueue {
   };
   std::int64_t DueUs(const Message& message, std::int64_t chance_us) const;
   std::int64_t FirstDueUs() const;
+  bool HasUnsent() const { return sent_ < window_; }
   /// Extends the window by as many messages as fit.
   void FillWindow();
   /// Charges a speculative duplicate to the rate limit.
@@ -50,11 +51,12 @@ class ReliableQueue {
 
   std::deque<Message> messages_;
   std::size_t window_ = 0;        // number of leading messages in the window
+  std::size_t sent_ = 0;          // number of leading messages that were sent
   std::size_t window_bytes_ = 0;  // their bytes
   std::int64_t next_id_ = 0;
   std::int64_t late_us_;
   std::int64_t duplicates_paid_us_ = 0;  // time at which past duplicates fit the rate limit
-  mutable std::int64_t due_us_ = 0;   // no message of the window is due before
+  mutable std::int64_t due_us_ = 0;      // no message that was sent is due before
 };
 
 }  // namespace seam

@@ -24,6 +24,11 @@ AuthorityRecord Merged(const std::vector<const AuthorityRecord*>& before,
   return record;
 }
 
+/// Returns how many followers a Grants lists of the record.
+std::size_t ListedFollowers(const AuthorityRecord& record) {
+  return std::min(static_cast<std::size_t>(record.secondaries.size()), kGrantFollowersMax);
+}
+
 }  // namespace
 
 AuthorityTable::AuthorityTable(const Composition& composition, const BodyTable& table,
@@ -84,25 +89,28 @@ std::vector<Grants> AuthorityTable::Export(
   std::vector<Grants> out;
   for (const int m : mechanisms) {
     const AuthorityRecord record = record_of(m);
-    const auto followers = static_cast<std::size_t>(record.secondaries.size());
     const bool full = out.empty() || out.back().mechanism.size() >= kGrantsMax ||
-                      out.back().follower.size() + followers > kGrantFollowersMax;
+                      out.back().follower.size() + ListedFollowers(record) > kGrantFollowersMax;
     if (full) {
       out.emplace_back();
       out.back().utime = utime;
       out.back().tick = tick;
     }
-    Grants& g = out.back();
-    const std::size_t end = g.follower.size() + followers;
-    g.mechanism.push_back(id(m));
-    g.authority.push_back(static_cast<std::int16_t>(record.authority));
-    g.epoch.push_back(record.epoch);
-    g.followers.push_back(static_cast<std::int16_t>(followers));
-    for (int peer = 0; g.follower.size() < end; ++peer) {
-      if (record.secondaries.Has(peer)) g.follower.push_back(static_cast<std::int16_t>(peer));
-    }
+    AddRecord(id(m), record, &out.back());
   }
   return out;
+}
+
+void AddRecord(PartId id, const AuthorityRecord& record, Grants* grants) {
+  const std::size_t followers = ListedFollowers(record);
+  const std::size_t end = grants->follower.size() + followers;
+  grants->mechanism.push_back(id);
+  grants->authority.push_back(static_cast<std::int16_t>(record.authority));
+  grants->epoch.push_back(record.epoch);
+  grants->followers.push_back(static_cast<std::int16_t>(followers));
+  record.secondaries.Each([&](int peer) {
+    if (grants->follower.size() < end) grants->follower.push_back(static_cast<std::int16_t>(peer));
+  });
 }
 
 void PeerSet::Persist(StateArchive& a) {

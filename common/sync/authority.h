@@ -55,4 +55,9 @@ class AuthorityTable {
   MechanismColumn<PartId> ids_;
 };
 
+/// Adds an entry to a message. Of more than kGrantFollowersMax followers the lowest are listed, the
+/// server first: only a crowd of a large room has so many, and its clients are told the entry in
+/// the form for each (GrantAudience).
+void AddRecord(PartId id, const AuthorityRecord& record, Grants* grants);
+
 }  // namespace seam

@@ -48,8 +48,8 @@ static_assert(Largest(kStatesBytes, kStatesBodiesMax) <= kMessageBytesMax, "Stat
 static_assert(Largest(kGrantsBytes, kGrantsMax) + kFollowerBytes * kGrantFollowersMax <=
                   kMessageBytesMax,
               "Grants too large");
-static_assert(kGrantFollowersMax >= static_cast<std::size_t>(kPlayersMax) + 1,
-              "one mechanism's followers, all players and the server, must fit one Grants");
+static_assert(kGrantFollowersMax >= static_cast<std::size_t>(kPlayersFollowingMax) + 1,
+              "the followers of a mechanism that all follow must fit one Grants");
 static_assert(Largest(kReleaseBytes, kReleasesMax) <= kMessageBytesMax, "Release too large");
 static_assert(Largest(kRestBytes, kRestBodiesMax) <= kMessageBytesMax, "Rest too large");
 static_assert(Largest(kExactStatesBytes, kExactBodiesMax) <= kMessageBytesMax,

@@ -22,14 +22,7 @@ Grants Told(std::int64_t now_us, std::int64_t tick, PartId id, const AuthorityRe
   Grants told;
   told.utime = now_us;
   told.tick = tick;
-  told.mechanism.push_back(id);
-  told.authority.push_back(static_cast<std::int16_t>(record.authority));
-  told.epoch.push_back(record.epoch);
-  const int followers = record.secondaries.size();
-  told.followers.push_back(static_cast<std::int16_t>(followers));
-  for (int peer = 0; static_cast<int>(told.follower.size()) < followers; ++peer) {
-    if (record.secondaries.Has(peer)) told.follower.push_back(static_cast<std::int16_t>(peer));
-  }
+  AddRecord(id, record, &told);
   return told;
 }
 
@@ -278,10 +271,12 @@ void AuthorityManager::NoteTold(int body, const BodyState& off) {
   if (far) memory.contested += 1;
 }
 
-bool AuthorityManager::Awaits(int peer, int body) const {
-  const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
-  if (Follows(peer, body)) return true;
-  return m < plan_.size() && plan_[m].authority == peer;
+void AuthorityManager::AddAwaiting(int body, PeerSet* peers) const {
+  const int m = replica_.world().mechanism(body);
+  peers->Add(table().at(m).secondaries);
+  if (static_cast<std::size_t>(m) < plan_.size()) {
+    peers->Add(plan_[static_cast<std::size_t>(m)].authority);
+  }
 }
 
 AuthorityRecord AuthorityManager::WithoutHolder(AuthorityRecord record) const {
@@ -317,10 +312,6 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
 int AuthorityManager::Wanted(int mechanism) const {
   const auto m = static_cast<std::size_t>(mechanism);
   return m < plan_.size() ? plan_[m].authority : table().at(mechanism).authority;
-}
-
-bool AuthorityManager::Follows(int peer, int body) const {
-  return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
 }
 
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {

@@ -77,8 +77,6 @@ class AuthorityManager {
   /// Returns the authority that the last plan gives a mechanism, or the current one if there is no
   /// plan yet.
   int Wanted(int mechanism) const;
-  /// True if the peer follows a body in its buffer zone.
-  bool Follows(int peer, int body) const;
   /// True if all mechanisms have the same authority and none is being handed over.
   bool InOneHand(const std::vector<int>& mechanisms) const;
 
@@ -108,8 +106,8 @@ class AuthorityManager {
   bool WatchesAgreement() const { return view_.settles; }
   /// Records the error of the server's copy of a body against its holder's state of the same tick.
   void NoteTold(int body, const BodyState& off);
-  /// True if the peer needs the state in which a mechanism's holder released it.
-  bool Awaits(int peer, int body) const;
+  /// Adds the peers that need the state in which the holder of the body's mechanism released it.
+  void AddAwaiting(int body, PeerSet* peers) const;
 
   /// Corrections above these, m and m/s, are visible as a jump. Copies converge to a correction
   /// within kConvergeS, s; longer delays hand-overs, by half a second at most.

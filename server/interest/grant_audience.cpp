@@ -64,39 +64,67 @@ void GrantAudience::Take(const std::vector<Grants>& changes) {
   }
 }
 
-bool GrantAudience::Concerns(int peer, const Change& change, const AuthorityRecord& now) const {
-  const AuthorityRecord& before = change.before;
-  const bool changed = before.authority != now.authority || before.epoch != now.epoch;
-  const bool followed = before.secondaries.Has(peer), follows = now.secondaries.Has(peer);
-  if (followed != follows) return true;
-  const bool holds = now.authority == peer;
-  // The holder proposes the mechanism's edits, unless the server follows it.
-  if (holds && before.secondaries.Has(0) != now.secondaries.Has(0)) return true;
-  if (holds && (OneFollower(before) < 0) != (OneFollower(now) < 0)) return true;
-  if (!changed) return false;
-  return holds || before.authority == peer || follows ||
-         interest_.Of(peer, change.mechanism) >= Relevance::kNear;
+bool GrantAudience::Changed(const Change& change) const {
+  const AuthorityRecord& now = replica_.authority().at(change.mechanism);
+  return change.before.authority != now.authority || change.before.epoch != now.epoch;
 }
 
-std::vector<Grants> GrantAudience::For(int peer) {
-  std::vector<Grants> out;
-  for (const Change& change : changes_) {
-    const int m = change.mechanism;
-    const AuthorityRecord& now = replica_.authority().at(change.mechanism);
+PeerSet GrantAudience::ConcernedBy(const Change& change, const PeerSet& strangers) const {
+  const AuthorityRecord& before = change.before;
+  const AuthorityRecord& now = replica_.authority().at(change.mechanism);
+  PeerSet came = now.secondaries, concerned = before.secondaries;
+  came.Remove(before.secondaries);
+  concerned.Remove(now.secondaries);
+  concerned.Add(came);
+  // The holder proposes the mechanism's edits, unless the server follows it.
+  if (before.secondaries.Has(0) != now.secondaries.Has(0)) concerned.Add(now.authority);
+  if ((OneFollower(before) < 0) != (OneFollower(now) < 0)) concerned.Add(now.authority);
+  if (!Changed(change)) return concerned;
+  concerned.Add(now.authority);
+  concerned.Add(before.authority);
+  concerned.Add(now.secondaries);
+  concerned.Add(strangers);
+  if (interest_.unknown()) return concerned;
+  for (const int peer : interest_.ReceiversNear(change.mechanism)) concerned.Add(peer);
+  return concerned;
+}
+
+void GrantAudience::Sort(const PeerSet& clients) {
+  due_.assign(static_cast<std::size_t>(kPeersMax), {});
+  PeerSet strangers;  // everything may be near to them
+  clients.Each([&](int peer) {
+    if (!interest_.Knows(peer)) strangers.Add(peer);
+  });
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    const Change& change = changes_[i];
     if (change.asked > 0) {
-      if (change.asked != peer) continue;
-      AuthorityRecord nobody = now;
-      nobody.secondaries.Add(peer);  // it goes on simulating until a grant names the new holder
-      nobody.authority = 0;
-      nobody.epoch = change.epoch;
-      Add(peer, change.mechanism, nobody, &out);
-    } else if (Concerns(peer, change, now)) {
-      Add(peer, change.mechanism, now, &out);
-      pending_->owed[m].Remove(peer);
-    } else if (change.before.authority != now.authority || change.before.epoch != now.epoch) {
-      pending_->owed[m].Add(peer);
-      pending_->any[m] = 1;
+      due_[static_cast<std::size_t>(change.asked)].push_back(i);
+      continue;
     }
+    PeerSet concerned = ConcernedBy(change, strangers);
+    concerned.Keep(clients);
+    concerned.Each([&](int peer) { due_[static_cast<std::size_t>(peer)].push_back(i); });
+    PeerSet& owed = pending_->owed[change.mechanism];
+    owed.Remove(concerned);
+    if (!Changed(change)) continue;
+    PeerSet others = clients;
+    others.Remove(concerned);
+    owed.Add(others);
+    if (!others.empty()) pending_->any[change.mechanism] = 1;
+  }
+}
+
+std::vector<Grants> GrantAudience::For(int peer) const {
+  std::vector<Grants> out;
+  for (const std::size_t i : due_[static_cast<std::size_t>(peer)]) {
+    const Change& change = changes_[i];
+    AuthorityRecord told = replica_.authority().at(change.mechanism);
+    if (change.asked > 0) {
+      told.secondaries.Add(peer);  // it goes on simulating until a grant names the new holder
+      told.authority = 0;
+      told.epoch = change.epoch;
+    }
+    Add(peer, change.mechanism, told, &out);
   }
   return out;
 }

@@ -25,9 +25,11 @@ class GrantAudience {
   /// Takes the changes that are about to be sent, in the form for all clients: changes that the
   /// authority table already has, or requests to release, which the table follows later.
   void Take(const std::vector<Grants>& changes);
-  /// Returns the changes of the last Take to send to the peer now; marks the other changes of
-  /// authority or epoch as pending for it.
-  std::vector<Grants> For(int peer);
+  /// Chooses the changes of the last Take that each of these clients is sent now; marks the other
+  /// changes of authority or epoch as pending for it.
+  void Sort(const PeerSet& clients);
+  /// Returns the changes to send to the peer now, as of the last Sort.
+  std::vector<Grants> For(int peer) const;
   /// Returns the peer's pending changes and clears them: all, or only those of mechanisms that are
   /// now at least kFar or kNear to it. Merged mechanisms are always included.
   enum class Which { kAll, kFar, kNear };
@@ -50,7 +52,10 @@ class GrantAudience {
   /// Adds a record in the form for one peer. Listed followers: the server and the peer itself; for
   /// the holder, the server and one follower.
   void Add(int peer, int mechanism, const AuthorityRecord& record, std::vector<Grants>* to) const;
-  bool Concerns(int peer, const Change& change, const AuthorityRecord& now) const;
+  bool Changed(const Change& change) const;  ///< its authority or epoch
+  /// Returns the peers to tell at once: with a role in the mechanism, or near it. `strangers`:
+  /// clients for which there was no Look.
+  PeerSet ConcernedBy(const Change& change, const PeerSet& strangers) const;
   void Begin();
   /// Per mechanism, from the first Take on. Changes of merged mechanisms are pending for all peers
   /// to which one of a part is.
@@ -67,6 +72,7 @@ class GrantAudience {
   const Interest& interest_;
   std::int64_t utime_ = 0;
   std::vector<Change> changes_;
+  std::vector<std::vector<std::size_t>> due_;  // by peer, of the last Sort: indices in changes_
   std::optional<Pending> pending_;
 };
 

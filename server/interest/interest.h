@@ -50,6 +50,10 @@ class Interest {
   /// True if there was no Look since the start or the last edit that changed bodies. In a large
   /// room Of then returns kNear for everything, and ReceiversFar is not valid.
   bool unknown() const { return relevance_.empty(); }
+  /// False for a peer with a higher number than all receivers of the last Look; Of is kNear for it.
+  bool Knows(int peer) const {
+    return small_ || static_cast<std::size_t>(peer) * stride_ < relevance_.size();
+  }
   /// Returns the receivers to which the mechanism is at least kFar, as of the last Look. Requires a
   /// large room.
   const std::vector<int>& ReceiversFar(int mechanism) const { return hearing_[mechanism]; }

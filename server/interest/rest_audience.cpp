@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/scene/mechanism_ids.h"
+#include "server/interest/pose_entry.h"
 
 namespace seam {
 
@@ -24,12 +25,18 @@ void RestAudience::Take(const Rest& rest) {
   }
 }
 
-void RestAudience::MarkPending(int peer, int mechanism) {
+Rest RestAudience::For(int peer) const {
+  Rest told = head_;
+  for (const std::size_t i : due_[static_cast<std::size_t>(peer)]) AddPose(rest_, i, &told);
+  return told;
+}
+
+void RestAudience::MarkPending(const PeerSet& peers, int mechanism) {
   if (!owed_) {
     owed_.emplace(replica_.table(),
                   [](const PeerSet& before, PeerSet* into) { into->Add(before); });
   }
-  (*owed_)[mechanism].Add(peer);
+  (*owed_)[mechanism].Add(peers);
 }
 
 bool RestAudience::IsPendingFor(int peer, const RestBlock& at) const {
@@ -49,6 +56,7 @@ std::vector<Rest> RestAudience::Owed(int peer, const std::vector<int>& mechanism
   for (const int mechanism : mechanisms) {
     if (!IsPendingFor(peer, mechanism)) continue;
     (*owed_)[mechanism].Remove(peer);
+    bool moves = false;  // the copy here may; its authority has not sent so yet
     EachIdOf(world.composition(), mechanism, [&](PartId id) {
       const int body = world.BodyOfId(id);
       const bool told = body >= 0 && replica_.rest().record(body).committed;
@@ -56,9 +64,10 @@ std::vector<Rest> RestAudience::Owed(int peer, const std::vector<int>& mechanism
       if (replica_.rest().Holds(body)) {
         bodies.push_back(body);
       } else {
-        MarkPending(peer, mechanism);  // the copy here may move; its authority has not sent so yet
+        moves = true;
       }
     });
+    if (moves) (*owed_)[mechanism].Add(peer);
   }
   std::sort(bodies.begin(), bodies.end());  // the mechanisms may come in any order
   return bodies.empty() ? std::vector<Rest>{} : replica_.rest().Again(bodies);

@@ -11,7 +11,6 @@
 #include "common/sync/peer_set.h"
 #include "common/sync/replica.h"
 #include "common/sync/table/mechanism_column.h"
-#include "server/interest/pose_entry.h"
 
 namespace seam {
 
@@ -22,21 +21,23 @@ class RestAudience {
 
   /// Takes a rest commit that is about to be sent.
   void Take(const Rest& rest);
-  /// Returns the part of the last commit to send to a peer now: the mechanisms for which
-  /// `hears(mechanism)` is true. The other mechanisms become pending for the peer.
-  template <class Hears>
-  Rest For(int peer, const Hears& hears) {
-    Rest told = head_;
+  /// Chooses the part of the last commit that each of these clients is sent now: the mechanisms
+  /// that it hears, of which `hearing(mechanism)` returns the peers. The other mechanisms become
+  /// pending for it.
+  template <class Hearing>
+  void Sort(const PeerSet& clients, const Hearing& hearing) {
+    due_.assign(static_cast<std::size_t>(kPeersMax), {});
     for (std::size_t i = 0; i < mechanisms_.size(); ++i) {
       if (mechanisms_[i] < 0) continue;
-      if (hears(mechanisms_[i])) {
-        AddPose(rest_, i, &told);
-      } else {
-        MarkPending(peer, mechanisms_[i]);
-      }
+      PeerSet now = hearing(mechanisms_[i]), later = clients;
+      now.Keep(clients);
+      now.Each([&](int peer) { due_[static_cast<std::size_t>(peer)].push_back(i); });
+      later.Remove(now);
+      if (!later.empty()) MarkPending(later, mechanisms_[i]);
     }
-    return told;
   }
+  /// Returns the part to send to the peer now, as of the last Sort.
+  Rest For(int peer) const;
   /// True if a rest commit of the mechanism, or of a mechanism in the block, is pending for the
   /// peer.
   bool IsPendingFor(int peer, int mechanism) const {
@@ -50,11 +51,12 @@ class RestAudience {
   void NoteTold(int peer);
 
  private:
-  void MarkPending(int peer, int mechanism);
+  void MarkPending(const PeerSet& peers, int mechanism);
 
   const Replica& replica_;
   Rest rest_, head_;             // the last Take; its head without bodies
   std::vector<int> mechanisms_;  // by its entries; -1: the body is gone
+  std::vector<std::vector<std::size_t>> due_;     // by peer, of the last Sort: entries
   std::optional<MechanismColumn<PeerSet>> owed_;  // peers with a pending commit
 };
 

@@ -57,6 +57,7 @@ struct Session {
   std::vector<InputFeed> feeds;      ///< other players' inputs, by player
   std::vector<int> relevant_players;  ///< players with inputs relevant to the client, ascending
   std::vector<int> unsent_players;   ///< the ones with inputs that wait for another message
+  std::vector<int> due_players;      ///< in Server::RelayInputs: the ones with new inputs
   SendQueue send_queue;              ///< states of other peers' bodies to send to the client
   RestBlocks rest;                   ///< comparison with the bodies that rest at the client
   bool rest_agrees = false;          ///< the same bodies rest at both, as of its newest ping

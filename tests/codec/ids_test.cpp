@@ -132,13 +132,13 @@ TEST(Ids, RefusesIdsBeyondTheLimitAndBelowZero) {
   EXPECT_FALSE(IsTaken(meta, kHigh, kIdsMax));
 }
 
-TEST(Ids, AMechanismThatEveryPlayerAndTheServerFollowFitsOneMessage) {
+TEST(Ids, AMechanismThatAllFollowFitsOneMessage) {
   Grants grants;
   grants.mechanism = {kHigh};
   grants.authority = {kPeersMax - 1};
   grants.epoch = {7};
-  grants.followers = {kPlayersMax + 1};
-  for (int peer = 0; peer <= kPlayersMax; ++peer) {
+  grants.followers = {kPlayersFollowingMax + 1};
+  for (int peer = 0; peer <= kPlayersFollowingMax; ++peer) {
     grants.follower.push_back(static_cast<std::int16_t>(peer));
   }
   EXPECT_LE(Encode(grants).size(), kMessageBytesMax);

@@ -14,7 +14,7 @@ constexpr double kPatience = 60;
 
 std::vector<std::string> Server(const std::string& wait) {
   return {BuiltProgram("seam-server"),
-          "swarm",
+          "swarm1000",
           "--wait",
           wait,
           "--bind",

@@ -35,11 +35,20 @@ std::string Boxes(int columns, int rows) {
          std::to_string(columns) + ", " + std::to_string(rows) + "], step = [1, 1]}\n";
 }
 
-TEST(SceneSize, Has256PlayersAndNotOneMore) {
-  EXPECT_EQ(ParseScene(Players(256), "full.toml").players.size(), 256u);
-  EXPECT_NE(WhatIsWrong(Players(257)).find("at most 256 players"), std::string::npos);
-  const std::string another = Players(256) + "[[player]]\nname = \"ann\"\n";
-  EXPECT_NE(WhatIsWrong(another).find("at most 256 players"), std::string::npos);
+TEST(SceneSize, Has1000PlayersAndNotOneMore) {
+  EXPECT_EQ(ParseScene(Players(1000), "full.toml").players.size(), 1000u);
+  EXPECT_NE(WhatIsWrong(Players(1001)).find("at most 1000 players"), std::string::npos);
+  const std::string another = Players(1000) + "[[player]]\nname = \"ann\"\n";
+  EXPECT_NE(WhatIsWrong(another).find("at most 1000 players"), std::string::npos);
+}
+
+TEST(SceneSize, ARoomOfMoreThan256PlayersIsNeverFollowedWhole) {
+  EXPECT_EQ(ParseScene(Players(256), "whole.toml").follow_bodies, 256);
+  EXPECT_EQ(ParseScene(Players(257), "large.toml").follow_bodies, 0);
+  EXPECT_EQ(ParseScene("follow = 0\n" + Players(257), "large.toml").follow_bodies, 0);
+  EXPECT_EQ(WhatIsWrong("follow = 9\n" + Players(256)), "");
+  EXPECT_EQ(WhatIsWrong("follow = 9\n" + Players(257)),
+            "x.toml:1: scene: follow must be 0 in a scene of more than 256 players");
 }
 
 TEST(SceneSize, Has65535PartsAndNotOneMore) {

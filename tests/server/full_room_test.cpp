@@ -18,15 +18,10 @@ class Counting : public Entropy {
 };
 
 TEST(FullRoom, AdmitsAllPlayersAfterSpectatorsFilledTheirPlaces) {
-  const Scene scene = ParseScene(R"(
-[[player]]
-name = "p"
-repeat = {count = 256}
-[[part]]
-name = "ball"
-circle = 1
-)",
-                                 "full.toml");
+  const Scene scene =
+      ParseScene("[[player]]\nname = \"p\"\nrepeat = {count = " + std::to_string(kPlayersMax) +
+                     "}\n[[part]]\nname = \"ball\"\ncircle = 1\n",
+                 "full.toml");
   Counting entropy;
   PlaceTable places(scene, entropy);
   std::uint64_t session = 0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cfloat>
 
+#include "common/base/limits.h"
 #include "common/scene/planner/planner_rules.h"
 #include "common/scene/scene_draft.h"
 
@@ -34,6 +35,13 @@ void ReadPlanner(const SceneReader& root, SceneDraft* draft) {
 
 void LimitFollowing(const SceneReader& root, SceneDraft* draft) {
   Scene& scene = draft->scene;
+  if (scene.players.size() > static_cast<std::size_t>(kPlayersFollowingMax)) {
+    if (root.Has("follow") && scene.follow_bodies > 0) {
+      root.FailAt("follow", "follow must be 0 in a scene of more than " +
+                                std::to_string(kPlayersFollowingMax) + " players");
+    }
+    scene.follow_bodies = 0;
+  }
   Vec2 min(FLT_MAX, FLT_MAX), max(-FLT_MAX, -FLT_MAX);
   for (const Player& player : scene.players) {
     if (player.vehicle < 0) continue;

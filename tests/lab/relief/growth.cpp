@@ -20,11 +20,8 @@ struct Point {
   double bytes() const { return load.to_client_kbps * players; }
 };
 
-Point MeasureAt(int players, float spacing, double seconds) {
-  ReliefRoom room;
+Point MeasureAt(ReliefRoom room, int players, double seconds) {
   room.players = players;
-  room.each = 15;
-  room.spacing = spacing;
   room.sleep = true;
   ClusterConfig config;
   config.scene = "relief";
@@ -81,15 +78,26 @@ TextTable ReliefGrowthBench(bool quick) {
   const double seconds = quick ? 2 : 4;
   const std::vector<int> counts =
       quick ? std::vector<int>{4, 8, 16} : std::vector<int>{8, 16, 32, 64, 128, 256};
+  const std::vector<int> many =
+      quick ? std::vector<int>{8, 16} : std::vector<int>{32, 64, 128, 256, 512, 1000};
   std::vector<BarRow> rows;
-  std::vector<Point> spread, crowded;
-  for (const int players : counts) spread.push_back(MeasureAt(players, 30, seconds));
+  std::vector<Point> spread, crowded, large;
+  ReliefRoom room, crowd, plains;
+  room.each = crowd.each = 15;
+  crowd.spacing = 9;
+  plains.each = 2;
+  plains.spacing = 20;
+  plains.plains = 4;
+  plains.things = ReliefThings::kBalls;
+  for (const int players : counts) spread.push_back(MeasureAt(room, players, seconds));
   for (const int players : counts) {
-    if (players <= 32) crowded.push_back(MeasureAt(players, 9, seconds));
+    if (players <= 32) crowded.push_back(MeasureAt(crowd, players, seconds));
   }
+  for (const int players : many) large.push_back(MeasureAt(plains, players, seconds));
   AddRow("30 m apart", spread, true, &rows);
   AddRow("9 m apart", crowded, false, &rows);
-  return TableOf("growth", "How it grows with players, 15 bodies each", rows,
+  AddRow("20 m apart on four plains, a sled and a ball each", large, true, &rows);
+  return TableOf("growth", "How it grows with players, 15 bodies each but for the last rows", rows,
                  fmt::format("Sessions of {:.0f} s over `demo`, bots, in virtual time, one of each "
                              "size; after the first second.",
                              seconds));

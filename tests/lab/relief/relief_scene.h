@@ -1,5 +1,5 @@
 #pragma once
-/// Rooms of any size to put a server under load: players in a row on a plain, some distance apart,
+/// Rooms of any size to put a server under load: players in rows on plains, some distance apart,
 /// each with a vehicle and things to run into.
 
 #include <string>
@@ -17,6 +17,7 @@ struct ReliefRoom {
   float spacing = 30;  ///< m between players at the start
   ReliefThings things = ReliefThings::kCrates;
   bool sleep = false;  ///< what lies still may fall asleep
+  int plains = 1;      ///< one above another; players of the second one are pb-0, pb-1, ...
 };
 
 /// The scene's text. Players are p-0, p-1, ...; they drive by script, or as bots.
