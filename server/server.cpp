@@ -12,6 +12,7 @@
 #include "server/room_state.h"
 #include "server/rules/rules.h"
 #include "server/server_commands.h"
+#include "server/trust/auditor.h"
 
 namespace seam {
 namespace {
@@ -88,6 +89,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
   if (config_.sync.policy->InputsOnly()) {
     input_room_ = std::make_unique<InputRoom>(config_.sync, replica_, sessions_, broadcast_);
   }
+  auditor_ = MakeAuditor();
   replica_.OnCorrected([this](int body, const BodyState& by) { NoteCorrected(body, by); });
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, *edits_, sessions_);
@@ -138,6 +140,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   broadcast_.SendWaiting(now_us, replica_.tick() != before);
   RelayInputs(now_us);
   sessions_.Flush(now_us, &stats_.counters);
+  RunAudit(now_us);
 }
 
 std::int64_t Server::next_tick_us() const {
@@ -147,15 +150,6 @@ std::int64_t Server::next_tick_us() const {
 
 std::int64_t Server::wake_us() const {
   return replica_.MayStep() ? next_tick_us() : std::numeric_limits<std::int64_t>::max();
-}
-
-void Server::TellRest(std::int64_t now_us) {
-  for (const Rest& rest : replica_.rest().Take()) {
-    broadcast_.TellRest(At(now_us, rest), 0);
-  }
-  const bool quiet = replica_.rest().all();
-  sessions_.ForEachReady(
-      0, [&](Session& session) { session.link.SetQuiet(quiet && session.rest_agrees); });
 }
 
 void Server::TellWaiting(std::int64_t now_us, int needed) {
@@ -271,6 +265,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     const Edit edit = replica_.next_queued();
     const bool hung = replica_.world().topology().hanging().has_value();
     chronicle_->NoteEdit(now_us, edit);
+    if (auditor_ != nullptr) auditor_->NoteEdit(edit);
     replica_.ApplyNextEdit();
     broadcast_.NoteAllUnsettled();
     bounds_.NoteApplied(edit);

@@ -28,9 +28,11 @@
 #include "server/sessions/session_table.h"
 #include "server/state_filter.h"
 #include "server/trust/trust_ladder.h"
+#include "server/trust/waiting.h"
 
 namespace seam {
 
+class Auditor;
 class AuthoritySource;
 class Chronicle;
 class InputRoom;
@@ -239,6 +241,10 @@ class Server {
   void Propose(Session& session, const EditOrder& proposal);
   /// Adds the new doubts to the client's score, and publishes the gravest.
   void FollowDoubts(std::int64_t now_us, const Session& session);
+  std::unique_ptr<Auditor> MakeAuditor() const;
+  /// Audits for a moment, after all of a tick is sent, unless the next one is due.
+  void RunAudit(std::int64_t now_us);
+  void NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& doubt);
   /// Says the ladder's new steps; a client that has fallen off has to leave.
   void FollowLadder(std::int64_t now_us);
   /// True if the player's client may have authority.
@@ -311,19 +317,8 @@ class Server {
   BoundsWatch bounds_;
   StateFilter filter_;
   TrustLadder ladder_;
-  /// States that wait, in the order of their arrival.
-  struct WaitingStates {
-    int peer = 0;
-    std::int64_t since = 0;  // tick
-    States states;
-  };
-  std::vector<WaitingStates> waiting_states_;
-  /// Proposals of breaks that wait for the server's own world to feel the load.
-  struct WaitingBreak {
-    int peer = 0;
-    std::int64_t since = 0;  // tick
-    EditOrder proposal;
-  };
+  std::unique_ptr<Auditor> auditor_;           // null: no client simulates, or none is doubted
+  std::vector<WaitingStates> waiting_states_;  // in the order of their arrival
   std::vector<WaitingBreak> waiting_breaks_;
   Broadcast broadcast_;
   std::unique_ptr<Chronicle> chronicle_;

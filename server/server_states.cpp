@@ -6,6 +6,7 @@
 
 #include "server/authority_source.h"
 #include "server/server.h"
+#include "server/trust/auditor.h"
 
 namespace seam {
 namespace {
@@ -51,6 +52,7 @@ void Server::TakeStates(std::int64_t now_us, Session& session, const States& sta
   }
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
   if (rule_source_ != nullptr) rule_source_->NoteStates(kept);
+  if (auditor_ != nullptr && session.player >= 0) auditor_->NoteTold(session.player, kept);
   broadcast_.Relay(now_us, kept, session.peer);
   broadcast_.Publish(kept);
 }
@@ -95,6 +97,16 @@ void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {
   replica_.Receive(kept);
   broadcast_.NoteAccepted(now_us, session.peer, session.player, kept);
   broadcast_.TellRest(kept, session.peer);
+}
+
+void Server::TellRest(std::int64_t now_us) {
+  for (Rest& rest : replica_.rest().Take()) {
+    rest.utime = now_us;
+    broadcast_.TellRest(rest, 0);
+  }
+  const bool quiet = replica_.rest().all();
+  sessions_.ForEachReady(
+      0, [&](Session& session) { session.link.SetQuiet(quiet && session.rest_agrees); });
 }
 
 void Server::OnExactStates(std::int64_t now_us, Session& session, const ExactStates& exact) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/net/keyed_hash.h"
 #include "common/stages/make_stages.h"
 #include "common/sync/edits/edit_order.h"
 #include "common/topology/grip.h"
 #include "server/chronicle.h"
 #include "server/server.h"
+#include "server/trust/auditor.h"
 
 namespace seam {
 namespace {
@@ -107,25 +109,46 @@ void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
   const Doubt& gravest =
       *std::max_element(doubts.begin(), doubts.end(),
                         [](const Doubt& a, const Doubt& b) { return a.weight < b.weight; });
+  NoteDoubt(now_us, session.peer, session.player, gravest);
+}
+
+void Server::NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& doubt) {
   ++stats_.connections.doubts;
   if (!sessions_.AnyReturned(now_us, kReturnUs)) {
-    ladder_.Note(session.player, gravest.weight);
-  } else if (gravest.refused && config_.trust == TrustMode::kAct) {
-    ladder_.NoteParted(session.player, replica_.tick());
+    ladder_.Note(player, doubt.weight);
+  } else if (doubt.refused && config_.trust == TrustMode::kAct) {
+    ladder_.NoteParted(player, replica_.tick());
   }
   Audit audit;
   audit.utime = now_us;
   audit.session = room_.session;
-  audit.tick = std::max<std::int64_t>(0, gravest.tick);
-  audit.peer = session.peer;
-  audit.player = session.player;
-  audit.body = replica_.world().id(gravest.body);
-  audit.told = NumbersOf(gravest.told);
-  audit.expected = NumbersOf(gravest.expected);
-  audit.refused = gravest.refused ? 1 : 0;
-  audit.score_milli = Milli(ladder_.score(session.player));
-  audit.step = static_cast<std::int8_t>(ladder_.step(session.player));
+  audit.tick = std::max<std::int64_t>(0, doubt.tick);
+  audit.peer = peer;
+  audit.player = player;
+  audit.body = replica_.world().id(doubt.body);
+  audit.told = NumbersOf(doubt.told);
+  audit.expected = NumbersOf(doubt.expected);
+  audit.refused = doubt.refused ? 1 : 0;
+  audit.score_milli = Milli(ladder_.score(player));
+  audit.step = static_cast<std::int8_t>(ladder_.step(player));
   broadcast_.Publish(audit);
+}
+
+/// The seed is as secret as the server's lasting key, and another one in each session.
+std::unique_ptr<Auditor> Server::MakeAuditor() const {
+  if (config_.trust == TrustMode::kOff || !config_.sync.policy->PlansAuthority()) return nullptr;
+  HashKey key{};
+  std::copy_n(sessions_.keys()->secret.data(), key.size(), key.begin());
+  const std::string session = "audit " + std::to_string(room_.session);
+  return std::make_unique<Auditor>(replica_, KeyedHash(key, TextBytes(session)));
+}
+
+void Server::RunAudit(std::int64_t now_us) {
+  if (auditor_ == nullptr || now_us >= next_tick_us()) return;
+  auditor_->Work();
+  for (const Auditor::Found& found : auditor_->TakeFound()) {
+    NoteDoubt(now_us, found.peer, found.player, found.doubt);
+  }
 }
 
 void Server::FollowLadder(std::int64_t now_us) {

@@ -15,19 +15,11 @@
 #include "common/codec/messages.h"
 #include "common/sync/replica.h"
 #include "common/sync/table/body_column.h"
+#include "server/trust/doubt.h"
 #include "server/trust/drift.h"
 #include "server/trust/strikers.h"
 
 namespace seam {
-
-/// A state that differs from the expected one.
-struct Doubt {
-  int body = -1;
-  std::int64_t tick = 0;
-  BodyState told, expected;
-  float weight = 0;  ///< see TrustLadder
-  bool refused = false;
-};
 
 class Plausible {
  public:

@@ -170,6 +170,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/sync/correct", "common/sync(/blend|/inputs|/reach|/rest|/rollback|/table)?"},
       {"common/sync/reach", "common/sync(/inputs|/table)?"},
       {"common/sync/edits", "none"},
+      {"common/sync/audit", "none"},
       {"common/base/command", "common/base"},
       {"common/base/spatial", "common/base"},
       {"common/record/events", "none"},

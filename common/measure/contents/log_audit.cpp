@@ -6,10 +6,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "common/measure/recorded_inputs.h"
 #include "common/measure/revisions.h"
-#include "common/physics/world.h"
+#include "common/sync/audit/spare_world.h"
 
 namespace seam {
 namespace {
@@ -26,82 +27,75 @@ struct Gains {
   double sum = 0, squares = 0, largest = 0;
 };
 
-/// A world that is put to one view after another.
-class SpareWorld {
+/// Compares pairs of views in a spare world.
+class ViewAudit {
  public:
-  SpareWorld(const Recording& recording, const Scene& scene)
+  ViewAudit(const Recording& recording, const Scene& scene)
       : revisions_(scene, recording), inputs_(recording, scene) {}
 
   /// Compares two views, `from` the earlier one.
   void Compare(const View& from, const View& to, std::map<int, Gains>* gains) {
     const int key = revisions_.Key(from.revision);
     if (key != revisions_.Key(to.revision) || from.id != to.id) return;
-    if (key != key_) world_ = std::make_unique<World>(revisions_.At(key)->topology);
+    if (key != key_) {
+      spare_ =
+          std::make_unique<SpareWorld>(revisions_.At(key)->topology, SpareWorld::Present::kAll);
+    }
     key_ = key;
-    if (static_cast<int>(from.id.size()) != world_->body_count()) return;
-    world_->SetTick(from.tick);
-    for (int body = 0; body < world_->body_count(); ++body) {
-      world_->Write(body, StateIn(from, static_cast<std::size_t>(body)));
+    const World& world = spare_->world();
+    if (static_cast<int>(from.id.size()) != world.body_count()) return;
+    spare_->SetTick(from.tick);
+    const auto mechanisms = static_cast<int>(world.composition().mechanisms.size());
+    for (int m = 0; m < mechanisms; ++m) spare_->Put(m, Holder(m, from, to), StatesOf(m, from));
+    while (world.tick() < to.tick) {
+      spare_->Step([&](World* stepped) {
+        for (const int player : inputs_.players()) {
+          inputs_.Apply(stepped, player, stepped->tick() + 1);
+        }
+      });
     }
-    holders_.assign(world_->composition().mechanisms.size(), -1);
-    for (std::size_t i = 0; i < from.id.size(); ++i) {
-      int& holder = holders_[static_cast<std::size_t>(world_->mechanism(static_cast<int>(i)))];
-      const bool keeps = from.authority[i] == to.authority[i];
-      holder = keeps && from.authority[i] > 0 ? from.authority[i] : -1;
+    for (int m = 0; m < mechanisms; ++m) {
+      const std::optional<Gain> gain = spare_->Compare(m, StatesOf(m, to));
+      if (gain) Sum(*gain, Holder(m, from, to), gains);
     }
-    const std::vector<int> held = holders_;
-    while (world_->tick() < to.tick) {
-      for (const int player : inputs_.players()) {
-        inputs_.Apply(world_.get(), player, world_->tick() + 1);
-      }
-      world_->Step();
-      for (const Touch& touch : world_->touches()) Meet(held, touch);
-    }
-    Sum(to, gains);
   }
 
  private:
-  /// Drops mechanisms that touch what another peer or the server holds.
-  void Meet(const std::vector<int>& held, const Touch& touch) {
-    const auto a = static_cast<std::size_t>(world_->mechanism(touch.body_a));
-    const auto b = static_cast<std::size_t>(world_->mechanism(touch.body_b));
-    if (held[a] == held[b] && holders_[a] == holders_[b]) return;
-    holders_[a] = holders_[b] = -1;
+  /// The client that held all of the mechanism in both views; 0: none.
+  int Holder(int mechanism, const View& from, const View& to) const {
+    int holder = 0;
+    for (const int body : spare_->bodies(mechanism)) {
+      const auto i = static_cast<std::size_t>(body);
+      const bool keeps = from.authority[i] == to.authority[i];
+      holder = keeps && from.authority[i] > 0 ? from.authority[i] : 0;
+    }
+    return holder;
   }
 
-  void Sum(const View& to, std::map<int, Gains>* gains) {
-    struct Momentum {
-      Vec2 is{0, 0}, would_be{0, 0};
-      float mass = 0;
-    };
-    std::vector<Momentum> all(holders_.size());
-    for (int body = 0; body < world_->body_count(); ++body) {
-      Momentum& of = all[static_cast<std::size_t>(world_->mechanism(body))];
-      const float mass = world_->mass(body);
-      of.is += mass * StateIn(to, static_cast<std::size_t>(body)).velocity;
-      of.would_be += mass * world_->Read(body).velocity;
-      of.mass += mass;
+  std::vector<BodyState> StatesOf(int mechanism, const View& view) const {
+    std::vector<BodyState> states;
+    for (const int body : spare_->bodies(mechanism)) {
+      states.push_back(StateIn(view, static_cast<std::size_t>(body)));
     }
-    for (std::size_t m = 0; m < all.size(); ++m) {
-      if (holders_[m] < 0 || all[m].mass <= 0) continue;
-      const Vec2 is = all[m].is / all[m].mass, would_be = all[m].would_be / all[m].mass;
-      const double speed = would_be.norm();
-      if (speed < kAuditedSpeed) continue;
-      const double gain = static_cast<double>((is - would_be).dot(would_be)) / speed;
-      const double counts = std::clamp(gain, -kGainMost, kGainMost);
-      Gains& sums = (*gains)[holders_[m]];
-      ++sums.count;
-      sums.sum += counts;
-      sums.squares += counts * counts;
-      sums.largest = std::max(sums.largest, static_cast<double>((is - would_be).norm()));
-    }
+    return states;
+  }
+
+  static void Sum(const Gain& gain, int holder, std::map<int, Gains>* gains) {
+    const double speed = double{gain.stepped.norm()};
+    if (speed < kAuditedSpeed) return;
+    const double along = double{gain.velocity.dot(gain.stepped)} / speed;
+    const double counts = std::clamp(along, -kGainMost, kGainMost);
+    Gains& sums = (*gains)[holder];
+    ++sums.count;
+    sums.sum += counts;
+    sums.squares += counts * counts;
+    sums.largest = std::max(sums.largest, double{gain.velocity.norm()});
   }
 
   RevisionHistory revisions_;
   RecordedInputs inputs_;
-  std::unique_ptr<World> world_;
+  std::unique_ptr<SpareWorld> spare_;
   int key_ = -1;
-  std::vector<int> holders_;  // by mechanism, in this window; -1: not to be compared
 };
 
 int PlayerInSum(const Recording& recording, int peer) {
@@ -122,7 +116,7 @@ bool AuditedPeer::lies() const {
 
 std::vector<AuditedPeer> AuditRecording(const Recording& recording) {
   const Scene scene = RecordedScene(recording.room);
-  SpareWorld spare(recording, scene);
+  ViewAudit audit(recording, scene);
   std::map<int, Gains> gains;
   const auto found = recording.views.find(0);
   const auto length = static_cast<std::int64_t>(kWindowS * recording.room.tick_hz);
@@ -130,7 +124,7 @@ std::vector<AuditedPeer> AuditRecording(const Recording& recording) {
        found != recording.views.end() && tick + length <= recording.last_tick; tick += length) {
     const View* const from = FindView(found->second, tick);
     const View* const to = FindView(found->second, tick + length);
-    if (from != nullptr && to != nullptr) spare.Compare(*from, *to, &gains);
+    if (from != nullptr && to != nullptr) audit.Compare(*from, *to, &gains);
   }
   std::vector<AuditedPeer> peers;
   for (const auto& [peer, sums] : gains) {

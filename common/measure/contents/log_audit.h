@@ -1,5 +1,5 @@
 #pragma once
-/// Finds out from a recording alone whose bodies moved otherwise than by physics: a spare World
+/// Finds out from a recording alone whose bodies moved otherwise than by physics: a SpareWorld
 /// begins at the server's view of a tick, is stepped with the recorded inputs, and is compared with
 /// the server's view kWindowS later.
 

@@ -23,22 +23,26 @@ Values AttackValues(const AttackOutcome& o, int tick_hz) {
 
 Values MeasureAttack(const ProbeRun& run) {
   ClusterConfig config = Configure(run.settings);
-  config.keep = true;  // the server simulates all that somebody can see
+  // Shown, the server simulates all that somebody can see.
+  config.keep = run.key.at("views") == "shown";
   return AttackValues(RunAttack(config, run.key.at("attack")), run.scene->solver.tick_hz);
 }
 
 void AddAttackFlags(Command& attack, ProbeOptions& options) {
   attack.Option("SCENES", options.scenes, "scene files or names").Required();
   AddTableFlag(attack, options.output).Required();
-  attack.Option("--attack", options.methods,
+  attack.Option("--attack", options.attacks,
                 "none | silence | x1.2 ...; repeatable (default: all)");
+  attack.Option("--method", options.methods, "buffer | strict ...; repeatable (default: buffer)");
+  attack.Option("--views", options.views, "shown: the server simulates all bodies; hidden: few")
+      .OneOf({"shown", "hidden"});
   AddSessionFlags(attack, options);
   AddRunFlags(attack, options.output, "runs at a time (default: 1)");
 }
 
 ProbeAxis AttackAxis() {
   return {"attack", [](const ProbeOptions& options, const Scene&) {
-            return options.methods.empty() ? AttackNames() : options.methods;
+            return options.attacks.empty() ? AttackNames() : options.attacks;
           }};
 }
 
@@ -50,9 +54,9 @@ Probe AttackProbe() {
   probe.about = "what does a client that lies win?";
   probe.flags = AddAttackFlags;
   probe.defaults.output.jobs = 1;
-  probe.defaults.methods.clear();
-  probe.key = {"version", "scene", "scene_hash", "attack", "network", "seed"};
-  probe.axes = {AttackAxis(), NetworkAxis(), SeedAxis()};
+  probe.key = {"version", "scene", "scene_hash", "attack", "method",
+               "views",   "drive", "network",    "seed"};
+  probe.axes = {AttackAxis(), MethodAxis(), ViewsAxis(), DriveAxis(), NetworkAxis(), SeedAxis()};
   probe.columns = AttackValues({}, 1);
   probe.measure = MeasureAttack;
   return probe;

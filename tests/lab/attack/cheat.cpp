@@ -6,6 +6,8 @@
 
 #include "common/base/check.h"
 #include "common/codec/codec.h"
+#include "common/scene/mechanism_ids.h"
+#include "common/scene/ownership.h"
 #include "common/scene/part_rules.h"
 #include "common/sync/edits/edit_order.h"
 #include "tests/support/path/rewriting_net.h"
@@ -39,7 +41,7 @@ const std::vector<std::string>& AttackNames() {
   static const std::vector<std::string> names = {
       "none",   "silence", "firstword", "x1.05",   "x1.2",    "x1.5",    "speed1.2", "ram",
       "vel10",  "fly",     "lift",      "freeze",  "tear",    "spin",    "rest",     "exact",
-      "impact", "break",   "withhold",  "gain0.1", "gain0.2", "gain0.5", "bounce1.2"};
+      "impact", "break",   "withhold",  "gain0.1", "gain0.2", "gain0.5", "gain5",    "bounce1.2"};
   return names;
 }
 
@@ -50,12 +52,14 @@ Cheat::Cheat(const std::string& attack, const Scene& scene)
       lying_(MotionOf(scene)),
       first_(scene.parts.size()),
       ahead_(scene.parts.size()) {
+  const Composition composition = Compose(scene);
+  const int m = MechanismIn(composition, scene.players.front().vehicle);
+  if (m >= 0) EachIdOf(composition, m, [this](PartId id) { car_.push_back(id); });
   ChooseLies(attack);
 }
 
 bool Cheat::IsCar(std::int32_t id) const {
-  const std::string& name = scene_.parts[static_cast<std::size_t>(id)].name;
-  return name.compare(0, 3, "ann") == 0;
+  return std::binary_search(car_.begin(), car_.end(), id);
 }
 
 void Cheat::ChooseLies(const std::string& attack) {
@@ -81,6 +85,7 @@ void Cheat::ChooseLies(const std::string& attack) {
   if (attack == "gain0.1") change_ = Gain(0.1);
   if (attack == "gain0.2") change_ = Gain(0.2);
   if (attack == "gain0.5") change_ = Gain(0.5);
+  if (attack == "gain5") change_ = Gain(5);
   if (attack == "bounce1.2") change_ = Bounce(1.2);
   if (attack == "silence") {
     change_ = [this](std::int64_t tick, WireBody* body) {

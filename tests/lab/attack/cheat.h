@@ -46,6 +46,7 @@ class Cheat {
   Change Bounce(double share);
 
   const Scene& scene_;
+  std::vector<std::int32_t> car_;  // ids of the bodies of the first player's vehicle, ascending
   std::string attack_;
   std::int64_t start_tick_ = 150;
   Change change_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/trust/auditor.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {
@@ -41,6 +42,11 @@ HonestOutcome RunHonest(ClusterConfig config, bool shown) {
   outcome.by_copy = counts.by_copy;
   outcome.doubted = counts.doubted;
   outcome.refused = counts.refused;
+  if (const Auditor* const auditor = ServerTestAccess::AuditorOf(cluster.server())) {
+    outcome.audited = auditor->counts().compared;
+    outcome.steps = auditor->counts().steps;
+    outcome.audit = auditor->counts().greatest;
+  }
   outcome.breaks_refused = cluster.server().connections().loadless;
   const AuthoritySource* const source = ServerTestAccess::RuleSourceOf(cluster.server());
   if (source == nullptr) return outcome;

@@ -15,6 +15,9 @@ struct HonestOutcome {
   float score = 0;           ///< highest of any client's ladder
   int step = 0;              ///< highest TrustStep of any client
   float drift = 0;           ///< greatest Drift of a body, as a share of the one that counts
+  std::int64_t audited = 0;  ///< mechanisms that were compared by the Auditor
+  std::int64_t steps = 0;    ///< of bodies, by the Auditor
+  double audit = 0;          ///< greatest share of a lie that it found, see SteadyGain
   std::int64_t breaks_refused = 0;    ///< proposed breaks without a load
   std::int64_t impacts_accepted = 0;  ///< reported and counted
   std::int64_t impacts_refused = 0;   ///< reported, and not explained

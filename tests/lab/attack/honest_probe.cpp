@@ -13,6 +13,9 @@ Values HonestValues(const HonestOutcome& o) {
                      {"step", ToString(static_cast<TrustStep>(o.step))},
                      Decimals("score", static_cast<double>(o.score), 2),
                      Decimals("drift", static_cast<double>(o.drift), 3),
+                     Count("audited", o.audited),
+                     Count("audit_steps", o.steps),
+                     Decimals("audit", o.audit, 3),
                      Count("breaks_refused", o.breaks_refused),
                      Count("impacts_accepted", o.impacts_accepted),
                      Count("impacts_refused", o.impacts_refused)});
@@ -34,18 +37,6 @@ void AddHonestFlags(Command& trust, ProbeOptions& options) {
       .Range(0.0, kDurationMax);
   trust.Option("--seeds", options.seeds, "from 1 (default: 1)").Range(1, 10000);
   AddRunFlags(trust, options.output, "runs at a time (default: 1)");
-}
-
-ProbeAxis ViewsAxis() {
-  return {"views", [](const ProbeOptions& options, const Scene&) {
-            return std::vector<std::string>{options.views};
-          }};
-}
-
-ProbeAxis DriveAxis() {
-  return {"drive", [](const ProbeOptions& options, const Scene&) {
-            return std::vector<std::string>{options.drive};
-          }};
 }
 
 }  // namespace

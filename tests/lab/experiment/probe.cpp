@@ -67,6 +67,18 @@ ProbeAxis MethodAxis() {
           }};
 }
 
+ProbeAxis ViewsAxis() {
+  return {"views", [](const ProbeOptions& options, const Scene&) {
+            return std::vector<std::string>{options.views};
+          }};
+}
+
+ProbeAxis DriveAxis() {
+  return {"drive", [](const ProbeOptions& options, const Scene&) {
+            return std::vector<std::string>{options.drive};
+          }};
+}
+
 ProbeAxis NetworkAxis() {
   return {"network",
           [](const ProbeOptions& options, const Scene&) {

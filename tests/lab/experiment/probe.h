@@ -20,6 +20,7 @@ struct ProbeOptions {
   std::vector<std::string> scenes;  ///< files or names
   std::string scene;                ///< of a probe that takes one
   std::vector<std::string> methods = {"buffer"};
+  std::vector<std::string> attacks;   ///< none: all
   std::string network = "demo";       ///< of --impair
   std::vector<std::string> networks;  ///< of a probe whose --impair is repeatable
   std::string near_path, far_path;    ///< networks of a near and of a far player
@@ -50,6 +51,8 @@ struct ProbeAxis {
 };
 
 ProbeAxis MethodAxis();
+ProbeAxis ViewsAxis();
+ProbeAxis DriveAxis();
 ProbeAxis NetworkAxis();
 ProbeAxis PlayersAxis();
 ProbeAxis SeedAxis();

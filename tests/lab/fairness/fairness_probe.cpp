@@ -78,7 +78,7 @@ ProbeAxis FarPathAxis() {
           }};
 }
 
-ProbeAxis DriveAxis() {
+ProbeAxis BothDrivesAxis() {
   return {"drive", [](const ProbeOptions&, const Scene&) {
             return std::vector<std::string>{"script", "random"};
           }};
@@ -105,7 +105,8 @@ Probe FairnessProbe() {
   probe.defaults.seeds = 8;
   probe.key = {"version",  "scene", "scene_hash", "method", "near_path",
                "far_path", "drive", "near",       "seed"};
-  probe.axes = {NearPathAxis(), FarPathAxis(), DriveAxis(), MethodAxis(), SeedAxis(), NearAxis()};
+  probe.axes = {NearPathAxis(), FarPathAxis(), BothDrivesAxis(),
+                MethodAxis(),   SeedAxis(),    NearAxis()};
   probe.columns = FairnessValues({});
   probe.measure = MeasureFairness;
   probe.prepare = [](const std::string& word, ProbeRun* run) { run->key["scene"] = word; };

@@ -28,6 +28,8 @@ struct ServerTestAccess {
     return server.rule_source_.get();
   }
   static const Plausible& PlausibleOf(const Server& server) { return server.filter_.plausible(); }
+  /// Returns nullptr if nothing is audited.
+  static const Auditor* AuditorOf(const Server& server) { return server.auditor_.get(); }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_->waiting(); }
 };
 

@@ -1,0 +1,61 @@
+#pragma once
+/// A world beside the room's: mechanisms are put at told states, stepped with the known inputs, and
+/// compared with the states that were told later. Used while the room runs (server/trust) and on
+/// recordings (common/measure).
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "common/physics/world.h"
+
+namespace seam {
+
+/// The way of a mechanism beside physics since it was put: later told states minus stepped ones.
+struct Gain {
+  double seconds = 0;
+  Vec2 position{0, 0};  ///< of the centre of mass, m
+  Vec2 velocity{0, 0};  ///< of the centre of mass, m/s
+  Vec2 stepped{0, 0};   ///< velocity of the centre of mass as stepped, m/s
+  double apart = 0;     ///< greatest move of a body relative to the centre of mass, m
+  bool met = false;     ///< it has touched another mechanism, of the same holder
+};
+
+class SpareWorld {
+ public:
+  /// kNone: only mechanisms that Put has named are in the world; else all.
+  enum class Present { kAll, kNone };
+  SpareWorld(const Topology& topology, Present present);
+
+  const World& world() const { return world_; }
+  /// Bodies of a mechanism, ascending: the order of its states below.
+  const std::vector<int>& bodies(int mechanism) const {
+    return bodies_[static_cast<std::size_t>(mechanism)];
+  }
+  void SetTick(std::int64_t tick) { world_.SetTick(tick); }
+  /// Puts a mechanism at these states and into the world. `holder`: its peer; mechanisms of other
+  /// holders that it touches from now on make it incomparable. 0: it is only in the way of others.
+  void Put(int mechanism, int holder, const std::vector<BodyState>& states);
+  /// Takes a mechanism out of the world. Requires Present::kNone.
+  void Take(int mechanism);
+  /// Steps once; `inputs` sets those of the tick.
+  void Step(const std::function<void(World*)>& inputs);
+  /// Compares a mechanism with states told for now; nullopt if it has no holder, or has touched
+  /// another one's.
+  std::optional<Gain> Compare(int mechanism, const std::vector<BodyState>& told) const;
+
+ private:
+  struct Standing {
+    int holder = 0;
+    bool met = false;      // has touched another mechanism
+    bool lost = false;     // that was another holder's
+    std::int64_t put = 0;  // tick
+  };
+
+  World world_;
+  std::vector<std::vector<int>> bodies_;  // rebuilt for each topology, by mechanism
+  std::vector<Standing> standings_;       // rebuilt for each topology, by mechanism
+};
+
+}  // namespace seam

@@ -1,0 +1,52 @@
+#include "common/sync/audit/steady_gain.h"
+
+#include <cmath>
+
+namespace seam {
+namespace {
+
+/// Slower than this a mechanism has no direction, m/s.
+constexpr double kHasDirection = 0.5;
+/// Share of the newest change in the mean square of changes.
+constexpr double kNewest = 0.05;
+
+}  // namespace
+
+void SteadyGain::Sums::Add(double x) {
+  x = std::clamp(x, -kCountsMost, kCountsMost);
+  square += kNewest * ((x - before) * (x - before) / 2 - square);
+  before = x;
+  const double honest = 1 + kShare * std::sqrt(square);
+  up = std::clamp(up + x - honest, 0.0, 2 * kLie);
+  down = std::clamp(down - x - honest, 0.0, 2 * kLie);
+}
+
+void SteadyGain::Add(const Gain& gain, double times) {
+  if (gain.seconds <= 0) return;
+  const double speed = double{gain.stepped.norm()};
+  const Eigen::Vector2d along = speed < kHasDirection
+                                    ? Eigen::Vector2d(0, 0)
+                                    : Eigen::Vector2d(gain.stepped.cast<double>() / speed);
+  const Eigen::Vector2d push = gain.velocity.cast<double>() / (times * gain.seconds * kPush);
+  const Eigen::Vector2d slip = gain.position.cast<double>() / (times * gain.seconds * kSlip);
+  const std::array<double, 7> all = {push.dot(along),
+                                     push.x(),
+                                     push.y(),
+                                     slip.dot(along),
+                                     slip.x(),
+                                     slip.y(),
+                                     gain.apart / (times * kTorn)};
+  gross_ = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    sums_[i].Add(all[i]);
+    gross_ = gross_ || std::fabs(all[i]) >= kCountsMost;
+  }
+}
+
+double SteadyGain::share() const {
+  double most = 0;
+  for (const Sums& sums : sums_) most = std::max({most, sums.up, sums.down});
+  return most / kLie;
+}
+
+}  // namespace seam

@@ -1,0 +1,350 @@
+#include "server/trust/auditor.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "common/physics/part_places.h"
+#include "common/scene/character.h"
+#include "common/scene/mechanism_ids.h"
+#include "common/sync/quantize.h"
+#include "common/sync/rollback/presses.h"
+
+namespace seam {
+namespace {
+
+/// Time between two draws, s: two or three comparisons.
+constexpr double kDrawS = 0.5;
+/// A client with this share of a lie is drawn again.
+constexpr double kMayLie = 0.2;
+/// A mechanism is put anew after a time between these, s: long enough that a lie is more than the
+/// wire's rounding, short enough that chaos has not begun. It is out if it is told of too seldom.
+constexpr double kPutAfterS = 0.15, kPutWithinS = 0.25, kOutS = 1;
+/// Work of building the spare world, steps of a body for each part of the scene.
+constexpr std::int64_t kBuildSteps = 4;
+/// The spare world skips ticks if it is later than this, s.
+constexpr double kSkipS = 0.5;
+/// A lie for this time weighs 1, s; a gross one kGrossAudited as much.
+constexpr double kAuditedS = 0.25;
+constexpr float kGrossAudited = 4;
+/// A mechanism that may have met more is not compared: piles are chaos.
+constexpr std::size_t kIslandMost = 6;
+/// An honest gain is so many times as great where a mechanism touches others, as two worlds part
+/// there; and of a character, as its step is not in its states.
+constexpr double kInCompany = 8, kOfCharacter = 20;
+
+}  // namespace
+
+Auditor::Auditor(const Replica& replica, std::uint64_t seed)
+    : replica_(replica),
+      random_(seed),
+      tracks_(replica.table(),
+              [](int, const std::vector<const Track*>& before) {
+                Track track = before.size() == 1 ? *before.front() : Track{};
+                track.since = track.put = -1;
+                track.active = false;
+                return track;
+              }),
+      renumbered_(replica.table(), [this](const BodyRemap&) { NoteRenumbered(); }),
+      surroundings_(replica),
+      noted_(replica.world().scene().players.size(), -1000),
+      followed_(static_cast<std::size_t>(kPeersMax), 0) {
+  NoteRenumbered();
+}
+
+int Auditor::Seconds(double s) const {
+  return static_cast<int>(s * replica_.world().scene().solver.tick_hz);
+}
+
+void Auditor::NoteRenumbered() {
+  const World& world = replica_.world();
+  spare_.reset();
+  active_.clear();
+  draw_at_ = 0;
+  place_.assign(static_cast<std::size_t>(world.body_count()), 0);
+  size_.assign(world.composition().mechanisms.size(), 0);
+  for (int body = 0; body < world.body_count(); ++body) {
+    place_[static_cast<std::size_t>(body)] =
+        size_[static_cast<std::size_t>(world.mechanism(body))]++;
+  }
+  characters_.assign(size_.size(), 0);
+  for (const Character& character : world.scene().characters) {
+    const int m = MechanismOf(world, character.parts[kTorso]);
+    if (m >= 0) characters_[static_cast<std::size_t>(m)] = 1;
+  }
+  for (int m = 0; m < tracks_.size(); ++m) {
+    if (tracks_[m].drawn && !tracks_[m].told.empty()) Activate(m);
+  }
+}
+
+void Auditor::Forget(int mechanism) {
+  Leave(mechanism);
+  tracks_[mechanism].told.clear();
+}
+
+void Auditor::NoteEdit(const Edit& edit) {
+  const World& world = replica_.world();
+  std::vector<int> moved;
+  for (const PartId part : world.topology().PartsOf(edit)) {
+    const int m = MechanismOf(world, part);
+    if (m >= 0) moved.push_back(m);
+  }
+  if (moved.empty() && edit.As<InsertEdit>() == nullptr) {  // of the ground: it may move any
+    moved.resize(static_cast<std::size_t>(tracks_.size()));
+    std::iota(moved.begin(), moved.end(), 0);
+  }
+  for (const int m : moved) {
+    Forget(m);
+    tracks_[m].revision = replica_.revision() + 1;
+  }
+  if (edit.As<PushEdit>() == nullptr) spare_.reset();
+}
+
+void Auditor::NoteTold(int player, const States& states) {
+  const World& world = replica_.world();
+  const std::int64_t oldest = world.tick() - Seconds(kBehindS + kSkipS);
+  if (states.tick <= oldest) return;
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world.BodyOfId(states.id[i]);
+    if (body < 0) continue;
+    Track& track = tracks_[world.mechanism(body)];
+    if (states.revision < track.revision) continue;
+    if (track.peer != states.peer) {
+      track.gain = SteadyGain();
+      Forget(world.mechanism(body));
+      track.peer = states.peer;
+    }
+    track.player = player;
+    if (track.drawn) Activate(world.mechanism(body));
+    const auto kept = std::find_if(track.told.begin(), track.told.end(),
+                                   [&](const Told& told) { return told.tick > oldest; });
+    track.told.erase(track.told.begin(), kept);
+    const std::size_t size = size_[static_cast<std::size_t>(world.mechanism(body))];
+    auto told = std::lower_bound(track.told.begin(), track.told.end(), states.tick,
+                                 [](const Told& a, std::int64_t tick) { return a.tick < tick; });
+    if (told == track.told.end() || told->tick != states.tick) {
+      told = track.told.insert(told, Told{states.tick, 0, std::vector<BodyState>(size)});
+    }
+    if (told->states.size() != size) continue;
+    told->states[place_[static_cast<std::size_t>(body)]] =
+        Unpack(states, i, world.Read(body).angle);
+    ++told->count;
+  }
+}
+
+bool Auditor::Asleep(int mechanism) const {
+  const World& world = replica_.world();
+  return !AnyIdOf(world.composition(), mechanism,
+                  [&](PartId id) { return world.awake(world.BodyOfId(id)); });
+}
+
+/// Clients in random order, each with what it drives first, as long as there is room.
+void Auditor::Draw() {
+  const AuthorityTable& table = replica_.authority();
+  const Drivers& drivers = replica_.drivers();
+  const auto players = static_cast<int>(noted_.size());
+  std::vector<char> driven(static_cast<std::size_t>(table.count()), 0);
+  driven_by_others_.assign(driven.size(), 0);
+  for (int p = 0; p < players; ++p) {
+    for (const int m : drivers.MovedBy(p)) {
+      const auto own = static_cast<std::size_t>(m);
+      if (tracks_[m].player >= 0 && tracks_[m].player != p) driven_by_others_[own] = 1;
+      driven[own] = 1;
+    }
+  }
+  // The order of the clients: those that may lie, then those not followed for the longest time.
+  struct Candidate {
+    double order = 0;
+    int peer = -1;
+    bool rides = false;
+    int mechanism = -1;
+  };
+  std::vector<double> order(static_cast<std::size_t>(kPeersMax), 0);
+  for (std::size_t peer = 0; peer < order.size(); ++peer) {
+    order[peer] = static_cast<double>(followed_[peer]) + random_.Uniform(0, Seconds(kDrawS));
+  }
+  std::vector<Candidate> all;
+  for (int m = 0; m < table.count(); ++m) {
+    const int peer = table.at(m).authority;
+    if (peer <= 0) continue;
+    all.push_back({0, peer, driven[static_cast<std::size_t>(m)] == 0, m});
+    const bool may_lie = tracks_[m].peer == peer && tracks_[m].gain.share() > kMayLie;
+    if (may_lie) order[static_cast<std::size_t>(peer)] = -1;
+  }
+  for (Candidate& c : all) c.order = order[static_cast<std::size_t>(c.peer)];
+  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.order, a.peer, a.rides, a.mechanism) <
+           std::tie(b.order, b.peer, b.rides, b.mechanism);
+  });
+  const Solver& solver = replica_.world().scene().solver;
+  const std::int64_t most = kStepsPerS / (solver.tick_hz * solver.substeps);
+  std::int64_t bodies = 0;
+  std::vector<char> in(driven.size(), 0);
+  players_.clear();
+  for (const Candidate& c : all) {
+    const std::size_t more = Asleep(c.mechanism) ? 0 : size_[static_cast<std::size_t>(c.mechanism)];
+    if (bodies + static_cast<std::int64_t>(more) > most) continue;
+    bodies += static_cast<std::int64_t>(more);
+    in[static_cast<std::size_t>(c.mechanism)] = 1;
+    if (more > 0) followed_[static_cast<std::size_t>(c.peer)] = replica_.tick();
+  }
+  for (int m = 0; m < table.count(); ++m) {
+    tracks_[m].drawn = in[static_cast<std::size_t>(m)] != 0;
+    if (!tracks_[m].drawn) {
+      Leave(m);
+    } else if (!tracks_[m].told.empty()) {
+      Activate(m);
+    }
+  }
+  for (int p = 0; p < players; ++p) {
+    const std::vector<int>& moved = drivers.MechanismsOf(p);
+    const bool any = std::any_of(moved.begin(), moved.end(),
+                                 [&](int m) { return in[static_cast<std::size_t>(m)] != 0; });
+    if (any || drivers.MovesBelt(p)) players_.push_back(p);
+  }
+  draw_at_ = replica_.tick() + Seconds(kDrawS);
+}
+
+void Auditor::Build() {
+  spare_ = std::make_unique<SpareWorld>(replica_.world().topology(), SpareWorld::Present::kNone);
+  credit_ -= kBuildSteps * static_cast<std::int64_t>(replica_.world().scene().parts.size());
+  JumpTo(replica_.tick() - Seconds(kBehindS) - 1);
+}
+
+void Auditor::JumpTo(std::int64_t tick) {
+  for (int m = 0; m < tracks_.size(); ++m) Leave(m);
+  spare_->SetTick(std::max<std::int64_t>(0, tick));
+}
+
+void Auditor::Leave(int mechanism) {
+  Track& track = tracks_[mechanism];
+  if (track.since >= 0 && spare_ != nullptr) spare_->Take(mechanism);
+  track.since = track.put = -1;
+}
+
+void Auditor::Work() {
+  const std::int64_t now = replica_.tick();
+  if (now == worked_) return;
+  worked_ = now;
+  const int tick_hz = replica_.world().scene().solver.tick_hz;
+  credit_ = std::min<std::int64_t>(kStepsPerS, credit_ + kStepsPerS / tick_hz);
+  surroundings_.AfterTick(active_);
+  if (now >= draw_at_) Draw();
+  if (active_.empty() || credit_ < 0) return;
+  if (spare_ == nullptr) Build();
+  const std::int64_t to = now - Seconds(kBehindS);
+  const std::int64_t late = to - spare_->world().tick();
+  if (late < 0 || late > Seconds(kSkipS)) JumpTo(to - 1);
+  for (int i = 0; i < 2 && credit_ >= 0 && spare_->world().tick() < to; ++i) StepOnce();
+}
+
+void Auditor::StepOnce() {
+  const std::int64_t tick = spare_->world().tick() + 1;
+  spare_->Step([&](World* world) {
+    for (const int p : players_) {
+      const InputTrack& track = replica_.inputs(p);
+      world->SetInput(p, track.At(tick));
+      EachAction(*world, p, track.PressedAt(tick), [&](int action, int m) {
+        if (tracks_[m].since >= 0) world->Act(p, action);
+      });
+    }
+  });
+  const std::int64_t substeps = spare_->world().scene().solver.substeps;
+  const auto steps = substeps * static_cast<std::int64_t>(spare_->world().present().size());
+  counts_.steps += steps;
+  credit_ -= steps;
+  // Visit may add some.
+  for (std::size_t i = 0; i < active_.size(); ++i) Visit(active_[i], tick);
+  const auto idle = [this](int m) { return tracks_[m].since < 0 && tracks_[m].told.empty(); };
+  const auto end = std::remove_if(active_.begin(), active_.end(), [&](int m) {
+    if (idle(m)) tracks_[m].active = false;
+    return idle(m);
+  });
+  active_.erase(end, active_.end());
+}
+
+void Auditor::Activate(int mechanism) {
+  if (!std::exchange(tracks_[mechanism].active, true)) active_.push_back(mechanism);
+}
+
+void Auditor::Visit(int mechanism, std::int64_t tick) {
+  Track& track = tracks_[mechanism];
+  const auto now = std::find_if(track.told.begin(), track.told.end(),
+                                [&](const Told& told) { return told.tick >= tick; });
+  track.told.erase(track.told.begin(), now);
+  const std::size_t size = size_[static_cast<std::size_t>(mechanism)];
+  const bool told = !track.told.empty() && track.told.front().tick == tick &&
+                    track.told.front().states.size() == size && track.told.front().count >= size;
+  if (!told) {
+    const bool still = track.put < 0 && track.told.empty() && Asleep(mechanism);
+    const bool silent = track.put >= 0 && tick - track.put > Seconds(kOutS);
+    if (track.since >= 0 && (silent || (track.put < 0 && !still))) Leave(mechanism);
+    return;
+  }
+  if (track.put >= 0 && tick - track.put < track.length) return;
+  if (track.put >= 0) Compare(mechanism, track.told.front());
+  spare_->Put(mechanism, track.peer, track.told.front().states);
+  if (track.since < 0) track.since = tick;
+  track.put = tick;
+  track.length = Seconds(random_.Uniform(kPutAfterS, kPutWithinS));
+  surroundings_.EachNear(mechanism, tick, tick, [&](int other) { PutStill(other, tick); });
+}
+
+/// Something of the same holder that nobody tells of as it lies still, in the way of the rest.
+void Auditor::PutStill(int mechanism, std::int64_t tick) {
+  Track& track = tracks_[mechanism];
+  if (!track.drawn || track.since >= 0 || !track.told.empty() || !Asleep(mechanism)) return;
+  std::vector<BodyState> states;
+  for (const int body : spare_->bodies(mechanism)) states.push_back(replica_.world().Read(body));
+  spare_->Put(mechanism, replica_.authority().at(mechanism).authority, states);
+  track.since = tick;
+  Activate(mechanism);
+}
+
+/// True if all that may have moved the mechanism between the ticks, directly or through others, was
+/// in the spare world.
+bool Auditor::Knows(int mechanism, std::int64_t from, std::int64_t to) const {
+  const Track& track = tracks_[mechanism];
+  if (driven_by_others_[static_cast<std::size_t>(mechanism)] != 0) return false;
+  const InputTrack& inputs = replica_.inputs(track.player);
+  for (std::int64_t tick = from + 1; tick <= to; ++tick) {
+    if (!inputs.knows(tick)) return false;
+  }
+  std::vector<int> island = {mechanism};
+  bool alone = true;
+  for (std::size_t i = 0; alone && i < island.size(); ++i) {
+    const bool known = surroundings_.EachNear(island[i], from, to, [&](int other) {
+      const Track& near = tracks_[other];
+      const bool own = replica_.authority().at(other).authority == track.peer;
+      alone = alone && own && near.since >= 0 && near.since <= from;
+      if (std::find(island.begin(), island.end(), other) == island.end()) island.push_back(other);
+    });
+    alone = alone && known && island.size() <= kIslandMost;
+  }
+  return alone;
+}
+
+void Auditor::Compare(int mechanism, const Told& told) {
+  Track& track = tracks_[mechanism];
+  if (track.player < 0 || !Knows(mechanism, track.put, told.tick)) return;
+  const std::optional<Gain> gain = spare_->Compare(mechanism, told.states);
+  if (!gain) return;
+  const bool character = characters_[static_cast<std::size_t>(mechanism)] != 0;
+  ++counts_.compared;
+  track.gain.Add(*gain, character ? kOfCharacter : gain->met ? kInCompany : 1);
+  counts_.greatest = std::max(counts_.greatest, track.gain.share());
+  if (!track.gain.lies()) return;
+  std::int64_t& noted = noted_[static_cast<std::size_t>(track.player)];
+  const double since = static_cast<double>(told.tick - noted) / Seconds(kAuditedS);
+  noted = std::max(noted, told.tick);
+  Found found{track.peer, track.player, {}};
+  found.doubt.body = spare_->bodies(mechanism).front();
+  found.doubt.tick = told.tick;
+  found.doubt.told = told.states.front();
+  found.doubt.expected = spare_->world().Read(found.doubt.body);
+  found.doubt.weight =
+      static_cast<float>(std::clamp(since, 0.0, 1.0)) * (track.gain.gross() ? kGrossAudited : 1);
+  found_.push_back(found);
+}
+
+}  // namespace seam
