@@ -30,6 +30,14 @@ struct ClientAccount {
   std::int64_t rtt_us_sum = 0, rtt_us_max = 0;  ///< over the readings
   std::int64_t loss_ppm_sum = 0;                ///< on the way to the server, over the readings
 
+  /// Records that a client becomes ready, or is heard again after a silence. Counts only if the
+  /// last one that counted is kReturnAgainUs ago: a silence must not excuse lies for ever.
+  void NoteReturn(std::int64_t now_us) {
+    if (returned_us < 0 || now_us - returned_us >= kReturnAgainUs) returned_us = now_us;
+  }
+  std::int64_t returned_us = -1;  ///< the last of these; -1: none
+  static constexpr std::int64_t kReturnAgainUs = 30'000'000;
+
   /// Counts a session that became ready after `tick` (change 1), or that left (-1).
   void NotePresent(std::int64_t tick, int change);
   /// Ticks in the room up to this one, over all sessions.

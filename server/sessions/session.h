@@ -70,7 +70,6 @@ struct Session {
   SessionStage stage = SessionStage::kAdmitted;
   std::size_t room_sent = 0;  ///< bytes of the room that were given to the link
   std::int64_t created_us = 0;
-  std::int64_t returned_us = -1;  ///< ready, or heard again after more than kSilentUs; -1: never
   std::int64_t repaired_us = -1000000000;
   bool lapsed = false;  ///< its lease has ended: the client gets no authority until it joins anew
   /// Time from which its pings are no longer answered, because the client does not release a

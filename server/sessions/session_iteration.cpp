@@ -119,7 +119,8 @@ void SessionTable::Forsake() {
 
 bool SessionTable::AnyReturned(std::int64_t now_us, std::int64_t within_us) const {
   return std::any_of(in_order_.begin(), in_order_.end(), [&](const Session* session) {
-    return session->stage == SessionStage::kReady && now_us - session->returned_us < within_us;
+    const std::int64_t returned_us = session->account->returned_us;
+    return session->player >= 0 && returned_us >= 0 && now_us - returned_us < within_us;
   });
 }
 

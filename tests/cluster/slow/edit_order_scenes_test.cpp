@@ -13,10 +13,13 @@
 #include "common/scene/scene.h"
 #include "common/sync/edits/edit_order.h"
 #include "tests/cluster/anchored_scenes.h"
+#include "tests/support/soak.h"
 
 namespace seam {
 namespace edit_order_scenes_test {
 
+/// Each scene is played for so long, s; by `make soak` to its end.
+constexpr double kSampleS = 10;
 /// Scenes of more parts are played by a few, and not to their end.
 constexpr std::size_t kLargeParts = 500;
 
@@ -82,7 +85,9 @@ TEST(EditOrder, IsTheOraclesInEveryShippedScene) {
     ClusterConfig config;
     config.scene = name;
     config.impair = "perfect";
-    if (LoadScene("scenes/" + name + ".toml").parts.size() > kLargeParts) {
+    const Scene scene = LoadScene("scenes/" + name + ".toml");
+    if (Soak(1) == 1) config.duration_s = std::min(kSampleS, scene.duration_s);
+    if (scene.parts.size() > kLargeParts) {
       config.players = 4;
       config.duration_s = 4;
     }

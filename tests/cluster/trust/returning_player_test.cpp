@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "client/embed/cluster.h"
+#include "server/sessions/account_book.h"
 #include "tests/support/gas_room.h"
 #include "tests/support/soak.h"
 #include "tests/support/soak/fault_plan.h"
@@ -74,6 +75,17 @@ TEST(ReturningPlayer, IsNotDistrustedAndHoldsItsBodiesAgain) {
       }
     }
   }
+}
+
+TEST(ReturningPlayer, IsExcusedOnceInHalfAMinuteHoweverOftenItIsSilent) {
+  ClientAccount account;
+  int excused = 0;
+  for (std::int64_t now_us = 0; now_us < 120'000'000; now_us += 300'000) {
+    const std::int64_t before_us = account.returned_us;
+    account.NoteReturn(now_us);
+    excused += account.returned_us != before_us ? 1 : 0;
+  }
+  EXPECT_EQ(excused, 4);
 }
 
 }  // namespace returning_player_test
