@@ -21,8 +21,8 @@ constexpr double kCopyWaitS = 0.2;
 /// the ladder, if none was felt.
 constexpr double kLoadWaitS = 0.5;
 constexpr float kLoadlessWeight = 2;
-/// Time after a client came, or came back from a silence, in which nobody's differences are scored,
-/// us: copies part meanwhile, of what others' bodies met too.
+/// Time after a client came, or came back from a silence, in which no refused state is scored, us:
+/// copies part meanwhile, of what others' bodies met too.
 constexpr std::int64_t kReturnUs = TrustLadder::kReturnS * 1000000;
 
 std::vector<float> NumbersOf(const BodyState& state) {
@@ -114,9 +114,10 @@ void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
 
 void Server::NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& doubt) {
   ++stats_.connections.doubts;
-  if (!sessions_.AnyReturned(now_us, kReturnUs)) {
+  // Small differences, and gains within a client's own states, are not those of a silence.
+  if (!doubt.refused || !sessions_.AnyReturned(now_us, kReturnUs)) {
     ladder_.Note(player, doubt.weight);
-  } else if (doubt.refused && config_.trust == TrustMode::kAct) {
+  } else if (config_.trust == TrustMode::kAct) {
     ladder_.NoteParted(player, replica_.tick());
   }
   Audit audit;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Gives a log that cannot be gone on with another name. Returns a line that says so.
+/// Gives a file that a log cannot go on with another name. Returns a line that says so.
 std::string PutAside(const std::string& log) {
   std::string to;
   for (int n = 1; to.empty() || fs::exists(to); ++n) {
@@ -97,6 +97,12 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
     return resumed;
   }
   if (damage.empty()) {
+    const std::string next = SegmentPath(resumed.log, tail.end.segment + 1);
+    std::error_code none;
+    const fs::file_status there = fs::symlink_status(next, none);
+    if (fs::exists(there) && !fs::is_regular_file(there)) {
+      resumed.notes.push_back(next + ": not a file of this log; " + PutAside(next));
+    }
     // Nothing of a later file belongs to the log; an empty one is a segment that was not begun.
     for (const LogSegment& other : ListSegments(resumed.log, tail.end.segment + 1)) {
       std::error_code error;

@@ -192,7 +192,17 @@ TEST_F(LogProgram, AllCountTheSameMessagesAsMissing) {
 }
 
 TEST_F(LogProgram, VerifyCountsWhatALoggerHasMissed) {
-  Capture("lost.lcm", 0, [](std::int64_t n) { return n < 500 || n > 540; });
+  {
+    LogReader reader(At("run.lcm"));
+    LogWriter writer(At("lost.lcm"), true);
+    std::int64_t n = 0;
+    for (LogEvent event; reader.Next(&event); ++n) {
+      const bool sum = event.channel.find(".chain.") != std::string::npos;  // a log of its own
+      if (!sum && (n < 500 || n > 540)) {
+        writer.Publish(event.channel, event.timestamp_us, event.data);
+      }
+    }
+  }
   const int missing = static_cast<int>(ReadRecording(At("lost.lcm")).bus_gaps);
   EXPECT_GT(missing, 10);
   const std::string says = Run({"verify", At("lost.lcm")}, 1);

@@ -176,6 +176,16 @@ TEST_F(OldSegments, AnotherFileInThePlaceOfTheNextIsKeptUnderAnotherName) {
   EXPECT_EQ(Numbers().back(), SegmentOf(210));
 }
 
+TEST_F(OldSegments, AFolderOrADanglingLinkInThatPlaceIsPutAsideToo) {
+  const std::string next = SegmentPath(Log(), SegmentOf(210) + 1);
+  fs::create_directory(next);
+  EXPECT_EQ(ReadResumedRoom(folder_.path(), "main").notes.size(), 1u);
+  EXPECT_TRUE(fs::is_directory(next + ".damaged-1"));
+  fs::create_symlink("nowhere", next);
+  EXPECT_EQ(ReadResumedRoom(folder_.path(), "main").notes.size(), 1u);
+  EXPECT_TRUE(fs::is_symlink(next + ".damaged-2"));
+}
+
 TEST_F(OldSegments, ADamagedOneIsReplacedByANewOne) {
   const std::int32_t damaged = SegmentOf(180);
   const std::string path = SegmentPath(Log(), damaged);
