@@ -10,6 +10,7 @@
 #include "common/scene/ownership.h"
 #include "common/scene/part_rules.h"
 #include "common/sync/edits/edit_order.h"
+#include "tests/lab/attack/silent_net.h"
 #include "tests/support/path/rewriting_net.h"
 
 namespace seam {
@@ -39,9 +40,10 @@ double WayX(const WireBody& body, const WireBody& from) {
 
 const std::vector<std::string>& AttackNames() {
   static const std::vector<std::string> names = {
-      "none",   "silence", "firstword", "x1.05",   "x1.2",    "x1.5",    "speed1.2", "ram",
-      "vel10",  "fly",     "lift",      "freeze",  "tear",    "spin",    "rest",     "exact",
-      "impact", "break",   "withhold",  "gain0.1", "gain0.2", "gain0.5", "gain5",    "bounce1.2"};
+      "none",    "silence", "firstword", "x1.05", "x1.2",     "x1.5",    "speed1.2",
+      "ram",     "vel10",   "fly",       "lift",  "freeze",   "tear",    "spin",
+      "rest",    "exact",   "impact",    "break", "withhold", "gain0.1", "gain0.2",
+      "gain0.5", "gain5",   "bounce1.2", "pulse"};
   return names;
 }
 
@@ -85,7 +87,7 @@ void Cheat::ChooseLies(const std::string& attack) {
   if (attack == "gain0.1") change_ = Gain(0.1);
   if (attack == "gain0.2") change_ = Gain(0.2);
   if (attack == "gain0.5") change_ = Gain(0.5);
-  if (attack == "gain5") change_ = Gain(5);
+  if (attack == "gain5" || attack == "pulse") change_ = Gain(5);
   if (attack == "bounce1.2") change_ = Bounce(1.2);
   if (attack == "silence") {
     change_ = [this](std::int64_t tick, WireBody* body) {
@@ -184,6 +186,7 @@ void Cheat::NoteLie(std::int64_t tick) {
 }
 
 std::unique_ptr<Net> Cheat::Around(std::unique_ptr<Net> net) {
+  if (attack_ == "pulse") net = std::make_unique<SilentNet>(std::move(net));
   return std::make_unique<RewritingNet>(std::move(net), [this](std::int64_t, Bytes* message) {
     Rewrite(message);
     return true;

@@ -50,7 +50,7 @@ double AfterS(const AttackOutcome& outcome) {
 }
 
 TEST(Audit, AGrossLiarIsFoundWithoutACopyWithinFiveSeconds) {
-  for (const char* attack : {"x1.2", "fly", "freeze", "tear", "spin", "vel10", "gain5"}) {
+  for (const char* attack : {"x1.2", "fly", "freeze", "tear", "spin", "vel10", "gain5", "pulse"}) {
     for (const char* impair : {"perfect", "4g", "terrible"}) {
       for (const int seed : SoakSeeds(1, 1)) {
         SCOPED_TRACE(std::string(attack) + " over " + impair);
