@@ -21,6 +21,12 @@ struct AttackOutcome {
   int broken = 0;                ///< joints that are gone at the end
 };
 
+/// Returns the time from the first lie until the server acted, s at 60 ticks a second; 1e9: never.
+inline double ActedAfterS(const AttackOutcome& outcome) {
+  if (outcome.acted_tick < 0) return 1e9;
+  return static_cast<double>(outcome.acted_tick - outcome.first_tick) / 60;
+}
+
 /// Runs the session with an attack of AttackNames(). Throws OperatorError for an unknown one.
 AttackOutcome RunAttack(ClusterConfig config, const std::string& attack);
 

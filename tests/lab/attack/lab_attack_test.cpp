@@ -27,11 +27,6 @@ ClusterConfig Room(const std::string& impair, std::int64_t seed) {
   return config;
 }
 
-double ActedAfterS(const AttackOutcome& outcome) {
-  if (outcome.acted_tick < 0) return 1e9;
-  return static_cast<double>(outcome.acted_tick - outcome.first_tick) / 60;
-}
-
 TEST(Attack, AGrossLiarLosesItsBodiesWithinFiveSeconds) {
   for (const char* attack : {"x1.2", "x1.5", "ram", "vel10", "fly", "lift", "freeze", "tear"}) {
     for (const char* impair : {"perfect", "4g"}) {

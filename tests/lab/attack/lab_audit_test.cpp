@@ -44,11 +44,6 @@ ClusterConfig LargeRoom(std::int64_t seed) {
   return config;
 }
 
-double AfterS(const AttackOutcome& outcome) {
-  if (outcome.acted_tick < 0) return 1e9;
-  return static_cast<double>(outcome.acted_tick - outcome.first_tick) / 60;
-}
-
 TEST(Audit, AGrossLiarIsFoundWithoutACopyWithinFiveSeconds) {
   for (const char* attack : {"x1.2", "fly", "freeze", "tear", "spin", "vel10", "gain5", "pulse"}) {
     for (const char* impair : {"perfect", "4g", "terrible"}) {
@@ -56,7 +51,7 @@ TEST(Audit, AGrossLiarIsFoundWithoutACopyWithinFiveSeconds) {
         SCOPED_TRACE(std::string(attack) + " over " + impair);
         const AttackOutcome outcome = RunAttack(Uncopied(impair, seed), attack);
         EXPECT_GT(outcome.lies, 10);
-        EXPECT_LT(AfterS(outcome), 5);
+        EXPECT_LT(ActedAfterS(outcome), 5);
         // Whom a liar's car strikes where the server does not have it may be noted.
         EXPECT_LE(outcome.others_step, static_cast<int>(TrustStep::kNoted));
       }
@@ -71,7 +66,7 @@ TEST(Audit, ASmallLieIsFoundWithoutACopyWithinHalfAMinute) {
       ClusterConfig config = Uncopied("demo", seed);
       config.duration_s = 33;
       const AttackOutcome outcome = RunAttack(config, attack);
-      EXPECT_LT(AfterS(outcome), 30);
+      EXPECT_LT(ActedAfterS(outcome), 30);
       EXPECT_EQ(outcome.others_step, 0);
     }
   }
@@ -86,7 +81,7 @@ TEST(Audit, ALiarInALargeRoomIsFound) {
       if (std::string(attack) == "none") {
         EXPECT_EQ(outcome.step, 0);
       } else {
-        EXPECT_LT(AfterS(outcome), 5);
+        EXPECT_LT(ActedAfterS(outcome), 5);
       }
     }
   }
