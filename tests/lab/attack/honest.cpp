@@ -55,4 +55,17 @@ HonestOutcome RunHonest(ClusterConfig config, bool shown) {
   return outcome;
 }
 
+std::vector<std::uint64_t> HashesByTrust(
+    ClusterConfig config, const std::function<void(const Server&, TrustMode)>& look) {
+  std::vector<std::uint64_t> hashes;
+  for (const TrustMode trust : {TrustMode::kOff, TrustMode::kWatch, TrustMode::kAct}) {
+    config.trust = trust;
+    Cluster cluster(config);
+    cluster.Run();
+    hashes.push_back(cluster.server().replica().world().Hash());
+    if (look) look(cluster.server(), trust);
+  }
+  return hashes;
+}
+
 }  // namespace seam

@@ -2,6 +2,8 @@
 /// One session in which all clients are honest, and what the server doubts of it.
 
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 #include "client/embed/cluster.h"
 
@@ -26,5 +28,10 @@ struct HonestOutcome {
 /// Runs the session with consequences of doubts (TrustMode::kAct). `shown`: the server publishes
 /// its views, and so simulates all bodies of a small room; else only those that players share.
 HonestOutcome RunHonest(ClusterConfig config, bool shown);
+
+/// Returns the hashes of the server's world at the end of the session with trust off, watch and
+/// act. `look` is given each server at its end.
+std::vector<std::uint64_t> HashesByTrust(
+    ClusterConfig config, const std::function<void(const Server&, TrustMode)>& look = {});
 
 }  // namespace seam
