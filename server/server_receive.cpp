@@ -79,7 +79,7 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
     OnProposal(session, *proposal);
   } else if (std::holds_alternative<Ready>(any)) {
     sessions_.NoteReady(session);
-    session.account->NoteReturn(now_us);
+    session.account->returned_us = now_us;
     FollowSessions(now_us);
   } else if (std::holds_alternative<Hello>(any)) {
     OnHello(now_us, session);

@@ -95,8 +95,8 @@ void Server::TakeWaitingBreaks(std::int64_t now_us) {
     } else {
       ++stats_.counters.dropped_implausible;
       ++stats_.connections.loadless;
-      const bool scored = session->player >= 0 && !sessions_.AnyReturned(now_us, kReturnUs);
-      if (scored) ladder_.Note(session->player, kLoadlessWeight);
+      const int player = session->player;
+      if (player >= 0 && !Excused(now_us, player)) ladder_.Note(player, kLoadlessWeight);
     }
     AddDrops(stats_.counters, before, &session->account->dropped);
   }
@@ -112,12 +112,16 @@ void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
   NoteDoubt(now_us, session.peer, session.player, gravest);
 }
 
+bool Server::Excused(std::int64_t now_us, int player) {
+  return sessions_.AnyReturned(now_us, kReturnUs) && ladder_.Excuse(player, replica_.tick());
+}
+
 void Server::NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& doubt) {
   ++stats_.connections.doubts;
   // Small differences, and gains within a client's own states, are not those of a silence.
-  if (!doubt.refused || !sessions_.AnyReturned(now_us, kReturnUs)) {
+  if (!(doubt.refused || doubt.left_out) || !Excused(now_us, player)) {
     ladder_.Note(player, doubt.weight);
-  } else if (config_.trust == TrustMode::kAct) {
+  } else if (doubt.refused && config_.trust == TrustMode::kAct) {
     ladder_.NoteParted(player, replica_.tick());
   }
   Audit audit;

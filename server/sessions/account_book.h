@@ -31,18 +31,7 @@ struct ClientAccount {
   std::int64_t rtt_us_sum = 0, rtt_us_max = 0;  ///< over the readings
   std::int64_t loss_ppm_sum = 0;                ///< on the way to the server, over the readings
 
-  /// Records that a client becomes ready, or is heard again after a silence. Of a player who often
-  /// does, one each kReturnEveryUs counts, and kReturnsAtOnce more: a silence excuses differences
-  /// (docs/trust.md), and must not excuse lies for ever.
-  void NoteReturn(std::int64_t now_us) {
-    const std::int64_t least_us = now_us - kReturnsAtOnce * kReturnEveryUs;
-    const std::int64_t paid_us = std::max(returns_paid_us_, least_us) + kReturnEveryUs;
-    if (paid_us > now_us) return;
-    returns_paid_us_ = paid_us;
-    returned_us = now_us;
-  }
-  std::int64_t returned_us = -1;  ///< the last of these; -1: none
-  static constexpr std::int64_t kReturnEveryUs = 30'000'000, kReturnsAtOnce = 3;
+  std::int64_t returned_us = -1;  ///< became ready, or was heard again after a silence; -1: never
 
   /// Counts a session that became ready after `tick` (change 1), or that left (-1).
   void NotePresent(std::int64_t tick, int change);
@@ -55,8 +44,7 @@ struct ClientAccount {
   void Read(std::int64_t read_rtt_us, std::int64_t read_loss_ppm);
 
  private:
-  std::int64_t returns_paid_us_ = INT64_MIN / 2;  // time up to which returns have counted
-  int present_ = 0;                               // sessions in the room
+  int present_ = 0;  // sessions in the room
   std::int64_t present_ticks_ = 0, present_since_ = 0;
 };
 

@@ -167,7 +167,7 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
   const bool silent = heard_us >= 0 && now_us - heard_us > kSilentUs;
   bool over = false;
   const auto gate = [&](std::size_t messages) {
-    if (silent) session.account->NoteReturn(now_us);
+    if (silent) session.account->returned_us = now_us;
     over = !session.budget.Take(now_us, datagram.size(), messages);
     return !over;
   };

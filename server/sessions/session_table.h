@@ -59,7 +59,7 @@ class SessionTable {
                   const Deliver& deliver);
   /// Handles a Ready message. Ignored unless the session is loading.
   void NoteReady(Session& session);
-  /// True if a player's client has returned (ClientAccount::NoteReturn) within the last
+  /// True if a player's client has returned (ClientAccount::returned_us) within the last
   /// `within_us`.
   bool AnyReturned(std::int64_t now_us, std::int64_t within_us) const;
   /// Drops sessions that are silent (lease.h), never get ready, send too much, or are leaving.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "common/physics/part_places.h"
 #include "common/scene/character.h"
@@ -13,13 +12,11 @@
 namespace seam {
 namespace {
 
-/// Time between two draws, s: two or three comparisons.
-constexpr double kDrawS = 0.5;
-/// A client with this share of a lie is drawn again.
-constexpr double kMayLie = 0.2;
 /// A mechanism is put anew after a time between these, s: long enough that a lie is more than the
 /// wire's rounding, short enough that chaos has not begun. It is out if it is told of too seldom.
 constexpr double kPutAfterS = 0.15, kPutWithinS = 0.25, kOutS = 1;
+/// A body that a message left out is where it was told to be in the last of these, s, moved on.
+constexpr double kMovedOnS = 0.1;
 /// Work of building the spare world, steps of a body for each part of the scene.
 constexpr std::int64_t kBuildSteps = 4;
 /// The spare world skips ticks if it is later than this, s.
@@ -79,7 +76,7 @@ void Auditor::NoteRenumbered() {
 
 void Auditor::Forget(int mechanism) {
   Leave(mechanism);
-  tracks_[mechanism].told.clear();
+  tracks_[mechanism].told.Forget();
 }
 
 void Auditor::NoteEdit(const Edit& edit) {
@@ -116,19 +113,10 @@ void Auditor::NoteTold(int player, const States& states) {
     }
     track.player = player;
     if (track.drawn) Activate(world.mechanism(body));
-    const auto kept = std::find_if(track.told.begin(), track.told.end(),
-                                   [&](const Told& told) { return told.tick > oldest; });
-    track.told.erase(track.told.begin(), kept);
-    const std::size_t size = size_[static_cast<std::size_t>(world.mechanism(body))];
-    auto told = std::lower_bound(track.told.begin(), track.told.end(), states.tick,
-                                 [](const Told& a, std::int64_t tick) { return a.tick < tick; });
-    if (told == track.told.end() || told->tick != states.tick) {
-      told = track.told.insert(told, Told{states.tick, 0, std::vector<BodyState>(size)});
-    }
-    if (told->states.size() != size) continue;
-    told->states[place_[static_cast<std::size_t>(body)]] =
-        Unpack(states, i, world.Read(body).angle);
-    ++told->count;
+    track.told.DropBefore(oldest + 1);
+    track.told.Add(states.tick, place_[static_cast<std::size_t>(body)],
+                   size_[static_cast<std::size_t>(world.mechanism(body))],
+                   Unpack(states, i, world.Read(body).angle));
   }
 }
 
@@ -136,73 +124,6 @@ bool Auditor::Asleep(int mechanism) const {
   const World& world = replica_.world();
   return !AnyIdOf(world.composition(), mechanism,
                   [&](PartId id) { return world.awake(world.BodyOfId(id)); });
-}
-
-/// Clients in random order, each with what it drives first, as long as there is room.
-void Auditor::Draw() {
-  const AuthorityTable& table = replica_.authority();
-  const Drivers& drivers = replica_.drivers();
-  const auto players = static_cast<int>(noted_.size());
-  std::vector<char> driven(static_cast<std::size_t>(table.count()), 0);
-  driven_by_others_.assign(driven.size(), 0);
-  for (int p = 0; p < players; ++p) {
-    for (const int m : drivers.MovedBy(p)) {
-      const auto own = static_cast<std::size_t>(m);
-      if (tracks_[m].player >= 0 && tracks_[m].player != p) driven_by_others_[own] = 1;
-      driven[own] = 1;
-    }
-  }
-  // The order of the clients: those that may lie, then those not followed for the longest time.
-  struct Candidate {
-    double order = 0;
-    int peer = -1;
-    bool rides = false;
-    int mechanism = -1;
-  };
-  std::vector<double> order(static_cast<std::size_t>(kPeersMax), 0);
-  for (std::size_t peer = 0; peer < order.size(); ++peer) {
-    order[peer] = static_cast<double>(followed_[peer]) + random_.Uniform(0, Seconds(kDrawS));
-  }
-  std::vector<Candidate> all;
-  for (int m = 0; m < table.count(); ++m) {
-    const int peer = table.at(m).authority;
-    if (peer <= 0) continue;
-    all.push_back({0, peer, driven[static_cast<std::size_t>(m)] == 0, m});
-    const bool may_lie = tracks_[m].peer == peer && tracks_[m].gain.share() > kMayLie;
-    if (may_lie) order[static_cast<std::size_t>(peer)] = -1;
-  }
-  for (Candidate& c : all) c.order = order[static_cast<std::size_t>(c.peer)];
-  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.order, a.peer, a.rides, a.mechanism) <
-           std::tie(b.order, b.peer, b.rides, b.mechanism);
-  });
-  const Solver& solver = replica_.world().scene().solver;
-  const std::int64_t most = kStepsPerS / (solver.tick_hz * solver.substeps);
-  std::int64_t bodies = 0;
-  std::vector<char> in(driven.size(), 0);
-  players_.clear();
-  for (const Candidate& c : all) {
-    const std::size_t more = Asleep(c.mechanism) ? 0 : size_[static_cast<std::size_t>(c.mechanism)];
-    if (bodies + static_cast<std::int64_t>(more) > most) continue;
-    bodies += static_cast<std::int64_t>(more);
-    in[static_cast<std::size_t>(c.mechanism)] = 1;
-    if (more > 0) followed_[static_cast<std::size_t>(c.peer)] = replica_.tick();
-  }
-  for (int m = 0; m < table.count(); ++m) {
-    tracks_[m].drawn = in[static_cast<std::size_t>(m)] != 0;
-    if (!tracks_[m].drawn) {
-      Leave(m);
-    } else if (!tracks_[m].told.empty()) {
-      Activate(m);
-    }
-  }
-  for (int p = 0; p < players; ++p) {
-    const std::vector<int>& moved = drivers.MechanismsOf(p);
-    const bool any = std::any_of(moved.begin(), moved.end(),
-                                 [&](int m) { return in[static_cast<std::size_t>(m)] != 0; });
-    if (any || drivers.MovesBelt(p)) players_.push_back(p);
-  }
-  draw_at_ = replica_.tick() + Seconds(kDrawS);
 }
 
 void Auditor::Build() {
@@ -269,25 +190,22 @@ void Auditor::Activate(int mechanism) {
 
 void Auditor::Visit(int mechanism, std::int64_t tick) {
   Track& track = tracks_[mechanism];
-  const auto now = std::find_if(track.told.begin(), track.told.end(),
-                                [&](const Told& told) { return told.tick >= tick; });
-  track.told.erase(track.told.begin(), now);
-  const std::size_t size = size_[static_cast<std::size_t>(mechanism)];
-  const bool told = !track.told.empty() && track.told.front().tick == tick &&
-                    track.told.front().states.size() == size && track.told.front().count >= size;
-  if (!told) {
+  const ToldStates::Told* const told = track.told.GoTo(tick, Seconds(kOutS));
+  if (told == nullptr) {
     const bool still = track.put < 0 && track.told.empty() && Asleep(mechanism);
     const bool silent = track.put >= 0 && tick - track.put > Seconds(kOutS);
     if (track.since >= 0 && (silent || (track.put < 0 && !still))) Leave(mechanism);
     return;
   }
-  if (track.put >= 0 && tick - track.put < track.length) return;
-  if (track.put >= 0) Compare(mechanism, track.told.front());
-  spare_->Put(mechanism, track.peer, track.told.front().states);
-  if (track.since < 0) track.since = tick;
-  track.put = tick;
-  track.length = Seconds(random_.Uniform(kPutAfterS, kPutWithinS));
-  surroundings_.EachNear(mechanism, tick, tick, [&](int other) { PutStill(other, tick); });
+  if (tick < track.due) return;
+  Compare(mechanism, *told);
+  track.due = tick + Seconds(random_.Uniform(kPutAfterS, kPutWithinS));
+  if (const auto whole = track.told.Whole(Seconds(kMovedOnS), spare_->world().dt())) {
+    spare_->Put(mechanism, track.peer, *whole);
+    if (track.since < 0) track.since = tick;
+    track.put = tick;
+    surroundings_.EachNear(mechanism, tick, tick, [&](int other) { PutStill(other, tick); });
+  }
 }
 
 /// Something of the same holder that nobody tells of as it lies still, in the way of the rest.
@@ -301,15 +219,19 @@ void Auditor::PutStill(int mechanism, std::int64_t tick) {
   Activate(mechanism);
 }
 
+bool Auditor::KnowsInputs(int player, std::int64_t from, std::int64_t to) const {
+  const InputTrack& inputs = replica_.inputs(player);
+  for (std::int64_t tick = from + 1; tick <= to; ++tick) {
+    if (!inputs.knows(tick)) return false;
+  }
+  return true;
+}
+
 /// True if all that may have moved the mechanism between the ticks, directly or through others, was
 /// in the spare world.
 bool Auditor::Knows(int mechanism, std::int64_t from, std::int64_t to) const {
   const Track& track = tracks_[mechanism];
   if (driven_by_others_[static_cast<std::size_t>(mechanism)] != 0) return false;
-  const InputTrack& inputs = replica_.inputs(track.player);
-  for (std::int64_t tick = from + 1; tick <= to; ++tick) {
-    if (!inputs.knows(tick)) return false;
-  }
   std::vector<int> island = {mechanism};
   bool alone = true;
   for (std::size_t i = 0; alone && i < island.size(); ++i) {
@@ -324,24 +246,40 @@ bool Auditor::Knows(int mechanism, std::int64_t from, std::int64_t to) const {
   return alone;
 }
 
-void Auditor::Compare(int mechanism, const Told& told) {
+/// An honest client's states and inputs are sent together, and what is lost is repeated: .5 s later
+/// nothing is missing.
+void Auditor::Compare(int mechanism, const ToldStates::Told& told) {
   Track& track = tracks_[mechanism];
-  if (track.player < 0 || !Knows(mechanism, track.put, told.tick)) return;
-  const std::optional<Gain> gain = spare_->Compare(mechanism, told.states);
-  if (!gain) return;
-  const bool character = characters_[static_cast<std::size_t>(mechanism)] != 0;
-  ++counts_.compared;
-  track.gain.Add(*gain, character ? kOfCharacter : gain->met ? kInCompany : 1);
+  if (track.player < 0) return;
+  const std::int64_t from = track.put >= 0 ? track.put : told.tick;
+  const bool all =
+      KnowsInputs(track.player, from, told.tick) && !track.told.LeavesOut(Seconds(kOutS));
+  track.gain.NoteAllTold(all);
+  if (all && track.put >= 0 && Knows(mechanism, from, told.tick)) {
+    const std::optional<Gain> gain = spare_->Compare(mechanism, told.states);
+    const bool character = characters_[static_cast<std::size_t>(mechanism)] != 0;
+    if (gain) track.gain.Add(*gain, character ? kOfCharacter : gain->met ? kInCompany : 1);
+    counts_.compared += gain ? 1 : 0;
+  }
   counts_.greatest = std::max(counts_.greatest, track.gain.share());
-  if (!track.gain.lies()) return;
+  if (track.gain.lies()) NoteLie(mechanism, told);
+}
+
+void Auditor::NoteLie(int mechanism, const ToldStates::Told& told) {
+  Track& track = tracks_[mechanism];
   std::int64_t& noted = noted_[static_cast<std::size_t>(track.player)];
   const double since = static_cast<double>(told.tick - noted) / Seconds(kAuditedS);
   noted = std::max(noted, told.tick);
+  const auto first =
+      std::find_if(told.states.begin(), told.states.end(),
+                   [](const std::optional<BodyState>& state) { return state.has_value(); });
+  const auto place = static_cast<std::size_t>(first - told.states.begin());
   Found found{track.peer, track.player, {}};
-  found.doubt.body = spare_->bodies(mechanism).front();
+  found.doubt.body = spare_->bodies(mechanism)[place];
   found.doubt.tick = told.tick;
-  found.doubt.told = told.states.front();
+  found.doubt.told = **first;
   found.doubt.expected = spare_->world().Read(found.doubt.body);
+  found.doubt.left_out = track.gain.leaves_out();
   found.doubt.weight =
       static_cast<float>(std::clamp(since, 0.0, 1.0)) * (track.gain.gross() ? kGrossAudited : 1);
   found_.push_back(found);

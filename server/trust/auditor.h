@@ -24,6 +24,7 @@
 #include "common/sync/table/mechanism_column.h"
 #include "server/trust/doubt.h"
 #include "server/trust/surroundings.h"
+#include "server/trust/told_states.h"
 
 namespace seam {
 
@@ -60,21 +61,15 @@ class Auditor {
   static constexpr double kBehindS = 0.5;
 
  private:
-  /// States told of a mechanism for one tick.
-  struct Told {
-    std::int64_t tick = 0;
-    std::size_t count = 0;          // of bodies told of
-    std::vector<BodyState> states;  // in the order of SpareWorld::bodies
-  };
   struct Track {
     int peer = 0, player = -1;
     int revision = 0;  // states of peers that lack an edit up to it do not count
     bool drawn = false;
     bool active = false;      // listed in active_
-    std::vector<Told> told;   // ascending ticks, of the spare world's future
+    ToldStates told;          // in the order of SpareWorld::bodies
     std::int64_t since = -1;  // tick from which it is in the spare world; -1: it is not
     std::int64_t put = -1;    // tick at which it was last put at told states; -1: not
-    std::int64_t length = 0;  // ticks from then to the next time
+    std::int64_t due = 0;     // tick of the next comparison
     SteadyGain gain;
   };
 
@@ -86,7 +81,9 @@ class Auditor {
   void PutStill(int mechanism, std::int64_t tick);
   void Leave(int mechanism);
   void Activate(int mechanism);
-  void Compare(int mechanism, const Told& told);
+  void Compare(int mechanism, const ToldStates::Told& told);
+  void NoteLie(int mechanism, const ToldStates::Told& told);
+  bool KnowsInputs(int player, std::int64_t from, std::int64_t to) const;
   bool Knows(int mechanism, std::int64_t from, std::int64_t to) const;
   void Forget(int mechanism);
   void NoteRenumbered();

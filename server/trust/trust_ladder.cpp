@@ -36,6 +36,17 @@ void TrustLadder::Withhold(int player, std::int64_t until) {
   withheld = std::max(withheld, until);
 }
 
+bool TrustLadder::Excuse(int player, std::int64_t tick) {
+  Standing& standing = standings_[static_cast<std::size_t>(player)];
+  if (tick < standing.excused_until) return true;
+  const std::int64_t every = std::int64_t{kExcuseEveryS} * tick_hz_;
+  const std::int64_t paid = std::max(standing.excuses_paid, tick - kExcusesAtOnce * every) + every;
+  if (paid > tick) return false;
+  standing.excuses_paid = paid;
+  standing.excused_until = tick + kReturnS * tick_hz_;
+  return true;
+}
+
 bool TrustLadder::MayHold(int player, std::int64_t tick) const {
   const Standing& standing = At(player);
   return standing.step < TrustStep::kServerHolds && tick >= standing.withheld_until;

@@ -10,6 +10,7 @@
 ///   out           it has to leave, and its place holds nothing for kRememberS: the third time
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ class TrustLadder {
   void NoteWithheld(int player, std::int64_t tick) {
     Withhold(player, tick + kWithheldS * tick_hz_);
   }
+  /// True if a difference of the player's states may be the effect of somebody's silence that has
+  /// just ended. It then is for kReturnS; kExcusesAtOnce times, and once more each kExcuseEveryS:
+  /// a silence must not excuse lies for ever. Not kept in a saved room: all return when it goes on.
+  bool Excuse(int player, std::int64_t tick);
   /// Does so for kReturnS: after somebody's silence its states differ from those that the server
   /// has told everybody meanwhile. That is no doubt about its client.
   void NoteParted(int player, std::int64_t tick) { Withhold(player, tick + kReturnS * tick_hz_); }
@@ -63,6 +68,7 @@ class TrustLadder {
   /// Time after a silence in which differences are taken for its effects, s: a hand-over over any
   /// network. Longer lets a client lie unscored after each silence, though nobody believes it.
   static constexpr int kReturnS = 2;
+  static constexpr int kExcusesAtOnce = 3, kExcuseEveryS = 30;
 
  private:
   struct Standing {
@@ -72,6 +78,8 @@ class TrustLadder {
     std::int64_t until = 0;           // end of such a step, tick
     std::int64_t forgotten = 0;       // tick at which the falls are forgotten
     std::int64_t withheld_until = 0;  // tick until which it may hold nothing
+    std::int64_t excused_until = 0;
+    std::int64_t excuses_paid = std::numeric_limits<std::int64_t>::min() / 2;  // tick
   };
   const Standing& At(int player) const { return standings_[static_cast<std::size_t>(player)]; }
   TrustStep Next(Standing* standing, std::int64_t tick) const;

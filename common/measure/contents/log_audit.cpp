@@ -55,7 +55,8 @@ class ViewAudit {
       });
     }
     for (int m = 0; m < mechanisms; ++m) {
-      const std::optional<Gain> gain = spare_->Compare(m, StatesOf(m, to));
+      const std::vector<BodyState> told = StatesOf(m, to);
+      const std::optional<Gain> gain = spare_->Compare(m, {told.begin(), told.end()});
       if (gain) Sum(*gain, Holder(m, from, to), gains);
     }
   }

@@ -63,15 +63,16 @@ void SpareWorld::Step(const std::function<void(World*)>& inputs) {
   }
 }
 
-std::optional<Gain> SpareWorld::Compare(int mechanism, const std::vector<BodyState>& told) const {
+std::optional<Gain> SpareWorld::Compare(int mechanism, const ToldNow& told) const {
   const Standing& standing = standings_[static_cast<std::size_t>(mechanism)];
   if (standing.holder <= 0 || standing.lost) return std::nullopt;
   const std::vector<int>& own = bodies(mechanism);
   Whole is, would_be;
   for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!told[i]) continue;
     const float mass = world_.mass(own[i]);
     const BodyState stepped = world_.Read(own[i]);
-    is.Add(CentreOf(world_, own[i], told[i]), told[i], mass);
+    is.Add(CentreOf(world_, own[i], *told[i]), *told[i], mass);
     would_be.Add(CentreOf(world_, own[i], stepped), stepped, mass);
   }
   if (is.mass <= 0) return std::nullopt;
@@ -82,8 +83,9 @@ std::optional<Gain> SpareWorld::Compare(int mechanism, const std::vector<BodySta
   gain.velocity = (is.velocity - would_be.velocity) / is.mass;
   gain.stepped = would_be.velocity / is.mass;
   for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!told[i]) continue;
     const BodyState stepped = world_.Read(own[i]);
-    const Vec2 moved = CentreOf(world_, own[i], told[i]) - CentreOf(world_, own[i], stepped);
+    const Vec2 moved = CentreOf(world_, own[i], *told[i]) - CentreOf(world_, own[i], stepped);
     gain.apart = std::max(gain.apart, double{(moved - gain.position).norm()});
   }
   return gain;

@@ -41,9 +41,10 @@ class SpareWorld {
   void Take(int mechanism);
   /// Steps once; `inputs` sets those of the tick.
   void Step(const std::function<void(World*)>& inputs);
-  /// Compares a mechanism with states told for now; nullopt if it has no holder, or has touched
-  /// another one's.
-  std::optional<Gain> Compare(int mechanism, const std::vector<BodyState>& told) const;
+  /// Compares a mechanism's bodies with states told for now, but for those that were left out.
+  /// nullopt if it has no holder, or has touched another one's.
+  using ToldNow = std::vector<std::optional<BodyState>>;
+  std::optional<Gain> Compare(int mechanism, const ToldNow& told) const;
 
  private:
   struct Standing {

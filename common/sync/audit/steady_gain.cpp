@@ -43,7 +43,11 @@ void SteadyGain::Add(const Gain& gain, double times) {
   }
 }
 
-double SteadyGain::share() const {
+void SteadyGain::NoteAllTold(bool all) {
+  left_out_ = std::clamp(left_out_ + (all ? 0 : kCountsMost) - 1, 0.0, 2 * kLie);
+}
+
+double SteadyGain::share_of_gains() const {
   double most = 0;
   for (const Sums& sums : sums_) most = std::max({most, sums.up, sums.down});
   return most / kLie;

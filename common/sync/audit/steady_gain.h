@@ -21,12 +21,17 @@ class SteadyGain {
  public:
   /// `times`: an honest gain is so many times as great.
   void Add(const Gain& gain, double times = 1);
+  /// Counts whether the client has told all that a comparison needs. Nothing compels a client that
+  /// lies to tell it: leaving it out again and again counts as the greatest gain.
+  void NoteAllTold(bool all);
   /// True if the gains so far are no chance.
   bool lies() const { return share() > 1; }
+  /// True if only what was left out says so.
+  bool leaves_out() const { return lies() && share_of_gains() <= 1; }
   /// True if the newest gain was as great as any counts, and that is far from chance.
   bool gross() const { return gross_ && share() > kGrossShare; }
   /// Greatest sum, as a share of the one that counts.
-  double share() const;
+  double share() const { return std::max(share_of_gains(), left_out_ / kLie); }
 
   /// Honest gains: of velocity, m/s in each second; of place, m in each second; of a body relative
   /// to its mechanism, m.
@@ -37,6 +42,8 @@ class SteadyGain {
   static constexpr double kGrossShare = 1.5;  ///< share of a lie
 
  private:
+  double share_of_gains() const;
+
   /// Sums of gains along and against one direction.
   struct Sums {
     double up = 0, down = 0;
@@ -45,6 +52,7 @@ class SteadyGain {
   };
 
   std::array<Sums, 7> sums_;
+  double left_out_ = 0;
   bool gross_ = false;
 };
 

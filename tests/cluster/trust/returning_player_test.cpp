@@ -6,7 +6,8 @@
 #include <cstdio>
 
 #include "client/embed/cluster.h"
-#include "server/sessions/account_book.h"
+#include "server/trust/trust_ladder.h"
+#include "tests/lab/attack/attack.h"
 #include "tests/support/gas_room.h"
 #include "tests/support/soak.h"
 #include "tests/support/soak/fault_plan.h"
@@ -77,15 +78,53 @@ TEST(ReturningPlayer, IsNotDistrustedAndHoldsItsBodiesAgain) {
   }
 }
 
-TEST(ReturningPlayer, IsExcusedAFewTimesHoweverOftenItIsSilent) {
-  ClientAccount account;
-  int excused = 0;
-  for (std::int64_t now_us = 0; now_us < 120'000'000; now_us += 300'000) {
-    const std::int64_t before_us = account.returned_us;
-    account.NoteReturn(now_us);
-    excused += account.returned_us != before_us ? 1 : 0;
+TEST(ReturningPlayer, IsExcusedAFewTimesHoweverOftenSomebodyIsSilent) {
+  TrustLadder ladder(2, 60);
+  int excused_s = 0;
+  for (std::int64_t tick = 0; tick < 120 * 60; tick += 60) excused_s += ladder.Excuse(0, tick);
+  EXPECT_EQ(excused_s, 2 * 6) << "three at once, and one in each half minute";
+  EXPECT_TRUE(ladder.Excuse(1, 0)) << "each player has its own";
+}
+
+/// Eight ships in empty space, each with an engine.
+std::string EightShips() {
+  std::string text = "gravity = [0, 0]\n";
+  for (int i = 0; i < 8; ++i) {
+    const std::string name = "p" + std::to_string(i);
+    text += "[[player]]\nname = \"" + name + "\"\nvehicle = \"ship-" + name + "\"\n";
+    text += "script = [[0, {drive = 1}], [4, {drive = -1}], [12, {drive = 1}]]\n";
+    text += "[[part]]\nname = \"ship-" + name + "\"\nbox = [2, 1]\nowner = \"" + name + "\"\n";
+    text += "position = [0, " + std::to_string(20 * i) + "]\n";
+    text += "[[thrust]]\nname = \"engine-" + name + "\"\npart = \"ship-" + name + "\"\n";
+    text += "force = [10, 0]\nplayer = \"" + name + "\"\naxis = \"drive\"\n";
   }
-  EXPECT_EQ(excused, 6) << "three at once, and one in each half minute";
+  return text;
+}
+
+/// In a room of eight the lines of six are cut for a moment, one after the other.
+TEST(ReturningPlayer, OthersReturnsDoNotExcuseALiarForEver) {
+  for (const char* attack : {"none", "x1.5"}) {
+    ClusterConfig config;
+    config.scene = "ships";
+    config.scene_text = EightShips();
+    config.impair = "demo";
+    config.keep = false;
+    config.trust = TrustMode::kAct;
+    config.duration_s = 26;
+    std::vector<Fault> faults;
+    for (int i = 0; i < 48; ++i) {
+      const double from_s = 2 + 0.5 * i;
+      faults.push_back({FaultKind::kCut, 2 + i % 6, from_s, from_s + 0.4, 0});
+    }
+    const AttackOutcome outcome = RunAttack(config, attack, faults);
+    SCOPED_TRACE(attack);
+    if (std::string(attack) == "none") {
+      EXPECT_LE(outcome.step, static_cast<int>(TrustStep::kWatched));
+    } else {
+      EXPECT_GT(outcome.lies, 10);
+      EXPECT_LT(ActedAfterS(outcome), 12);
+    }
+  }
 }
 
 }  // namespace returning_player_test

@@ -6,6 +6,7 @@
 #include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "tests/lab/attack/cheat.h"
+#include "tests/support/soak/fault_runner.h"
 
 namespace seam {
 namespace {
@@ -25,12 +26,20 @@ float Hurt(const Cluster& cluster, const Rules& rules) {
 
 }  // namespace
 
-AttackOutcome RunAttack(ClusterConfig config, const std::string& attack) {
+AttackOutcome RunAttack(ClusterConfig config, const std::string& attack,
+                        const std::vector<Fault>& faults) {
   const Scene scene = config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")
                                                 : ParseScene(config.scene_text, config.scene);
   Cheat cheat(attack, scene);
   config.trust = TrustMode::kAct;
-  config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
+  FaultPlan plan;
+  plan.config = std::move(config);
+  plan.faults = faults;
+  FaultRunner runner(plan);
+  config = runner.Config();
+  config.client_net = [&, faulty = config.client_net](std::size_t client,
+                                                      std::unique_ptr<Net> net) {
+    net = faulty(client, std::move(net));
     if (client != 0 || attack == "none") return net;
     return cheat.Around(std::move(net));
   };
@@ -38,6 +47,7 @@ AttackOutcome RunAttack(ClusterConfig config, const std::string& attack) {
   AttackOutcome outcome;
   std::int64_t looked = -1;
   cluster.each_instant = [&] {
+    runner.Act(cluster);
     const Server& server = cluster.server();
     if (!server.started() || server.tick() == looked) return;
     looked = server.tick();

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "client/embed/cluster.h"
+#include "tests/support/soak/fault_plan.h"
 
 namespace seam {
 
@@ -27,7 +29,9 @@ inline double ActedAfterS(const AttackOutcome& outcome) {
   return static_cast<double>(outcome.acted_tick - outcome.first_tick) / 60;
 }
 
-/// Runs the session with an attack of AttackNames(). Throws OperatorError for an unknown one.
-AttackOutcome RunAttack(ClusterConfig config, const std::string& attack);
+/// Runs the session with an attack of AttackNames(), and faults of the clients. Throws
+/// OperatorError for an unknown one.
+AttackOutcome RunAttack(ClusterConfig config, const std::string& attack,
+                        const std::vector<Fault>& faults = {});
 
 }  // namespace seam

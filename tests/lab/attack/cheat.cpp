@@ -43,7 +43,7 @@ const std::vector<std::string>& AttackNames() {
       "none",    "silence", "firstword", "x1.05", "x1.2",     "x1.5",    "speed1.2",
       "ram",     "vel10",   "fly",       "lift",  "freeze",   "tear",    "spin",
       "rest",    "exact",   "impact",    "break", "withhold", "gain0.1", "gain0.2",
-      "gain0.5", "gain5",   "bounce1.2", "pulse"};
+      "gain0.5", "gain5",   "bounce1.2", "pulse", "part",     "wheel",   "gaps"};
   return names;
 }
 
@@ -81,7 +81,13 @@ void Cheat::ChooseLies(const std::string& attack) {
     };
   };
   if (attack == "x1.05") change_ = factor(1.05, false);
-  if (attack == "x1.2") change_ = factor(1.2, false);
+  if (attack == "x1.2" || attack == "gaps") change_ = factor(1.2, false);
+  if (attack == "part" || attack == "wheel") {
+    change_ = [this, faster = factor(1.2, false)](std::int64_t tick, WireBody* body) {
+      const auto turn = static_cast<std::size_t>(attack_ == "part" ? tick / 2 : 1);
+      return faster(tick, body) && body->id != car_[turn % car_.size()];
+    };
+  }
   if (attack == "x1.5") change_ = factor(1.5, false);
   if (attack == "speed1.2") change_ = factor(1.2, true);
   if (attack == "gain0.1") change_ = Gain(0.1);
@@ -197,6 +203,8 @@ void Cheat::Rewrite(Bytes* message) {
   const AnyMessage any = Decode(*message);
   if (const auto* packed = std::get_if<PackedStates>(&any)) {
     RewriteStates(message, *packed);
+  } else if (const auto* inputs = std::get_if<PackedInputs>(&any)) {
+    if (attack_ == "gaps" && tick_ >= start_tick_) LeaveOutInputs(message, *inputs);
   } else if (tick_ >= start_tick_) {
     RewriteOther(message);
   }
@@ -223,6 +231,19 @@ void Cheat::RewriteStates(Bytes* message, const PackedStates& packed) {
   // Nothing is acknowledged to this packer, so that it tells whole states.
   const std::vector<StatesPacker::Message> told = lying_.Take(0);
   *message = told.empty() ? Encode(Ping()) : Encode(told.front().packed);
+}
+
+/// Those of each eighth tick. A message tells of successive ticks: those after the gap.
+void Cheat::LeaveOutInputs(Bytes* message, const PackedInputs& packed) {
+  const std::optional<std::vector<Inputs>> all = UnpackInputs(packed);
+  for (const Inputs& inputs : all.value()) {
+    const std::int64_t newest =
+        inputs.first_tick + static_cast<std::int64_t>(inputs.drive.size()) - 1;
+    const auto told = static_cast<std::size_t>(newest % 8);
+    InputsPacker packer;
+    if (told > 0) packer.Add(inputs, told);
+    *message = told > 0 ? Encode(packer.Finish()) : Encode(Ping());
+  }
 }
 
 void Cheat::RewriteOther(Bytes* message) {

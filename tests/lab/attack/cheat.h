@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/codec/packed/packed_inputs.h"
 #include "common/codec/packed/states_packer.h"
 #include "common/codec/packed/states_unpacker.h"
 #include "common/codec/wire_body.h"
@@ -37,6 +38,7 @@ class Cheat {
   void ChooseLies(const std::string& attack);
   void Rewrite(Bytes* message);
   void RewriteStates(Bytes* message, const PackedStates& packed);
+  void LeaveOutInputs(Bytes* message, const PackedInputs& packed);
   void RewriteOther(Bytes* message);
   void NoteLie(std::int64_t tick);
   bool IsCar(std::int32_t id) const;

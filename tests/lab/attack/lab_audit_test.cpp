@@ -45,7 +45,8 @@ ClusterConfig LargeRoom(std::int64_t seed) {
 }
 
 TEST(Audit, AGrossLiarIsFoundWithoutACopyWithinFiveSeconds) {
-  for (const char* attack : {"x1.2", "fly", "freeze", "tear", "spin", "vel10", "gain5", "pulse"}) {
+  for (const char* attack : {"x1.2", "fly", "freeze", "tear", "spin", "vel10", "gain5", "pulse",
+                             "part", "wheel", "gaps"}) {
     for (const char* impair : {"perfect", "4g", "terrible"}) {
       for (const int seed : SoakSeeds(1, 1)) {
         SCOPED_TRACE(std::string(attack) + " over " + impair);
