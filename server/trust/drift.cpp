@@ -27,8 +27,7 @@ Vec2 AtMost(float most, const Vec2& v) {
 Drift::Drift(const Replica& replica)
     : replica_(replica), tracks_(replica.table(), BodyRule::kSame) {}
 
-/// Greater differences are doubts by themselves: they count as the greatest that is none, as chaos
-/// after late inputs makes a few that are great.
+/// Greater differences are doubts by themselves: they count as the greatest that is none.
 void Drift::Add(int body, std::int64_t tick, const BodyState& copy, const BodyState& off) {
   Track& track = tracks_[body];
   const int holder = replica_.authority().at(replica_.world().mechanism(body)).authority;
@@ -40,8 +39,9 @@ void Drift::Add(int body, std::int64_t tick, const BodyState& copy, const BodySt
   const bool moves = copy.velocity.norm() > kMoves;
   const Vec2 along = moves ? Vec2(copy.velocity.normalized()) : Vec2(0, 0);
   const auto add = [&](const Vec2& by, Sums* sums) {
-    sums->along = keep * sums->along + by.dot(along);
-    sums->axes = keep * sums->axes + by;
+    const Eigen::Array3f more(by.dot(along), by.x(), by.y());
+    sums->sum = keep * sums->sum + more;
+    sums->chance2 = keep * keep * sums->chance2 + more.square();
   };
   const Vec2 way = off.position - track.left.position - seconds * track.left.velocity;
   add(AtMost(kStep, way), &track.moved);
@@ -50,12 +50,12 @@ void Drift::Add(int body, std::int64_t tick, const BodyState& copy, const BodySt
   greatest_ = std::max(greatest_, Share(track));
 }
 
-float Drift::Greatest(const Sums& sums) {
-  return std::max(std::fabs(sums.along), sums.axes.cwiseAbs().maxCoeff());
+float Drift::Share(const Sums& sums, float bound) {
+  return (sums.sum.abs() / (kChances * sums.chance2.sqrt()).max(bound)).maxCoeff();
 }
 
 float Drift::Share(const Track& track) const {
-  return std::max(Greatest(track.moved) / kDriftWay, Greatest(track.kicked) / kDriftVelocity);
+  return std::max(Share(track.moved, kDriftWay), Share(track.kicked, kDriftVelocity));
 }
 
 bool Drift::Lies(int body) const { return Share(tracks_[body]) > 1; }

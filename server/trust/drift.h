@@ -3,7 +3,10 @@
 /// copy goes on from the last told state, so that an engine that is 2 % too strong differs by
 /// millimetres in each message. Honest differences have no direction and cancel; a lie adds up.
 ///
-///   sum = sum exp(-dt / kDriftForgetS) + difference       along the motion, and along each axis
+///   sum = sum k + difference            along the motion, and along each axis; k: exp(-dt / T)
+///   chance = sqrt(chance^2 k^2 + difference^2)              deviation of a sum without direction
+///
+/// It counts above a bound, and above kChances times chance: chaos makes a few that are great.
 
 #include <cstdint>
 
@@ -29,12 +32,12 @@ class Drift {
   static constexpr float kDriftForgetS = 10;
   /// Sums that count, m and m/s: ten times the greatest of honest clients.
   static constexpr float kDriftWay = 0.15f, kDriftVelocity = 0.3f;
+  static constexpr float kChances = 3;
 
  private:
-  /// Sums along the motion and along x and y.
+  /// Sums along the motion, x and y, and the squares of their chances.
   struct Sums {
-    float along = 0;
-    Vec2 axes{0, 0};
+    Eigen::Array3f sum{0, 0, 0}, chance2{0, 0, 0};
   };
   struct Track {
     int holder = -1;
@@ -43,7 +46,7 @@ class Drift {
     Sums moved, kicked;     // m, m/s
   };
 
-  static float Greatest(const Sums& sums);
+  static float Share(const Sums& sums, float bound);
   float Share(const Track& track) const;
 
   const Replica& replica_;
