@@ -43,10 +43,12 @@ void Drift::Add(int body, std::int64_t tick, const BodyState& copy, const BodySt
     sums->sum = keep * sums->sum + more;
     sums->chance2 = keep * keep * sums->chance2 + more.square();
   };
+  const float before = Share(track);
   const Vec2 way = off.position - track.left.position - seconds * track.left.velocity;
   add(AtMost(kStep, way), &track.moved);
   add(AtMost(kKick, off.velocity - track.left.velocity), &track.kicked);
   track.left = Replay::Agrees(off) ? off : BodyState{};
+  track.falls = Share(track) < before;
   greatest_ = std::max(greatest_, Share(track));
 }
 
@@ -58,6 +60,9 @@ float Drift::Share(const Track& track) const {
   return std::max(Share(track.moved, kDriftWay), Share(track.kicked, kDriftVelocity));
 }
 
-bool Drift::Lies(int body) const { return Share(tracks_[body]) > 1; }
+bool Drift::Lies(int body) const {
+  const Track& track = tracks_[body];
+  return Share(track) > 1 && !track.falls;
+}
 
 }  // namespace seam
