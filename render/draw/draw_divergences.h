@@ -1,5 +1,6 @@
 #pragma once
-/// Where a peer's copies differed from what their authorities told of the same tick (divergence_t).
+/// Where a peer's copies differed from what their authorities told of the same tick
+/// (divergence_t), and which told states the server doubted (audit_t).
 
 #include "render/canvas/viewport.h"
 #include "render/draw/draw_world.h"
@@ -13,5 +14,9 @@ namespace seam {
 void DrawDivergences(DrawList& list, TextPlaces& places, const Viewport& viewport,
                      const Playback& playback, const DrawnRevision& revision,
                      const WorldLook& look);
+
+/// Draws a ring about each body of which the server doubted or refused a state in the last second.
+void DrawDoubts(DrawList& list, TextPlaces& places, const Viewport& viewport,
+                const Playback& playback, const DrawnRevision& revision, const WorldLook& look);
 
 }  // namespace seam

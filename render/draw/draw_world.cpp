@@ -306,6 +306,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   if (look.ghosts) DrawGhosts(list, viewport, playback, *revision, look);
   if (look.vectors) DrawVectors(list, viewport, playback, *revision, look);
   if (look.divergence) DrawDivergences(list, places, viewport, playback, *revision, look);
+  if (look.doubts) DrawDoubts(list, places, viewport, playback, *revision, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
   DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
