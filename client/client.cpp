@@ -305,6 +305,8 @@ void Client::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
       std::clamp<std::int64_t>(clock_.pending_us(), -1000000000, 1000000000));
   worst_late_us_ = 0;
   publisher_->Publish(stats_);
+  if (replica_ == nullptr) return;
+  if (const auto parted = replica_->TakeDivergence(now_us)) publisher_->Publish(*parted);
 }
 
 PartId Client::vehicle() const {

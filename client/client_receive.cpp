@@ -213,6 +213,7 @@ void Client::MakeReplica(const Topology* become) {
   const std::unique_ptr<Replica> before = std::move(replica_);
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
   replica_->OnCorrected([this](int, const BodyState&) { ++corrections_; });
+  if (recorder_.listening()) replica_->WatchDivergences();
   if (!policy_->IsOracle() && AsksForTouches(*scene_)) replica_->WatchTouches();
   if (before == nullptr) return;
   // Keep all known inputs: our own of the next ticks may have been sent, and others do not repeat

@@ -16,6 +16,7 @@
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
 #include "common/measure/contents/contents.h"
+#include "common/measure/contents/divergence_table.h"
 #include "common/measure/contents/doubts.h"
 #include "common/measure/contents/log_audit.h"
 #include "common/measure/contents/partial_views.h"
@@ -46,6 +47,7 @@ struct Options {
   bool limit = false;
   bool trust = false;
   bool audit = false;
+  bool divergence = false;
   bool losses = false;
   std::string losses_csv;
   bool list = false;
@@ -266,6 +268,11 @@ void Run(const Options& options) {
     std::printf("\ndoubts of %s\n%s", runs[i].run.c_str(),
                 FormatDoubts(recording, RecordedScene(recording.room)).c_str());
   }
+  for (std::size_t i = 0; options.divergence && i < runs.size(); ++i) {
+    const Recording recording = ReadLog(options, i);
+    std::printf("\ndivergence in %s\n%s", runs[i].run.c_str(),
+                FormatDivergences(recording, RecordedScene(recording.room)).c_str());
+  }
   for (std::size_t i = 0; options.audit && i < runs.size(); ++i) {
     const Recording recording = ReadLog(options, i);
     std::printf("\naudit of %s\n%s", runs[i].run.c_str(),
@@ -301,6 +308,8 @@ void Define(Command& app, Options& options) {
   app.Switch("--trust", options.trust, "also list the server's doubts about clients");
   app.Switch("--audit", options.audit,
              "also step the bodies of each client again: who gained speed beside physics?");
+  app.Switch("--divergence", options.divergence,
+             "also list where peers differed from each other at the same tick");
   app.Switch("--list", options.list, "say what is in the logs, and measure nothing");
   app.Switch("--more", options.more, "print the further measures");
   app.Switch("--wide", options.wide, "at a terminal too, print one line a run, as into a pipe");

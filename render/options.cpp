@@ -77,8 +77,10 @@ void ParseCamera(const std::string& text, CameraWish* camera) {
 
 void ParseLayers(const std::string& text, WorldLook* look) {
   const std::pair<const char*, bool*> layers[] = {
-      {"trails", &look->trails}, {"ghosts", &look->ghosts}, {"vectors", &look->vectors},
-      {"heat", &look->heat},     {"names", &look->names},   {"parts", &look->parts}};
+      {"trails", &look->trails},         {"ghosts", &look->ghosts},
+      {"vectors", &look->vectors},       {"heat", &look->heat},
+      {"names", &look->names},           {"parts", &look->parts},
+      {"divergence", &look->divergence}, {"doubts", &look->doubts}};
   for (const auto& [name, on] : layers) *on = false;
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
@@ -86,8 +88,9 @@ void ParseLayers(const std::string& text, WorldLook* look) {
                                     [&](const auto& layer) { return word == layer.first; });
     if (word == "none") continue;
     if (known == std::end(layers))
-      throw OperatorError("--layers " + word +
-                          ": there are trails, parts, ghosts, vectors, heat, names and none");
+      throw OperatorError(
+          "--layers " + word +
+          ": there are trails, parts, ghosts, vectors, heat, names, divergence, doubts and none");
     *known->second = true;
   }
   look->trails |= look->parts;
@@ -202,7 +205,7 @@ void DefineRenderOptions(Command* app, RenderOptions* options) {
   app->Option("--around", o.around,
               "0.5 s before to 1 s after: contact, worst, hand-over or a tick");
   app->Option("--layers", o.layers_text,
-              "trails,parts,ghosts,vectors,heat,names or none (trails,ghosts)");
+              "trails,parts,ghosts,vectors,heat,names,divergence,doubts or none (trails,ghosts)");
   app->Option("--speed", o.speed, "of the sequence: 0.1 is slow motion (1)");
   app->Option("--sheet", o.sheet, "so many moments in one picture: -o is a .png file")
       .Range(1, 100);

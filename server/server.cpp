@@ -89,6 +89,7 @@ Server::Server(const Scene& scene, const Topology& topology, const ServerConfig&
   if (config_.sync.policy->InputsOnly()) {
     input_room_ = std::make_unique<InputRoom>(config_.sync, replica_, sessions_, broadcast_);
   }
+  if (recorder.listening()) replica_.WatchDivergences();
   auditor_ = MakeAuditor();
   replica_.OnCorrected([this](int body, const BodyState& by) { NoteCorrected(body, by); });
   if (!Rules::Needed(scene_)) return;
@@ -129,6 +130,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   if (stats_.Due(now_us)) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
+    if (const auto parted = replica_.TakeDivergence(now_us)) broadcast_.Publish(*parted);
     sessions_.ReadAccounts(&stats_.connections);
   }
   if (started() && chronicle_->SumIsDue(now_us)) chronicle_->Publish(now_us, Sum(now_us));

@@ -89,6 +89,8 @@
     m.data)                                                                                        \
   X(Audit, audit_t, kBusRoom, "audit", m.utime, m.session, m.sequence, m.tick, m.peer, m.player,   \
     m.body, m.refused, m.score_milli, m.step, m.told, m.expected)                                  \
+  X(Divergence, divergence_t, kBusPeer, "divergence", m.utime, m.session, m.sequence, m.peer,      \
+    m.tick, m.more, m.body, m.at, m.holder, m.missing, m.apart, m.kick)                            \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                      \
   X(PackedStates, packed_states_t, kEdge, "", m.data)                                              \
   X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)                                              \

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/codec/audit.h"
+#include "common/codec/divergence.h"
 #include "common/codec/event.h"
 #include "common/codec/load.h"
 #include "common/codec/message_limits.h"

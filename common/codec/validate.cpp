@@ -344,6 +344,18 @@ bool Valid(const Audit& m) {
          Lengths(numbers, m.told, m.expected) && Finite(m.told, m.expected);
 }
 
+bool Valid(const Divergence& m) {
+  const auto sizes = [](const std::vector<float>& values) {
+    return std::all_of(values.begin(), values.end(), [](float v) { return v >= 0; });
+  };
+  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) && m.more >= 0 &&
+         Within(m.body.size(), 1, kDivergenceMax) && Ascending(m.body) &&
+         Lengths(m.body.size(), m.at, m.holder, m.missing, m.apart, m.kick) &&
+         std::all_of(m.at.begin(), m.at.end(), Tick) && AllWithin(m.holder, 0, kPeersMax - 1) &&
+         AllWithin(m.missing, 0, kPlayersMax) && Finite(m.apart, m.kick) && sizes(m.apart) &&
+         sizes(m.kick);
+}
+
 bool Valid(const Bye& m) { return Time(m.utime) && IsPrintable(m.reason, kImpairBytesMax); }
 
 }  // namespace seam

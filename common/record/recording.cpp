@@ -237,6 +237,11 @@ bool RecordingBuilder::Keep(Audit& audit) {
   return true;
 }
 
+bool RecordingBuilder::Keep(Divergence& divergence) {
+  sorted_ = AppendByTick(&recording_.divergences, divergence) && sorted_;
+  return true;
+}
+
 bool RecordingBuilder::Keep(View& part) {
   if (part.parts == 1) return KeepWhole(part);
   const std::pair<std::int64_t, int> key(part.tick, part.peer);

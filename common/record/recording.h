@@ -37,6 +37,7 @@ struct Recording {
   std::vector<Event> events;
   std::vector<Summary> summaries;  ///< in log order
   std::vector<Audit> audits;  ///< by tick
+  std::vector<Divergence> divergences;  ///< by tick
 
   std::vector<LogSession> sessions;          ///< all of the room in the log, this one among them
   bool mixed = false;                        ///< holds several sessions that have no number
@@ -123,6 +124,7 @@ class RecordingBuilder {
   bool Keep(LogSeal&) { return true; }
   bool Keep(Accepted&) { return true; }  // for replays of the room
   bool Keep(Audit& audit);
+  bool Keep(Divergence& divergence);
   bool KeepWhole(View& view);
   void AddScene();
   void DropStrayTicks();

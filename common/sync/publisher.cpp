@@ -89,6 +89,7 @@ template void Publisher::Publish(States);
 template void Publisher::Publish(Grants);
 template void Publisher::Publish(Accepted);
 template void Publisher::Publish(Audit);
+template void Publisher::Publish(Divergence);
 template void Publisher::Publish(EditOrder);
 template void Publisher::Publish(Meta);
 template void Publisher::Publish(Impacts);

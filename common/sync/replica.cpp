@@ -211,6 +211,7 @@ void Replica::ReleaseAll() {
 
 Received Replica::Receive(const States& states) {
   ApplyEdits();
+  NoteDivergences(states);
   return corrector_.Receive(states);
 }
 

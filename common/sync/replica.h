@@ -24,6 +24,7 @@
 
 #include "common/codec/packed/packed_states.h"
 #include "common/physics/world.h"
+#include "common/sync/audit/divergences.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/correct/corrector.h"
 #include "common/sync/display.h"
@@ -216,6 +217,10 @@ class Replica {
   Impacts MakeImpacts() const;
   /// Returns the impacts since the last call that can hurt bodies under this peer's authority.
   std::vector<ImpactReport> TakeImpactReports() { return impact_reporter_.Take(); }
+  /// Remembers from now on which received states differ from this peer's own (Divergences).
+  void WatchDivergences() { divergences_ = std::make_unique<Divergences>(); }
+  /// Returns them since the last call; nullopt: none, or they are not watched.
+  std::optional<Divergence> TakeDivergence(std::int64_t now_us);
   /// Finds the touches of parts from the next step on.
   void WatchTouches() { world_.WatchTouches(); }
   /// See NewTouches; both empty without WatchTouches.
@@ -233,6 +238,7 @@ class Replica {
   };
 
   void FollowRoles();
+  void NoteDivergences(const States& states);
   /// Returns body indices, ascending.
   std::vector<int> BodiesOf(const std::vector<int>& mechanisms) const;
   /// Call after a step, also one of a replay. Finds edits proposed by physics.
@@ -277,6 +283,7 @@ class Replica {
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
   NewTouches touches_;
+  std::unique_ptr<Divergences> divergences_;         // null: not watched
   std::vector<int> heard_players_;                   // players with new or future inputs
   std::vector<int> pressed_now_;                     // by player
   std::vector<int> pressed_missed_;                  // by player: presses that came too late for a

@@ -76,6 +76,26 @@ void Replica::EachDifference(const States& states,
   }
 }
 
+void Replica::NoteDivergences(const States& states) {
+  if (divergences_ == nullptr || states.tick > tick()) return;
+  int missing = 0;
+  for (const int player : drivers_.concerned()) {
+    missing += inputs_[static_cast<std::size_t>(player)].knows(states.tick) ? 0 : 1;
+  }
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world_.BodyOfId(states.id[i]);
+    if (body < 0 || states.revision != revision() || !roles_.Simulates(body)) continue;
+    const BodyState* const then = memory_.ComparablePast(body, states.tick);
+    if (then == nullptr) continue;
+    const BodyState off = Minus(Unpack(states, i, then->angle), *then);
+    divergences_->Note(states.id[i], states.tick, states.peer, off, missing);
+  }
+}
+
+std::optional<Divergence> Replica::TakeDivergence(std::int64_t now_us) {
+  return divergences_ != nullptr ? divergences_->Take(now_us, roles_.self(), tick()) : std::nullopt;
+}
+
 const BodyState* Replica::SettledPast(int body, std::int64_t tick) const {
   if (world_.activity(body) != Activity::kSimulated) return nullptr;
   // Before all inputs are known here and acted on, a difference says nothing.

@@ -12,6 +12,7 @@
 #include "render/canvas/palette.h"
 #include "render/draw/draw_blasts.h"
 #include "render/draw/draw_body.h"
+#include "render/draw/draw_divergences.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_rules.h"
@@ -304,6 +305,8 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawSurfaces(list, viewport, playback);
   if (look.ghosts) DrawGhosts(list, viewport, playback, *revision, look);
   if (look.vectors) DrawVectors(list, viewport, playback, *revision, look);
+  if (look.divergence) DrawDivergences(list, places, viewport, playback, *revision, look);
+  if (look.doubts) DrawDoubts(list, places, viewport, playback, *revision, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
   DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);

@@ -17,6 +17,8 @@ struct WorldLook {
   bool parts = false;    ///< trails of all bodies, not only of each mechanism's heaviest
   bool ghosts = true;    ///< the oracle's poses, where they differ from the view's
   bool vectors = false;  ///< arrows from the oracle's to the displayed positions
+  bool divergence = false;  ///< rings about bodies that differed from what their authority told
+  bool doubts = false;      ///< rings about bodies of which the server doubted a state
   bool heat = false;     ///< fill by the distance from the oracle instead of by authority
   bool pale = false;     ///< pale bodies, as the background of a difference
   bool names = false;    ///< names of all bodies, not only of the players' vehicles

@@ -250,6 +250,17 @@ class RandomMessages {
     Floats(m.told, count), Floats(m.expected, count);
     Set(m.refused, 0, 1), Set(m.score_milli, 0, INT32_MAX), Set(m.step, 0, kAuditStepMax);
   }
+  void Fill(Divergence& m) {
+    Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), Set(m.more, 0, INT32_MAX);
+    const std::size_t count = Count(1, kDivergenceMax);
+    Ids(m.body, count);
+    m.at.resize(count);
+    for (std::int64_t& at : m.at) at = Tick();
+    Vector(m.holder, count, 0, kPeersMax - 1), Vector(m.missing, count, 0, kPlayersMax);
+    Floats(m.apart, count), Floats(m.kick, count);
+    for (float& apart : m.apart) apart = std::fabs(apart);
+    for (float& kick : m.kick) kick = std::fabs(kick);
+  }
   void Fill(Bye& m) { Common(m), m.reason = Text(200); }
 
  private:

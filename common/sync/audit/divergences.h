@@ -1,0 +1,35 @@
+#pragma once
+/// Remembers where states that a peer hears differ from its own of the same tick, for the bus
+/// (divergence_t).
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "common/codec/messages.h"
+#include "common/scene/types.h"
+
+namespace seam {
+
+class Divergences {
+ public:
+  /// Adds a state told by `holder` of the body with this id; `off`: it, minus our own. `missing`:
+  /// players whose inputs of that tick are not known here. Ignored if it is only the wire's
+  /// rounding (Replay::Agrees), or less than what was added since the last Take.
+  void Note(std::int32_t id, std::int64_t tick, int holder, const BodyState& off, int missing);
+  /// Returns what was added since the last call, for a peer at `tick`; nullopt: nothing. The
+  /// greatest kDivergenceMax are kept.
+  std::optional<Divergence> Take(std::int64_t now_us, int peer, std::int64_t tick);
+
+ private:
+  struct Greatest {
+    std::int64_t tick = 0;
+    int holder = 0, missing = 0;
+    float apart = 0, kick = 0;  // m, m/s
+    /// 1 m and 4 m/s count alike.
+    float size() const { return apart + kick / 4; }
+  };
+  std::map<std::int32_t, Greatest> greatest_;  // by id
+};
+
+}  // namespace seam
