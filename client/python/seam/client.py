@@ -50,6 +50,8 @@ class Client:
         end = time.monotonic() + timeout
         while self._client.tick() < 0:
             self._turn(timeout)
+            if self._client.ended():
+                raise Error(f"{self.server} has closed the room")
             if time.monotonic() > end and self._client.tick() < 0:
                 why = self._notice or "are other players missing?"
                 raise Error(f"the room has not begun in {timeout:g} s: {why}")
@@ -57,20 +59,20 @@ class Client:
 
     def step(self, input: Input | None = None, ticks: int = 1, timeout: float = 10.0) -> State:
         """Sets the input, which is held until it is given again, and runs so many ticks of the
-        room. Returns the bodies as this client displays them. Joins first, if need be; raises
-        Error when the server has been silent for `timeout` s, or has closed the room."""
+        room, or to its end: then `running` is False. Returns the bodies as this client displays
+        them. Joins first, if need be; raises Error when the server has been silent for `timeout` s."""
+        if self._client.ended():
+            raise Error(f"{self.server} has closed the room, or this client has left it")
         if self._client.tick() < 0:
             self.join(timeout)
         if input is not None:
             self._client.input(*input._numbers())
         goal = self._client.tick() + ticks
-        while self._client.tick() < goal:
+        while self._client.tick() < goal and not self._client.ended():
             self._turn(timeout)
         return self.state
 
     def _turn(self, timeout: float) -> None:
-        if self._client.ended():
-            raise Error(f"{self.server} has closed the room, or this client has left it")
         self._client.turn()
         self._notice = self._client.notice() or self._notice
         if self._client.joining_s() > timeout:
