@@ -43,7 +43,8 @@ TEST(DebianPackages, UnpackedTheyHoldAllThatIsNeededToRunAndToBuild) {
        {"bin/seam", "bin/seam-server", "lib/libseam2d.so.1", "lib/libseam2d.so", "lib/libseam.a",
         "include/seam2d/world.h", "share/doc/seam2d/copyright", "share/doc/seam2d-dev/copyright",
         "share/doc/python3-seam2d/copyright", "share/seam2d/lcmtypes/view_t.lcm",
-        "lib/cmake/seam2d/seam2d-config.cmake", "lib/python3/dist-packages/seam/__init__.py"}) {
+        "lib/cmake/seam2d/seam2d-config.cmake", "lib/python3/dist-packages/seam/__init__.py",
+        "lib/python3/dist-packages/seam/lcm.py", "share/seam2d/lcmtypes/fingerprints.txt"}) {
     EXPECT_TRUE(fs::exists(usr + file)) << file;
   }
   // The C program of docs/embedding.md and a line of Python, from the unpacked files alone.

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "tests/lab/report/joints/solver_speed.h"
 
 namespace seam {
 namespace {
@@ -61,8 +64,8 @@ struct Box {
   }
 };
 
-/// Puts each note beside its point where it covers no other point and no other note; where there is
-/// no such place, the note goes.
+}  // namespace
+
 void SpreadNotes(double width_px, double height_px, PlotPanel* panel) {
   std::vector<double> xs, ys;
   for (const Note& note : panel->notes) xs.push_back(note.x), ys.push_back(note.y);
@@ -97,8 +100,6 @@ void SpreadNotes(double width_px, double height_px, PlotPanel* panel) {
     if (!placed) note.text.clear();  // the table and the list have it
   }
 }
-
-}  // namespace
 
 Figure WorkPrecision(const PhysicsCase& c, const std::string& command) {
   Figure figure;
@@ -237,10 +238,15 @@ Section PhysicsSection(const CsvTable& table, const std::string& command) {
       "or by what must not happen (invariant). Settings that failed are marked; those that "
       "diverged are at the upper edge.";
   section.items.emplace_back(PhysicsSummary(cases, command));
+  Figure speed = SolverSpeed(cases, command);
+  if (!speed.panels.empty()) {
+    section.items.emplace_back(std::move(speed));
+    section.items.emplace_back(SolverSpeedTable(cases, command));
+  }
   section.items.emplace_back(PhysicsList(cases, command));
   for (TextTable t : {PhysicsTable(cases, command), PhysicsSearchTable(cases, command),
                       PhysicsSideTable(table, cases, command)}) {
-    t.open = section.items.size() == 2;
+    t.open = t.name == "hard-cases";
     section.items.emplace_back(std::move(t));
   }
   for (const PhysicsCase& c : cases) section.items.emplace_back(WorkPrecision(c, command));
