@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace seam {
 namespace solver_speed_test {
 
@@ -91,7 +93,7 @@ TEST(SolverSpeed, DrawsOneDotASettingAtItsMediansAndPrintsTheSameNumbers) {
   const TextTable table = SolverSpeedTable(cases, "make");
   EXPECT_EQ(table.rows.size(), 7u);
   EXPECT_EQ(table.rows[0][1], "exact × 1") << "by rising cost";
-  EXPECT_EQ(table.rows[0][5], "0.8 (0.8–0.8)");
+  EXPECT_EQ(table.rows[0][5], "0.8");
 }
 
 TEST(SolverSpeed, IsLeftOutOfATableWithoutSettingsToCompare) {
