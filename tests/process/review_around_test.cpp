@@ -25,7 +25,7 @@ class ReviewAround : public ::testing::Test {
     for (const std::string& method : methods) {
       page.push_back(folder_ / (method + ".lcm"));
       RunWell({BuiltProgram("seam-lab"), "run", "scenes/" + scene + ".toml", "-o", page.back(),
-               "--no-floor", "--duration", "5", "--impair", "delay=100ms,jitter=10ms",
+               "--no-floor", "--duration", "5", "--impair", "delay=100ms,jitter=10ms,loss=1.25%",
                "--reconcile", method});
     }
     page.insert(page.end(), {"-o", folder_ / "page.html"});
