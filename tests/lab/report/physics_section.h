@@ -19,9 +19,6 @@ Figure WorkPrecision(const PhysicsCase& c, const std::string& command);
 Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& command);
 /// Error and cost ratio of every case, by name.
 Figure PhysicsList(const std::vector<PhysicsCase>& cases, const std::string& command);
-/// Puts each note beside its point where it covers no other point and no other note; where there is
-/// no such place, the note goes. Both axes of the panel are logarithmic; sizes are its inner ones.
-void SpreadNotes(double width_px, double height_px, PlotPanel* panel);
 /// Stock against scene: error, ratio, cost, verdict; then what the search found.
 TextTable PhysicsTable(const std::vector<PhysicsCase>& cases, const std::string& command);
 TextTable PhysicsSearchTable(const std::vector<PhysicsCase>& cases, const std::string& command);
