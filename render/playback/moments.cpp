@@ -8,7 +8,6 @@
 namespace seam {
 namespace {
 
-constexpr float kStrongImpact = 3.0f;  ///< m/s
 constexpr double kSameContact_s = 0.05;  ///< impacts within this belong to one contact
 
 /// Adds the bodies of the impacts at that moment to `bodies`; without any, takes strong impacts.

@@ -72,8 +72,6 @@ const Mistake kMistakes[] = {
     {"title = \"\xc0\xaf\"", "", 1, "not UTF-8"},
     {"title = \"\\u001b[31m\"", "", 1, "control character"},
     // Keys and types
-    {"", "[water]\nbox = [1, 1]\n", 12, "water needs two brackets, [[water]]"},
-    {"", PART("box = [1, 1, 1]"), 14, "box must be two numbers [x, y], not an array of 3"},
     {"titel = \"x\"", "", 1, "unknown key 'titel' (did you mean 'title'?)"},
     {"zzzzzzzz = 1", "", 1, "unknown key 'zzzzzzzz' (known are title"},
     {"\"\\u001b\" = 1", "", 1, "unknown key '?'"},

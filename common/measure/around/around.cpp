@@ -15,7 +15,7 @@ namespace seam {
 namespace {
 
 /// The share of the greatest error below which a run has settled.
-constexpr double kSettledShare = 0.1;
+constexpr double kSettledErrorShare = 0.1;
 
 bool IsTickWord(const std::string& word) {
   return !word.empty() && word.size() < 10 &&
@@ -44,7 +44,7 @@ std::optional<std::int64_t> EventTick(const Recording& recording, const Oracle& 
 /// Returns the number of an entry at or after the event, from which the error stays small.
 std::size_t SettledFrom(const ErrorAround& run, std::size_t event, double most) {
   std::size_t from = run.error_m.size();
-  while (from > event && run.error_m[from - 1] <= kSettledShare * most) --from;
+  while (from > event && run.error_m[from - 1] <= kSettledErrorShare * most) --from;
   return from;
 }
 

@@ -9,8 +9,7 @@
 namespace seam {
 namespace {
 
-constexpr float kJumpMin = 1.0f;       ///< m/s in one tick; only a collision causes this
-constexpr float kStrongImpact = 3.0f;  ///< m/s
+constexpr float kJumpMin = 1.0f;  ///< m/s in one tick; only a collision causes this
 
 std::optional<std::int64_t> WatchedTick(const Scene& scene, const Oracle* oracle,
                                         const std::set<PartId>& struck) {

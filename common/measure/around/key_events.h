@@ -11,6 +11,9 @@
 
 namespace seam {
 
+/// Change of speed from which an impact is strong, m/s.
+constexpr float kStrongImpact = 3.0f;
+
 /// Returns the tick of the collision that the scene watches, by the jump of velocity of the struck
 /// assemblies in the oracle (nullptr: there is none); otherwise that of the first strong impact
 /// between moving bodies; nullopt: neither was recorded.
