@@ -437,11 +437,12 @@ bench: all                           ## cost of a step beside Box2D, hard cases:
 
 # Java is for this alone: `make spy` installs it, `install` and `deb` take the jar along where it is there already.
 SPY := build/spy
-JAR := $(if $(and $(shell command -v javac),$(wildcard /usr/share/java/lcm.jar)),$(SPY)/seam-types.jar)
+LCM_JAR ?= /usr/share/java/lcm.jar
+JAR := $(if $(and $(shell command -v javac),$(wildcard $(LCM_JAR))),$(SPY)/seam-types.jar)
 $(SPY)/seam-types.jar: $(LCM_TYPES) | build/.deps-build $(if $(filter spy,$(MAKECMDGOALS)),build/.deps-spy)
 	@rm -rf $(SPY) && mkdir -p $(SPY)/source $(SPY)/classes
 	lcm-gen --java --jpath $(SPY)/source $(LCM_TYPES)
-	javac -nowarn -cp /usr/share/java/lcm.jar -d $(SPY)/classes $(SPY)/source/seam/*.java
+	javac -nowarn -cp $(LCM_JAR) -d $(SPY)/classes $(SPY)/source/seam/*.java
 	jar cf $@ -C $(SPY)/classes .
 
 spy: $(SPY)/seam-types.jar           ## lcm-spy with the messages' types: builds a jar, starts it where there is a display

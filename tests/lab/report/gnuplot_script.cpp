@@ -77,13 +77,15 @@ class Script {
 
   void Begin(PictureFormat format) {
     text_ = fmt::format("# {}\n# {}\nreset\nset encoding utf8\n", f_.title, f_.command);
-    text_ += format == PictureFormat::kSvg
-                 ? fmt::format(
-                       "set terminal svg size {},{} font 'Helvetica,13' noenhanced "
-                       "background '#ffffff'\n",
-                       width_, height_)
-                 : fmt::format("set terminal pngcairo size {},{} font 'sans,10' noenhanced\n",
-                               width_, height_);
+    text_ +=
+        format == PictureFormat::kSvg
+            ? fmt::format(
+                  "set terminal svg size {},{} font 'Helvetica,13' noenhanced "
+                  "background '#ffffff'\n",
+                  width_, height_)
+            : fmt::format(
+                  "set terminal pngcairo size {},{} font 'sans,13' fontscale 0.75 noenhanced\n",
+                  width_, height_);
     text_ += fmt::format("set output '{}.{}'\nset multiplot\n", f_.name, Extension(format));
     text_ += fmt::format("set label 1 {} at screen 0.5,{} center font ',16'\n", Quoted(f_.title),
                          1 - 17.0 / height_);
