@@ -77,6 +77,7 @@ TEST(ErrorAroundAnEvent, IsFoundByEachWordOrNotAtAll) {
   const auto early = find("3");  // less than half a second of the session is before it
   ASSERT_TRUE(early.has_value());
   EXPECT_EQ(early->event_tick, 3);
+  EXPECT_EQ(early->event, "tick 3");
   EXPECT_EQ(early->first_after, run.measures.first_tick - 3);
   EXPECT_FALSE(find("5000").has_value());
   EXPECT_FALSE(find("hand-over").has_value()) << "nothing changes hands in this scene";

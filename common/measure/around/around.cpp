@@ -68,7 +68,7 @@ std::optional<ErrorAround> FindErrorAround(const Recording& recording, const Ora
     return std::nullopt;
   }
   ErrorAround around;
-  around.event = IsTickWord(word) ? "tick" : word;
+  around.event = IsTickWord(word) ? "tick " + word : word;
   around.event_tick = *tick;
   around.tick_hz = std::max(1, recording.room.tick_hz);
   const auto ticks = [&](double s) -> std::int64_t { return std::llround(s * around.tick_hz); };

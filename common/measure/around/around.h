@@ -18,7 +18,7 @@ constexpr double kAroundBefore_s = 0.5, kAroundAfter_s = 2;
 
 struct ErrorAround {
   std::string run;
-  std::string event;  ///< contact | worst | hand-over | tick
+  std::string event;  ///< contact | worst | hand-over | "tick 180"
   std::int64_t event_tick = 0;
   int tick_hz = 60;
   std::int64_t first_after = 0;  ///< of error_m, in ticks after the event; negative: before it

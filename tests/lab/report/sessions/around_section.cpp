@@ -47,8 +47,8 @@ Figure AroundFigure(const fs::path& file) {
       "One run of each method on one network; 0 s is the {} of each run. The error is against the "
       "oracle, at the tick that a view shows.",
       event);
-  figure.command = "seam-measure out/report/renders/" + figure.scene +
-                   "-*.lcm --around contact --around-csv " + file.string();
+  figure.command = "seam-measure out/report/renders/" + figure.scene + "-*.lcm --around " +
+                   event.substr(event.rfind(' ') + 1) + " --around-csv " + file.string();
   figure.panels.push_back(std::move(panel));
   return figure;
 }
