@@ -131,7 +131,7 @@ SOAK ?= 300
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .PHONY: all fuzz check check-includes objects docs help deps demo fleet-demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
-	lint compile_commands.json install install-built python deb clean force
+	lint compile_commands.json install install-built python wheel deb clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
 
@@ -167,6 +167,7 @@ $(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk Makefile | build/.deps-build
 	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(GEN) $(LCM_TYPES)
 	@for h in $(GEN)/seam/*.hpp; do awk -f lcmtypes/harden.awk $$h > $$h.tmp && mv $$h.tmp $$h || exit 1; done
 	@for h in $(GEN)/seam/*_t.hpp; do echo "#include \"seam/$${h##*/}\""; done > $(GEN)/seam/all_types.hpp
+	@echo '#define SEAM_LCM_TYPES(Do) $(patsubst %,Do(%),$(basename $(notdir $(LCM_TYPES))))' >> $(GEN)/seam/all_types.hpp
 	@touch $@
 
 # What every object is made with. Written when it differs, so that other flags rebuild everything,
@@ -266,6 +267,10 @@ $(OUT)/python/seam/_seam.so: $(PYTHON) $(EMBED) $(CLIENT) $(SERVER) $(OUT)/libse
 	$(LINK) -shared $(LIBS) $(SERVER_LIBS) -o $@
 
 python: build/.deps-build build/.deps-python $(OUT)/python/.stamp   ## the Python module: PYTHONPATH=build/release/python
+
+wheel: python                        ## the Python module as a wheel for pip: out/wheel/
+	$(PYTHON3) client/python/make_wheel.py $(OUT)/python $(VERSION) out/wheel
+
 $(OUT)/seam: $(OUT)/client/front/main.o $(FRONT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
@@ -430,12 +435,14 @@ bench: all                           ## cost of a step beside Box2D, hard cases:
 	$(OUT)/seam-lab overhead -o out/bench/overhead.csv --force
 	$(OUT)/seam-lab physics --grid quick -o out/bench/physics.csv --force
 
-# Java is for this alone: no other target installs it.
+# Java is for this alone: `make spy` installs it, `install` and `deb` take the jar along where it is there already.
 SPY := build/spy
-$(SPY)/seam-types.jar: $(LCM_TYPES) Makefile | build/.deps-build build/.deps-spy
+LCM_JAR ?= /usr/share/java/lcm.jar
+JAR := $(if $(and $(shell command -v javac),$(wildcard $(LCM_JAR))),$(SPY)/seam-types.jar)
+$(SPY)/seam-types.jar: $(LCM_TYPES) | build/.deps-build $(if $(filter spy,$(MAKECMDGOALS)),build/.deps-spy)
 	@rm -rf $(SPY) && mkdir -p $(SPY)/source $(SPY)/classes
 	lcm-gen --java --jpath $(SPY)/source $(LCM_TYPES)
-	javac -nowarn -cp /usr/share/java/lcm.jar -d $(SPY)/classes $(SPY)/source/seam/*.java
+	javac -nowarn -cp $(LCM_JAR) -d $(SPY)/classes $(SPY)/source/seam/*.java
 	jar cf $@ -C $(SPY)/classes .
 
 spy: $(SPY)/seam-types.jar           ## lcm-spy with the messages' types: builds a jar, starts it where there is a display
@@ -455,7 +462,7 @@ relief: build/.deps-report all       ## what distribution takes off the server, 
 	$(OUT)/seam-lab relief $(if $(QUICK),--quick) -o out/relief/data/relief
 	$(OUT)/seam-lab report out/relief/data -o out/relief $(if $(FILL),--markdown $(FILL))
 
-install: all python $(OUT)/libseam.a $(SHARED)   ## programs, library, headers, Python, docs under PREFIX (DESTDIR)
+install: all python $(OUT)/libseam.a $(SHARED) $(JAR)   ## programs, library, headers, Python, docs under PREFIX (DESTDIR)
 	@$(MAKE) --no-print-directory install-built
 
 DEST := $(DESTDIR)$(PREFIX)
@@ -526,6 +533,9 @@ install-built:                       ## the same, of what is built: builds nothi
 	install -d '$(DEST)/share/seam2d/cluster' '$(DEST)/share/seam2d/lcmtypes'
 	install -m 755 tests/lab/shards/seam-sweep-parallel tests/lab/shards/seam-sweep.sbatch '$(DEST)/share/seam2d/cluster'
 	install -m 644 $(LCM_TYPES) '$(DEST)/share/seam2d/lcmtypes'
+	$(OUT)/seam-log types > '$(DEST)/share/seam2d/lcmtypes/fingerprints.txt'
+	@if [ -e $(SPY)/seam-types.jar ]; then install -d '$(DEST)/share/java' && \
+	  install -m 644 $(SPY)/seam-types.jar '$(DEST)/share/java'; fi
 	install -d '$(DEST)/share/seam2d/deploy'
 	install -m 644 server/deploy/* '$(DEST)/share/seam2d/deploy'
 	sed -i 's|/usr/local|$(PREFIX)|g' '$(DEST)/share/seam2d/deploy/seam-server@.service'
@@ -552,7 +562,7 @@ install-built:                       ## the same, of what is built: builds nothi
 	  install -m 644 $(PYTHON_TEXTS) '$(PYTHON_SITE)/seam' && \
 	  install -s -m 644 $(OUT)/python/seam/_seam.so '$(PYTHON_SITE)/seam'; fi
 
-deb: build/.deps-deb all python $(OUT)/libseam.a $(SHARED)   ## Debian packages of programs, library and Python: out/deb/
+deb: build/.deps-deb all python $(OUT)/libseam.a $(SHARED) $(JAR)   ## Debian packages of programs, library and Python: out/deb/
 	MAKE='$(MAKE)' PYTHON3='$(PYTHON3)' BUILD='$(BUILD)' VERSION='$(VERSION)' client/embed/make_deb.sh out/deb
 
 clean:                               ## remove build/ and out/

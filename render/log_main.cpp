@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   LogTopCommand top;
   LogCutCommand cut;
   LogMergeCommand merge;
-  Command* commands[7] = {};
+  Command* commands[8] = {};
   const ProgramText text{"seam-log", "Checks, lists, cuts and merges recordings; prints events.",
                          VersionLine("seam-log"),
                          "examples:\n"
@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
     ranks.Option("--scene", top.scene, "of this scene alone, by its name");
     ranks.Option("--by", top.by, "best score, or time in rooms").OneOf({"score", "time"});
     ranks.Option("--limit", top.limit, "lines of each table").Range(1, 1000000);
+    commands[7] = &app.Add("types", "the fingerprints of the LCM types, as programs compare them");
   };
   return RunCommandLine(text, argc, argv, define, [&] {
     if (commands[0]->chosen()) return RunLogVerify(verify);
@@ -72,6 +73,7 @@ int main(int argc, char** argv) {
     if (commands[3]->chosen()) return RunLogCut(cut);
     if (commands[4]->chosen()) return RunLogMerge(merge);
     if (commands[5]->chosen()) return RunLogEvents(events);
-    return RunLogTop(top);
+    if (commands[6]->chosen()) return RunLogTop(top);
+    return RunLogTypes();
   });
 }

@@ -15,6 +15,7 @@
 #include "common/base/plain_file.h"
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
+#include "common/measure/around/around.h"
 #include "common/measure/contents/contents.h"
 #include "common/measure/contents/divergence_table.h"
 #include "common/measure/contents/doubts.h"
@@ -30,6 +31,7 @@
 #include "common/record/loss_timeline.h"
 #include "common/record/recording.h"
 #include "common/record/time_range.h"
+#include "render/measure/logs_and_tables.h"
 #include "render/measure/readable_table.h"
 
 namespace seam {
@@ -50,20 +52,13 @@ struct Options {
   bool divergence = false;
   bool losses = false;
   std::string losses_csv;
+  std::string around;  // an event; "": none
+  std::string around_csv;
   bool list = false;
   std::vector<std::string> names;
   std::vector<std::string> sessions;
   TimeRange range;
 };
-
-/// Returns the name of a log: "out/demo/buffer.lcm" -> "buffer".
-std::string BaseName(const std::string& path) {
-  const std::size_t slash = path.find_last_of('/');
-  std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-  const std::size_t dot = name.rfind(".lcm");
-  if (dot != std::string::npos && dot > 0 && dot + 4 == name.size()) name.resize(dot);
-  return name;
-}
 
 /// Reads a log, and reports its damage on stderr.
 Recording Read(const std::string& path, const std::string& session) {
@@ -84,21 +79,13 @@ Oracle GivenOracle(const Recording& truth, const Recording& recording, const Opt
   return OracleFromRecording(truth);
 }
 
-/// Returns the changes that an operator made while the session ran, "network is now 4g at 3.2 s,
-/// and 5 more"; "" without any.
-std::string ChangesOf(const Recording& recording) {
-  std::string first;
-  int more = -1;
-  for (const Event& event : recording.events) {
-    if (event.kind != static_cast<std::int8_t>(EventKind::kControl)) continue;
-    if (++more > 0) continue;
-    const double time_s = static_cast<double>(event.tick) / std::max(1, recording.room.tick_hz);
-    first = fmt::format("{} at {:.1f} s", event.text, time_s);
-  }
-  return first + (more > 0 ? fmt::format(", and {} more", more) : "");
-}
+/// A log's measures, and its errors around the event that is asked for.
+struct MeasuredLog {
+  MeasuredRun run;
+  std::optional<ErrorAround> around;
+};
 
-MeasuredRun MeasureLog(std::size_t i, const Options& options,
+MeasuredLog MeasureLog(std::size_t i, const Options& options,
                        const std::optional<Recording>& truth) {
   const std::string& path = options.logs[i];
   Recording recording = ReadLog(options, i);
@@ -117,7 +104,8 @@ MeasuredRun MeasureLog(std::size_t i, const Options& options,
   if (truth) oracle = GivenOracle(*truth, recording, options, path);
   if (!truth && no_oracle.empty()) oracle = ComputeOracle(recording, JudgeOf(recording.room));
   KeepRange(options.range, &recording);  // the oracle needs the whole of it
-  MeasuredRun run;
+  MeasuredLog measured;
+  MeasuredRun& run = measured.run;
   run.run = options.names.empty() ? BaseName(path) + SessionSuffix(recording) : options.names[i];
   run.room = recording.room;
   run.measures = Measure(recording, oracle);
@@ -136,19 +124,16 @@ MeasuredRun MeasureLog(std::size_t i, const Options& options,
     const std::string why = no_oracle.empty() ? "no view of a tick that the oracle has" : no_oracle;
     std::fprintf(stderr, "seam-measure: warning: %s: no errors: %s\n", path.c_str(), why.c_str());
   }
-  return run;
-}
-
-/// Returns the first line of a file (at most 1000 bytes); empty when there is no such file.
-std::string FirstLine(const std::string& path) {
-  std::FILE* file = OpenPlainFile(path, FileUse::kRead);
-  if (file == nullptr) return "";
-  std::string line;
-  for (int c = 0; line.size() < 1000 && (c = std::fgetc(file)) != EOF && c != '\n';) {
-    line += static_cast<char>(c);
+  if (options.around.empty()) return measured;
+  measured.around = FindErrorAround(recording, oracle, run.measures, options.around);
+  if (measured.around) {
+    measured.around->run = run.run;
+  } else {
+    std::fprintf(stderr, "seam-measure: warning: %s: no errors around %s: %s\n", path.c_str(),
+                 options.around.c_str(),
+                 run.measures.compared == 0 ? "there is no oracle" : "there is no such event");
   }
-  std::fclose(file);
-  return line;
+  return measured;
 }
 
 /// Checks the files to write: `seam-measure --csv a.lcm b.lcm` lacks a file name, and must not
@@ -157,6 +142,7 @@ void CheckTables(const Options& options) {
   std::vector<std::string> read = options.logs;
   if (!options.oracle.empty()) read.push_back(options.oracle);
   if (!options.losses_csv.empty()) RequireOutput(options.losses_csv, options.force, read);
+  if (!options.around_csv.empty()) RequireOutput(options.around_csv, options.force, read);
   if (options.csv.empty()) return;
   const std::string existing = FirstLine(options.csv);
   if (!existing.empty() && existing != CsvHeader()) {
@@ -234,10 +220,15 @@ void ReportLosses(const Options& options) {
   }
   if (options.losses_csv.empty()) return;
   if (options.logs.size() > 1) throw OperatorError("--losses-csv is of one log");
-  std::FILE* file = OpenPlainFile(options.losses_csv, FileUse::kReplace);
-  if (file == nullptr) throw OperatorError(options.losses_csv + ": cannot be written");
-  const bool written = std::fwrite(csv.data(), 1, csv.size(), file) == csv.size();
-  if (std::fclose(file) != 0 || !written) throw OperatorError(options.losses_csv + ": disk full?");
+  WriteText(options.losses_csv, csv);
+}
+
+/// Prints and writes the errors around the event.
+void ReportAround(const std::vector<ErrorAround>& runs, const Options& options) {
+  if (runs.empty()) return;
+  std::printf("\nerror around %s, RMS of all views\n%s", options.around.c_str(),
+              FormatAround(runs).c_str());
+  if (!options.around_csv.empty()) WriteText(options.around_csv, AroundCsv(runs));
 }
 
 void Run(const Options& options) {
@@ -252,10 +243,13 @@ void Run(const Options& options) {
   std::optional<Recording> truth;
   if (!options.oracle.empty()) truth = Read(options.oracle, "");
   std::vector<MeasuredRun> runs;
+  std::vector<ErrorAround> arounds;
   ProgressCount progress("measuring", "logs", static_cast<std::int64_t>(options.logs.size()));
   for (std::size_t i = 0; i < options.logs.size(); ++i) {
     progress(static_cast<std::int64_t>(i));
-    runs.push_back(MeasureLog(i, options, truth));
+    MeasuredLog measured = MeasureLog(i, options, truth);
+    runs.push_back(std::move(measured.run));
+    if (measured.around) arounds.push_back(std::move(*measured.around));
   }
   progress.End();
   if (!options.csv.empty()) WriteCsv(runs, options);
@@ -278,6 +272,7 @@ void Run(const Options& options) {
     std::printf("\naudit of %s\n%s", runs[i].run.c_str(),
                 FormatAudit(AuditRecording(recording), recording).c_str());
   }
+  ReportAround(arounds, options);
   if (options.losses || !options.losses_csv.empty()) ReportLosses(options);
   if (options.floor) PrintFloor(ReadLog(options, 0));
   if (options.limit) PrintLimit(ReadLog(options, 0));
@@ -305,6 +300,10 @@ void Define(Command& app, Options& options) {
   app.Switch("--losses", options.losses,
              "also print when and where something was lost, by channel");
   app.Option("--losses-csv", options.losses_csv, "write the losses of the log as CSV to this file");
+  app.Option("--around", options.around,
+             "also say the error around an event of each log: contact, worst, hand-over or a tick");
+  app.Option("--around-csv", options.around_csv,
+             "write the error by tick around that event as CSV to this file");
   app.Switch("--trust", options.trust, "also list the server's doubts about clients");
   app.Switch("--audit", options.audit,
              "also step the bodies of each client again: who gained speed beside physics?");
@@ -329,6 +328,10 @@ int main(int argc, char** argv) {
       [&] {
         if (options.logs.empty()) {
           throw OperatorError("which log? for example: seam-measure session.lcm");
+        }
+        if (!options.around.empty()) RequireEventWord(options.around);
+        if (!options.around_csv.empty() && options.around.empty()) {
+          throw OperatorError("--around-csv needs --around EVENT");
         }
         if (options.append && options.csv.empty()) throw OperatorError("--append needs --csv");
         CheckSessions(options.sessions, options.logs.size());

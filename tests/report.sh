@@ -20,7 +20,7 @@ fi
 jobs=()
 [ -z "${JOBS:-}" ] || jobs=(--jobs "$JOBS")
 [ -z "${FORCE:-}" ] || rm -f "$data"/*.csv
-mkdir -p "$data" "$out/renders"
+mkdir -p "$data/around" "$out/renders"
 # What the steps take goes into the report. Going on after an interruption, a step that is done
 # takes nothing and keeps the time it took.
 times=$data/times.csv
@@ -73,7 +73,7 @@ impair=delay=100ms,loss=1%,jitter=10ms
 for scene in crossing wall cradle stack; do
   step "drawing $scene"
   strobe="$bin/seam-render --force --strobe --compare" frames="$bin/seam-render --force --compare"
-  commands=
+  commands= logs=() names=()
   for method in oracle strict central fade rollback; do
     case $method in
       oracle | strict | central) how="--mode $method" ;;
@@ -85,10 +85,15 @@ for scene in crossing wall cradle stack; do
     "$bin/"$run --force >/dev/null
     commands+="$run"$'\n'
     strobe+=" $log"
-    [ "$method" = oracle ] || frames+=" $log"
+    [ "$method" = oracle ] && continue
+    frames+=" $log" logs+=("$log") names+=(--names "$method")
   done
   strobe+=" --oracle $out/renders/$scene-oracle.lcm"
   frames+=" --oracle $out/renders/$scene-oracle.lcm --fps 3 --size 960x540"
+  event=contact
+  [ "$scene" != stack ] || event=180  # the shove, which is no impact of 3 m/s
+  "$bin/seam-measure" "${logs[@]}" "${names[@]}" --around "$event" \
+    --around-csv "$data/around/$scene.csv" --force >/dev/null
   # shellcheck disable=SC2086
   $strobe -o "$out/renders/$scene-strobe.png" >/dev/null
   # shellcheck disable=SC2086

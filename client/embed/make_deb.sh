@@ -37,6 +37,7 @@ python=$("$PYTHON3" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
 next=$("$PYTHON3" -c 'import sys; print("%d.%d" % (sys.version_info[0], sys.version_info[1] + 1))')
 programs=$(cd "$work" && needs all/usr/bin/* all/usr/lib/libseam2d.so.*)
 module=$(cd "$work" && needs all/usr/lib/python3/dist-packages/seam/_seam.so)
+[ ! -e "$work/all/usr/share/java" ] || move seam2d-dev usr/share/java
 move seam2d-dev usr/include usr/lib/libseam.a usr/lib/libseam2d.so usr/lib/pkgconfig usr/lib/cmake usr/share/seam2d/lcmtypes
 move python3-seam2d usr/lib/python3
 move seam2d usr

@@ -21,6 +21,7 @@ const std::vector<Verb>& Verbs() {
       {"measure", "seam-measure", "turn logs into numbers"},
       {"render", "seam-render", "turn logs into pictures, a video, or a page"},
       {"export", "seam-export", "turn logs into CSV, JSON, MCAP, or a trace"},
+      {"log", "seam-log", "check, list, cut and merge logs"},
       {"import", "seam-import", "turn other programs' worlds into scenes"},
       {"lab", "seam-lab", "experiments in virtual time"},
       {"swarm", "seam-swarm", "put a server under load with many clients"},

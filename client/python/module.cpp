@@ -9,4 +9,5 @@ PYBIND11_MODULE(_seam, module) {
   pybind11::register_exception<seam::OperatorError>(module, "Error", PyExc_ValueError);
   seam::AddPlay(module);
   seam::AddLog(module);
+  seam::AddNet(module);
 }

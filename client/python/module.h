@@ -9,14 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "common/codec/messages.h"
 #include "common/measure/measure.h"
+#include "common/physics/world.h"
 #include "common/scene/scene.h"
 
 namespace seam {
 
-/// Adds the classes of logs, worlds and sessions.
+/// Adds the classes of logs, of worlds and sessions, and of the bus and real servers.
 void AddLog(pybind11::module_& module);
 void AddPlay(pybind11::module_& module);
+void AddNet(pybind11::module_& module);
 
 /// Returns an array with a copy of the values.
 template <class T>
@@ -25,6 +28,12 @@ pybind11::array_t<T> ArrayOf(const std::vector<T>& values, std::vector<pybind11:
   std::copy(values.begin(), values.end(), array.mutable_data());
   return array;
 }
+
+/// Returns the states of a view's bodies as arrays, with their names in `scene`.
+pybind11::dict ViewDict(const Scene& scene, const View& view);
+
+/// Returns an input of axes in 1/127 and a bit for each button. Throws OperatorError for others.
+Input InputOf(int drive, int lift, int buttons);
 
 /// Returns the measures by name: those of the table, and validity.
 pybind11::dict MeasuresDict(const Measures& measures, const std::string& valid);

@@ -6,6 +6,7 @@
 
 #include "client/python/log_arrays.h"
 #include "client/python/module.h"
+#include "common/record/damage.h"
 
 namespace seam {
 namespace {
@@ -75,6 +76,7 @@ py::dict RoomOf(const LogArrays& log) {
   dict["last_tick"] = log.recording().last_tick;
   dict["missing"] = log.recording().bus_gaps;
   dict["damaged_bytes"] = log.recording().skipped_bytes;
+  dict["damage"] = DamageLines(log.recording());
   return dict;
 }
 

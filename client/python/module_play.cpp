@@ -45,29 +45,14 @@ py::dict WorldState(const LoneWorld& alone) {
 }
 
 py::dict SessionState(const LocalSession& session, int peer) {
-  const View view = session.ViewOf(peer);
-  std::vector<float> poses, velocities;
-  for (std::size_t i = 0; i < view.id.size(); ++i) {
-    poses.insert(poses.end(), {view.x[i], view.y[i], view.angle[i]});
-    velocities.insert(velocities.end(), {view.vx[i], view.vy[i], view.spin[i]});
-  }
   // The server's world has every part of which a peer can show a body.
-  const Scene& scene = session.server().replica().world().scene();
-  return StateDict(scene, view.tick, view.id, poses, velocities);
+  return ViewDict(session.server().replica().world().scene(), session.ViewOf(peer));
 }
 
 std::vector<std::string> PlayersOf(const Scene& scene) {
   std::vector<std::string> names;
   for (const Player& player : scene.players) names.push_back(player.name);
   return names;
-}
-
-Input InputOf(int drive, int lift, int buttons) {
-  const auto axis = [](int value) { return value >= -127 && value <= 127; };
-  if (!axis(drive) || !axis(lift)) throw OperatorError("drive and lift are from -1 to 1");
-  if (buttons < 0 || buttons > 0x7fff) throw OperatorError("buttons are numbers from 0 to 14");
-  return {static_cast<std::int8_t>(drive), static_cast<std::int8_t>(lift),
-          static_cast<std::int16_t>(buttons)};
 }
 
 void Require(const Status& status) {
@@ -168,6 +153,23 @@ void AddSession(py::module_& module) {
 }
 
 }  // namespace
+
+py::dict ViewDict(const Scene& scene, const View& view) {
+  std::vector<float> poses, velocities;
+  for (std::size_t i = 0; i < view.id.size(); ++i) {
+    poses.insert(poses.end(), {view.x[i], view.y[i], view.angle[i]});
+    velocities.insert(velocities.end(), {view.vx[i], view.vy[i], view.spin[i]});
+  }
+  return StateDict(scene, view.tick, view.id, poses, velocities);
+}
+
+Input InputOf(int drive, int lift, int buttons) {
+  const auto axis = [](int value) { return value >= -127 && value <= 127; };
+  if (!axis(drive) || !axis(lift)) throw OperatorError("drive and lift are from -1 to 1");
+  if (buttons < 0 || buttons > 0x7fff) throw OperatorError("buttons are numbers from 0 to 14");
+  return {static_cast<std::int8_t>(drive), static_cast<std::int8_t>(lift),
+          static_cast<std::int16_t>(buttons)};
+}
 
 void AddPlay(py::module_& module) {
   py::class_<Scene>(module, "Scene")

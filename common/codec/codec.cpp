@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/codec/fingerprints.h"
 #include "common/codec/validate.h"
 #include "seam/all_types.hpp"  // each LCM type's header; made by the Makefile
 
@@ -298,6 +299,21 @@ const std::vector<MessageType>& MessageTypes() {
   static const std::vector<MessageType> types = {SEAM_MESSAGES(SEAM_MESSAGE_NAME)};
 #undef SEAM_MESSAGE_NAME
   return types;
+}
+
+std::vector<Fingerprint> Fingerprints() {
+  std::vector<Fingerprint> all;
+#define SEAM_FINGERPRINT(Type) \
+  all.push_back({#Type, static_cast<std::uint64_t>(Type::getHash()), 0});
+  SEAM_LCM_TYPES(SEAM_FINGERPRINT)
+#undef SEAM_FINGERPRINT
+#define SEAM_FINGERPRINT(Struct, lcm_type, ...)                                          \
+  std::find_if(all.begin(), all.end(), [](const Fingerprint& f) {                        \
+    return f.hash == WireHash<Struct>();                                                 \
+  })->without_session = kHashWithoutSession<Struct>;
+  SEAM_MESSAGES(SEAM_FINGERPRINT)
+#undef SEAM_FINGERPRINT
+  return all;
 }
 
 std::int32_t OldRoomProtocol(ByteView bytes) {

@@ -33,7 +33,42 @@ bool AllFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-Status CheckMessage(const LcmMessage& m) {
+/// Sets or reads the fields that message_t and heard_t share.
+template <class Wire>
+void FillMessage(const LcmMessage& m, Wire* wire) {
+  SEAM_ASSERT(Check(m).ok());
+  wire->utime = m.utime;
+  wire->name = m.name;
+  wire->count = static_cast<std::int16_t>(m.value.size());
+  wire->value = m.value;
+  wire->text = m.text;
+}
+template <class Wire>
+Status TakeMessage(const Wire& wire, LcmMessage* m) {
+  *m = {wire.utime, wire.name, wire.value, wire.text};
+  return Check(*m);
+}
+
+}  // namespace
+
+Status Check(const LcmPose& p) {
+  if (!AllFinite({p.x, p.y, p.angle, p.vx, p.vy, p.spin})) {
+    return Status::Error("has a pose that is no finite number");
+  }
+  return Status::Ok();
+}
+
+Status Check(const LcmDrive& d) {
+  // NaN is not within either.
+  if (!(std::abs(d.drive) <= 1)) return Status::Error("has a drive that is not in -1..1");
+  if (!(std::abs(d.lift) <= 1)) return Status::Error("has a lift that is not in -1..1");
+  if (d.buttons < 0 || d.buttons > kLcmButtonsMax) {
+    return Status::Error("has buttons that are not in 0..32767");
+  }
+  return Status::Ok();
+}
+
+Status Check(const LcmMessage& m) {
   if (m.name.empty() || !IsPrintable(m.name, kLcmNameBytesMax)) {
     return Status::Error("has no name of 1 to 64 printable bytes");
   }
@@ -44,24 +79,6 @@ Status CheckMessage(const LcmMessage& m) {
   }
   return Status::Ok();
 }
-
-/// Sets or reads the fields that message_t and heard_t share.
-template <class Wire>
-void FillMessage(const LcmMessage& m, Wire* wire) {
-  SEAM_ASSERT(CheckMessage(m).ok());
-  wire->utime = m.utime;
-  wire->name = m.name;
-  wire->count = static_cast<std::int16_t>(m.value.size());
-  wire->value = m.value;
-  wire->text = m.text;
-}
-template <class Wire>
-Status TakeMessage(const Wire& wire, LcmMessage* m) {
-  *m = {wire.utime, wire.name, wire.value, wire.text};
-  return CheckMessage(*m);
-}
-
-}  // namespace
 
 Bytes Encode(const LcmPose& pose) {
   pose_t wire;
@@ -104,26 +121,17 @@ Status Decode(ByteView bytes, LcmPose* pose) {
   pose_t wire;
   const Status status = Decoded(bytes, &wire);
   if (!status.ok()) return status;
-  if (!AllFinite({wire.x, wire.y, wire.angle, wire.vx, wire.vy, wire.spin})) {
-    return Status::Error("has a pose that is no finite number");
-  }
   *pose = {wire.utime, wire.tick,  wire.peer, wire.name, wire.x,
            wire.y,     wire.angle, wire.vx,   wire.vy,   wire.spin};
-  return Status::Ok();
+  return Check(*pose);
 }
 
 Status Decode(ByteView bytes, LcmDrive* drive) {
   drive_t wire;
   const Status status = Decoded(bytes, &wire);
   if (!status.ok()) return status;
-  // NaN is not within either.
-  if (!(std::abs(wire.drive) <= 1)) return Status::Error("has a drive that is not in -1..1");
-  if (!(std::abs(wire.lift) <= 1)) return Status::Error("has a lift that is not in -1..1");
-  if (wire.buttons < 0 || wire.buttons > kLcmButtonsMax) {
-    return Status::Error("has buttons that are not in 0..32767");
-  }
   *drive = {wire.utime, wire.drive, wire.lift, wire.buttons};
-  return Status::Ok();
+  return Check(*drive);
 }
 
 Status Decode(ByteView bytes, LcmMessage* message) {

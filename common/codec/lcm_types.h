@@ -45,6 +45,11 @@ struct LcmHeard {
   LcmMessage message;
 };
 
+/// Return one line if a value is no number or out of range.
+Status Check(const LcmPose& pose);
+Status Check(const LcmDrive& drive);
+Status Check(const LcmMessage& message);
+
 /// Encode as LCM does. Require valid values.
 Bytes Encode(const LcmPose& pose);
 Bytes Encode(const LcmDrive& drive);

@@ -44,6 +44,9 @@ struct LogEventsCommand {
 /// line.
 int RunLogEvents(const LogEventsCommand& command);
 
+/// Prints the fingerprint of every LCM type, with and without its session.
+int RunLogTypes();
+
 struct LogTopCommand {
   std::string store, scene, by = "score";
   int limit = 10;

@@ -18,6 +18,7 @@ SEAM_EMBED(seam_page_camera, "camera.js")
 SEAM_EMBED(seam_page_shapes, "shapes.js")
 SEAM_EMBED(seam_page_panel, "panel.js")
 SEAM_EMBED(seam_page_strip, "strip.js")
+SEAM_EMBED(seam_page_around, "around.js")
 SEAM_EMBED(seam_page_table, "table.js")
 SEAM_EMBED(seam_page_save, "save.js")
 SEAM_EMBED(seam_page_player, "player.js")
@@ -49,6 +50,7 @@ std::string Script(bool live) {
   add(seam_page_shapes_begin, seam_page_shapes_end);
   add(seam_page_panel_begin, seam_page_panel_end);
   add(seam_page_strip_begin, seam_page_strip_end);
+  add(seam_page_around_begin, seam_page_around_end);
   add(seam_page_table_begin, seam_page_table_end);
   add(seam_page_save_begin, seam_page_save_end);
   add(seam_page_player_begin, seam_page_player_end);

@@ -8,6 +8,7 @@ const KEYS = [
   ['- +', 'slower, faster'],
   ['w', 'worst moment'],
   ['g', 'first divergence'],
+  ['e', 'curves around the nearest event, all panels over each other'],
   ['f 0', 'fit to the action, to the scene'],
   ['Esc', 'stop following'],
   ['o d v h r n k c', 'layers: oracle, dots, vectors, heat, regions, names, onion, contacts'],
@@ -126,6 +127,7 @@ function wireButtons(page) {
   click('diverge', () => page.goDivergence());
   click('fit-scene', () => page.fitScene());
   click('fit-action', () => page.fitAction());
+  click('around', () => page.toggleAround());
   click('unfollow', () => page.follow(state.follow));
   click('range-clear', () => {
     state.range = null;
@@ -163,7 +165,9 @@ function wireSaving(page) {
       .addEventListener(
           'click', () => saveBlob(new Blob([svgOf(page)], {type: 'image/svg+xml'}), file('svg')));
   $('save-csv').addEventListener('click', () => {
-    const csv = csvOf(page.views(), page.range());
+    const views = page.views();
+    const csv =
+        page.around ? aroundCsv(page.around, views, state.measure) : csvOf(views, page.range());
     saveBlob(new Blob([csv], {type: 'text/csv'}), file('csv'));
   });
 }
@@ -189,6 +193,7 @@ function wireKeys(page) {
     'g': () => page.goDivergence(),
     'f': () => page.fitAction(),
     '0': () => page.fitScene(),
+    'e': () => page.toggleAround(),
     'Escape': () => state.follow !== null && page.follow(state.follow),
     '?': () => $('help').showModal(),
   };

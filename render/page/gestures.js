@@ -107,32 +107,35 @@ function wirePinch(page, canvas) {
 
 function wireStrip(page) {
   const canvas = $('strip');
-  let begin = 0;
+  let beginPx = 0;
   let dragged = false;
   onDrag(
       canvas,
       (event) => {
-        begin = page.strip.tickAt(pointIn(canvas, event)[0]);
+        [beginPx] = pointIn(canvas, event);
         dragged = false;
       },
       (dx, dy, event) => {
-        const end = page.strip.tickAt(pointIn(canvas, event)[0]);
-        if (Math.abs(page.strip.x(end) - page.strip.x(begin)) > 3) dragged = true;
+        const [px] = pointIn(canvas, event);
+        const [begin, end] = [page.stripTick(beginPx), page.stripTick(px)];
+        if (Math.abs(px - beginPx) > 3) dragged = true;
         if (dragged) state.range = [Math.min(begin, end), Math.max(begin, end)];
         page.changed();
       },
       () => {
-        if (!dragged) page.player.go(begin);
+        if (!dragged) page.player.go(page.stripTick(beginPx));
       });
   canvas.addEventListener('pointermove', (event) => {
+    const {around} = page;
     const tick = page.strip.tickAt(pointIn(canvas, event)[0]);
     const unit = MEASURES[state.measure].unit;
-    const values = page.views().map((view) => {
-      const value = view.curve(state.measure)[tick];
+    const values = page.views().map((view, i) => {
+      const curve = view.curve(state.measure);
+      const value = (around ? around.cut(curve, i) : curve)[tick];
       return `${view.label()} ${formatValue(value === undefined ? NaN : value, unit)}`;
     });
-    $('strip-text').textContent =
-        `${page.runs[0].seconds(tick).toFixed(3)} s: ${values.join(' · ')}`;
+    const when = around ? around.seconds(tick) : page.runs[0].seconds(tick);
+    $('strip-text').textContent = `${when.toFixed(3)} s: ${values.join(' · ')}`;
   });
   canvas.addEventListener('pointerleave', () => ($('strip-text').textContent = ''));
   $('losses').addEventListener('pointermove', (event) => {

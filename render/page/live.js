@@ -218,6 +218,7 @@ class LiveSource {
     page.tape.shifted = 0;
     state.tick = Math.max(0, state.tick - dropped);
     if (state.range) state.range = state.range.map((tick) => Math.max(0, tick - dropped));
+    if (state.around !== null) state.around -= dropped;
     page.player.last = page.runs[0].count - 1;
     $('scrub').max = page.player.last;
     page.changed();

@@ -111,33 +111,36 @@ class Page {
     const at = (view) => Math.min(state.tick, view.run.count - 1);
     const camera = cameraAt(views[0], at(views[0]), rects[0]);
     this.camera = camera;
+    const title = (i, side, text) =>
+        ({text: text || views[i].label(), colour: curveColour(i), side});
     if (state.mode === 'side') {
       views.forEach((view, i) => {
-        drawPanel(c, rects[i], camera, view, at(view));
-        if (views.length > 1) drawTitle(c, rects[i], view.label(), curveColour(i), 'left');
+        const titles = views.length > 1 ? [title(i, 'left')] : [];
+        drawPanel(c, rects[i], camera, view, at(view), titles);
       });
       return;
     }
     const second = views[1] || views[0];
+    const [rect] = rects;
     if (state.mode === 'difference') {
-      drawPanel(c, rects[0], camera, views[0], at(views[0]), second);
-      drawTitle(c, rects[0], views[0].label(), curveColour(0), 'left');
-      drawTitle(c, rects[0], `from ${second.label()}`, curveColour(1), 'right');
+      const titles = [title(0, 'left'), title(1, 'right', `from ${second.label()}`)];
+      drawPanel(c, rect, camera, views[0], at(views[0]), titles, second);
       return;
     }
-    drawPanel(c, rects[0], camera, second, at(second));
+    const titles = [title(0, 'left'), title(1, 'right', second.label())];
+    drawPanel(c, rect, camera, second, at(second), titles);
     c.save();
     c.beginPath();
     c.rect(0, 0, state.wipe * width, height);
     c.clip();
-    drawPanel(c, rects[0], camera, views[0], at(views[0]));
+    drawPanel(c, rect, camera, views[0], at(views[0]), titles);
     c.restore();
-    drawTitle(c, rects[0], views[0].label(), curveColour(0), 'left');
-    drawTitle(c, rects[0], second.label(), curveColour(1), 'right');
   }
 
   draw(now_ms) {
-    this.losses.place([...new Set(this.views().map((view) => view.run))]);
+    this.around = this.aroundEvent(this.views());
+    // Losses lie below a strip of the same time.
+    this.losses.place(this.around ? [] : [...new Set(this.views().map((view) => view.run))]);
     const canvas = $('world');
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
@@ -148,10 +151,7 @@ class Page {
     this.drawWorlds(c, width, height);
     if (this.hand) this.hand.draw(c);
     const views = this.views();
-    const run = views[0].run;
-    this.strip.draw(
-        views, state.measure, state.tick, state.range, (tick) => run.seconds(tick),
-        this.player.last);
+    this.drawStrip(views);
     this.marks.draw(this.events(), state.tick, this.player.last);
     this.losses.draw(state.tick, this.player.last);
     this.drawControls(views);
@@ -162,6 +162,45 @@ class Page {
       this.drawTables(views);
       if (!this.tape) writeFragment();
     }
+  }
+
+  // Draws all of time, or the time around an event, where ticks count from the strip's left end.
+  drawStrip(views) {
+    const curves = views.map((view) => view.curve(state.measure));
+    const [{run}] = views;
+    $('around').setAttribute('aria-pressed', String(this.around !== null));
+    $('around-text').textContent = this.around ? this.around.text(views) : '';
+    if (!this.around) {
+      this.strip.draw(
+          curves, state.measure, state.tick, state.range, (tick) => run.seconds(tick),
+          this.player.last);
+      return;
+    }
+    const {around} = this;
+    const shifted = (tick) => Math.min(Math.max(tick - around.first, 0), around.last);
+    const [from, to] = state.range || [0, -1];
+    const seen = from <= around.first + around.last && to >= around.first;
+    this.strip.draw(
+        curves.map((curve, i) => around.cut(curve, i)), state.measure, state.tick - around.first,
+        seen ? [shifted(from), shifted(to)] : null, (tick) => around.seconds(tick), around.last,
+        around.before);
+  }
+  // Returns the event around which the strip is; null where it shows all of time.
+  aroundEvent(views) {
+    if (state.around === null) return null;
+    const event = nearestEvent(views[0].run, state.around);
+    return event ? new Around(event, views) : null;
+  }
+  toggleAround() {
+    const event = nearestEvent(this.views()[0].run, state.tick);
+    state.around = state.around === null && event ? event.at : null;
+    if (!event) this.tell('no event is known');
+    this.changed();
+  }
+  // Returns the tick under a place of the strip.
+  stripTick(px) {
+    const tick = this.strip.tickAt(px) + (this.around ? this.around.first : 0);
+    return Math.min(Math.max(tick, 0), this.player.last);
   }
 
   drawControls(views) {

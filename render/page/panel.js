@@ -111,8 +111,13 @@ function drawLabel(c, text, x, y, colour) {
   c.fillText(text, x, y);
 }
 
-// Draws the name of the view's peer, in an upper corner of the panel.
-function drawTitle(c, rect, text, colour, side) {
+// Returns the width of a text, px: an upper bound, since SVG has no way to measure.
+function textWidth(text, size) {
+  return 0.62 * size * text.length;
+}
+
+// Draws the name of the view's peer, {text, colour, side}, in an upper corner of the panel.
+function drawTitle(c, rect, {text, colour, side}) {
   c.save();
   c.font = '600 12px system-ui, sans-serif';
   c.textAlign = side;
@@ -127,6 +132,13 @@ function drawTitle(c, rect, text, colour, side) {
   c.restore();
 }
 
+// Returns the area of a title, with its colour.
+function titleBox(rect, {text, side}) {
+  const width = 30 + textWidth(text, 12);
+  const left = side === 'left' ? rect.x : rect.x + rect.width - width;
+  return {left, top: rect.y, right: left + width, bottom: rect.y + 24};
+}
+
 // Returns the highest point of a body, m.
 function topOf(body, pose) {
   const [sin, cos] = [Math.sin(pose[2]), Math.cos(pose[2])];
@@ -139,24 +151,38 @@ function topOf(body, pose) {
   return top;
 }
 
-// Draws names: of players' own bodies always, of all bodies on request. Skips a name that would
-// cover another.
-function drawNames(c, viewport, view, seen) {
-  const taken = [];
+// Steps aside by shares of a name's width and height, the nearest first.
+const NAME_MOVES = [
+  [0, 0], [0, -1], [0, 1], [-0.5, 0], [0.5, 0], [0, -2], [-1, 0], [1, 0], [0, 2], [-1, -1], [1, -1],
+  [-1, 1], [1, 1]
+];
+
+// Draws names: of players' own bodies always, of all bodies on request. A name that would cover
+// another text goes aside; where there is no place near, it is left out. `taken`: areas of texts.
+function drawNames(c, viewport, view, seen, taken) {
+  const {rect} = viewport;
+  const inside = (box) => box.left >= rect.x && box.right <= rect.x + rect.width &&
+      box.top >= rect.y && box.bottom <= rect.y + rect.height;
+  const apart = (a, b) =>
+      a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
   for (const {body, pose} of seen) {
     const followed = body.id === state.follow;
     if (!state.layers.names && !followed && body.player < 0) continue;
-    const text = body.name;
-    const x = viewport.x(pose[0]);
-    const y = viewport.y(topOf(body, pose)) - 6;
-    const half = 3.4 * text.length;
-    if (taken.some((box) => Math.abs(box.x - x) < box.half + half && Math.abs(box.y - y) < 12))
-      continue;
-    taken.push({x, y, half});
-    drawLabel(c, text, x, y, COLOURS.theme.ink);
+    const width = textWidth(body.name, 11);
+    const x = viewport.x(pose[0]) - width / 2;
+    const y = viewport.y(topOf(body, pose)) - 17;
+    const boxes = NAME_MOVES.map(([dx, dy]) => {
+      const [left, top] = [x + dx * width, y + dy * 14];
+      return {left, top, right: left + width, bottom: top + 14};
+    });
+    const box = boxes.find((one) => inside(one) && taken.every((other) => apart(one, other)));
+    if (!box) continue;
+    taken.push(box);
+    drawLabel(c, body.name, box.left + width / 2, box.top + 11, COLOURS.theme.ink);
   }
 }
 
+// Returns the area that it takes.
 function drawHeatScale(c, rect, what) {
   const width = Math.min(160, rect.width / 3);
   const x = rect.x + 12;
@@ -178,6 +204,7 @@ function drawHeatScale(c, rect, what) {
   c.fillText(what, x + width / 2, y - 4);
   c.textAlign = 'right';
   c.fillText('1 m', x + width, y - 4);
+  return {left: x, top: y - 15, right: x + width, bottom: y + 6};
 }
 
 // Draws earlier poses of bodies, every 0.15 s of the last 0.75 s, older ones paler.
@@ -264,8 +291,9 @@ function drawDifference(c, viewport, first, second, tick) {
   return seen;
 }
 
-// Draws a panel. `second`: the view to take the difference from, or nothing.
-function drawPanel(c, rect, camera, view, tick, second) {
+// Draws a panel. `titles`: of its upper corners; `second`: the view to take the difference from, or
+// nothing.
+function drawPanel(c, rect, camera, view, tick, titles, second) {
   const viewport = new Viewport(rect, camera);
   const world = view.worldAt(tick);
   c.save();
@@ -287,9 +315,11 @@ function drawPanel(c, rect, camera, view, tick, second) {
   if (state.layers.dots) drawDots(c, viewport, view, tick);
   if (state.layers.vectors) drawVectors(c, viewport, view, tick);
   if (state.layers.contacts) drawContacts(c, viewport, view, tick);
-  drawNames(c, viewport, view, seen);
-  if (state.layers.heat || second) drawHeatScale(c, rect, second ? 'apart' : 'error');
-  drawScaleBar(c, viewport, step);
+  const taken = titles.map((title) => titleBox(rect, title));
+  if (state.layers.heat || second) taken.push(drawHeatScale(c, rect, second ? 'apart' : 'error'));
+  taken.push(drawScaleBar(c, viewport, step));
+  drawNames(c, viewport, view, seen, taken);
+  for (const title of titles) drawTitle(c, rect, title);
   c.restore();
   return viewport;
 }

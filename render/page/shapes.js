@@ -103,6 +103,7 @@ function drawGrid(c, viewport) {
 }
 
 // Draws a bar with the length of a step of the grid.
+// Returns the area that it takes.
 function drawScaleBar(c, viewport, step) {
   const {rect} = viewport;
   const right = rect.x + rect.width - 12;
@@ -125,6 +126,13 @@ function drawScaleBar(c, viewport, step) {
   c.font = '11px system-ui, sans-serif';
   c.textAlign = 'center';
   c.fillText(text, (left + right) / 2, y - 6);
+  const middle = (left + right) / 2;
+  return {
+    left: Math.min(left, middle - half),
+    top: y - 17,
+    right: Math.max(right, middle + half),
+    bottom: y
+  };
 }
 
 function drawWaters(c, viewport, run) {

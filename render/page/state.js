@@ -29,7 +29,8 @@ const state = {
   follow: null,  // id of a body
   layers: {truth: true, dots: false, vectors: false, heat: false, contacts: true},
   measure: 'error',
-  range: null,  // [tick, tick], both included
+  range: null,   // [tick, tick], both included
+  around: null,  // tick of the first panel's event around which the strip is; null: all of time
 };
 
 function writeFragment() {
@@ -44,6 +45,7 @@ function writeFragment() {
   if (state.mode === 'wipe') words.push('w=' + state.wipe.toFixed(3));
   if (state.follow !== null) words.push('f=' + state.follow);
   if (state.range) words.push('r=' + state.range.join(','));
+  if (state.around !== null) words.push('e=' + state.around);
   if (state.camera)
     words.push('c=' + ['x', 'y', 'height'].map((k) => state.camera[k]).join(','));  // exactly
   history.replaceState(null, '', '#' + words.join('&'));
@@ -80,6 +82,7 @@ function readFragment(runs) {
   const range = numbersOf(words.get('r') || '');
   if (range.length === 2 && range.every(Number.isInteger))
     state.range = [within(Math.min(...range)), within(Math.max(...range))];
+  state.around = Number.isInteger(number('e')) ? number('e') : null;
   const camera = numbersOf(words.get('c') || '');
   if (camera.length === 3 && camera.every(Number.isFinite) && camera[2] > 0)
     state.camera = {x: camera[0], y: camera[1], height: camera[2]};

@@ -117,9 +117,9 @@ class Strip {
     });
     c.stroke();
   }
-  draw(views, measure, tick, range, seconds, last) {
+  // `zero`: the tick at which all curves have their event, or nothing.
+  draw(curves, measure, tick, range, seconds, last, zero) {
     const c = this.prepare(last);
-    const curves = views.map((view) => view.curve(measure));
     this.findScale(curves, measure);
     if (range) {
       c.fillStyle = COLOURS.theme.accent;
@@ -131,13 +131,19 @@ class Strip {
       c.globalAlpha = 1;
     }
     this.drawAxes(c, measure, seconds);
+    if (zero !== undefined) this.drawUpright(c, zero, COLOURS.theme.faint, [4, 3]);
     curves.forEach((curve, i) => this.drawCurve(c, curve, curveColour(i)));
-    c.strokeStyle = COLOURS.theme.ink;
+    if (tick >= 0 && tick <= last) this.drawUpright(c, tick, COLOURS.theme.ink, []);
+  }
+  drawUpright(c, tick, colour, dash) {
+    c.strokeStyle = colour;
+    c.setLineDash(dash);
     c.lineWidth = 1.2;
     c.beginPath();
     c.moveTo(this.x(tick), STRIP.top - 4);
     c.lineTo(this.x(tick), this.height - STRIP.bottom);
     c.stroke();
+    c.setLineDash([]);
   }
 }
 

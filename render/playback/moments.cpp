@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/measure/handover_list.h"
+#include "common/measure/around/key_events.h"
 
 namespace seam {
 namespace {
 
-constexpr float kJumpMin = 1.0f;       ///< m/s in one tick; only a collision causes this
-constexpr float kStrongImpact = 3.0f;  ///< m/s
 constexpr double kSameContact_s = 0.05;  ///< impacts within this belong to one contact
 
 /// Adds the bodies of the impacts at that moment to `bodies`; without any, takes strong impacts.
@@ -27,32 +25,6 @@ std::set<PartId> BodiesOf(const Playback& playback, double s, std::set<PartId> b
     }
   }
   return bodies;
-}
-
-std::int64_t WatchedTick(const Playback& playback) {
-  const std::set<PartId> struck = StruckBodies(playback);
-  if (struck.empty() || !playback.has_oracle()) return -1;
-  const Oracle& oracle = playback.oracle();
-  const std::int64_t last = oracle.first_tick + static_cast<std::int64_t>(oracle.ticks.size());
-  std::int64_t tick = std::max(playback.scene().watch.front().around_tick, oracle.first_tick + 1);
-  for (; tick < last; ++tick)
-    for (PartId id : struck) {
-      const auto now = oracle.At(tick, id), before = oracle.At(tick - 1, id);
-      if (now && before && (now->velocity - before->velocity).norm() > kJumpMin) return tick;
-    }
-  return -1;
-}
-
-/// Returns the tick of the first strong impact between moving bodies, or -1.
-std::int64_t ImpactTick(const Playback& playback) {
-  std::int64_t first = -1;
-  for (const Impacts& impacts : playback.recording().impacts)
-    for (std::size_t i = 0; i < impacts.dv.size(); ++i) {
-      const bool both_move = impacts.id_a[i] >= 0 && impacts.id_b[i] >= 0;
-      if (both_move && impacts.dv[i] >= kStrongImpact && (first < 0 || impacts.tick < first))
-        first = impacts.tick;
-    }
-  return first;
 }
 
 double Seconds(const Playback& playback, std::int64_t tick) {
@@ -92,16 +64,12 @@ std::set<PartId> StruckBodies(const Playback& playback) {
 
 std::optional<ShownMoment> ContactMoment(const std::vector<Playback>& playbacks) {
   for (const Playback& playback : playbacks) {
-    const std::int64_t tick = WatchedTick(playback);
-    if (tick < 0) continue;
-    const double s = Seconds(playback, tick);
-    return ShownMoment{s, BodiesOf(playback, s, StruckBodies(playback))};
-  }
-  for (const Playback& playback : playbacks) {
-    const std::int64_t tick = ImpactTick(playback);
-    if (tick < 0) continue;
-    const double s = Seconds(playback, tick);
-    return ShownMoment{s, BodiesOf(playback, s, {})};
+    const Oracle* const oracle = playback.has_oracle() ? &playback.oracle() : nullptr;
+    const std::set<PartId> struck = StruckBodies(playback);
+    const auto tick = ContactTick(playback.recording(), playback.scene(), oracle, struck);
+    if (!tick) continue;
+    const double s = Seconds(playback, *tick);
+    return ShownMoment{s, BodiesOf(playback, s, struck)};
   }
   return std::nullopt;
 }
@@ -126,23 +94,8 @@ std::optional<ShownMoment> WorstMoment(const std::vector<Playback>& playbacks) {
 
 std::optional<ShownMoment> HandOverMoment(const std::vector<Playback>& playbacks) {
   for (const Playback& playback : playbacks) {
-    const auto views = playback.recording().views.find(0);
-    if (views == playback.recording().views.end()) continue;
-    std::map<PartId, int> holders;
-    for (const auto& [tick, view] : views->second) {
-      for (std::size_t i = 0; i < view.id.size(); ++i) {
-        const int holder = view.authority[i];
-        if (holder <= 0) continue;  // held by the server, or being handed over
-        const auto [known, first] = holders.emplace(view.id[i], holder);
-        if (!first && known->second != holder) {
-          return ShownMoment{Seconds(playback, tick), {view.id[i]}};
-        }
-      }
-    }
-    // The server's view may lack bodies held by clients (--publish own): use the clients' claims.
-    for (const HandOverSeen& seen : ListHandOvers(playback.recording())) {
-      if (seen.from > 0 && seen.to > 0) return ShownMoment{Seconds(playback, seen.tick), {seen.id}};
-    }
+    const auto first = FindFirstHandOver(playback.recording());
+    if (first) return ShownMoment{Seconds(playback, first->tick), {first->body}};
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,23 @@ TEST(DebianPackages, UnpackedTheyHoldAllThatIsNeededToRunAndToBuild) {
        {"bin/seam", "bin/seam-server", "lib/libseam2d.so.1", "lib/libseam2d.so", "lib/libseam.a",
         "include/seam2d/world.h", "share/doc/seam2d/copyright", "share/doc/seam2d-dev/copyright",
         "share/doc/python3-seam2d/copyright", "share/seam2d/lcmtypes/view_t.lcm",
-        "lib/cmake/seam2d/seam2d-config.cmake", "lib/python3/dist-packages/seam/__init__.py"}) {
+        "lib/cmake/seam2d/seam2d-config.cmake", "lib/python3/dist-packages/seam/__init__.py",
+        "lib/python3/dist-packages/seam/lcm.py", "share/seam2d/lcmtypes/fingerprints.txt"}) {
     EXPECT_TRUE(fs::exists(usr + file)) << file;
   }
+  // Containerfile installs packages that there are.
+  int copied = 0;
+  for (const std::string& line : Lines(Root() / "Containerfile")) {
+    std::istringstream words(line);
+    const std::string packages = "/source/out/deb/";
+    for (std::string word; words >> word;) {
+      if (word.rfind(packages, 0) != 0) continue;
+      const std::string pattern = (folder / "deb/") + word.substr(packages.size());
+      EXPECT_EQ(std::system(("ls " + pattern + " > /dev/null").c_str()), 0) << pattern;
+      ++copied;
+    }
+  }
+  EXPECT_EQ(copied, 2);
   // The C program of docs/embedding.md and a line of Python, from the unpacked files alone.
   std::ifstream page_file(Root() / "docs/embedding.md");
   const std::string page{std::istreambuf_iterator<char>(page_file), {}};

@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
+#include "client/front/verbs.h"
 #include "tests/support/browser/browser.h"
 #include "tests/support/program.h"
+#include "tests/support/source_tree.h"
 
 namespace seam {
 namespace front_test {
@@ -153,6 +156,17 @@ TEST(Front, TheEndOfAProgramEndsTheOthersAndIsSaid) {
   ASSERT_TRUE(demo.Wait(kPatience_s));
   EXPECT_EQ(demo.status(), 1) << demo.Story();
   EXPECT_TRUE(AllGone(children));
+}
+
+TEST(Front, HasAVerbForEachProgram) {
+  std::set<std::string> programs;
+  for (const std::string& line : Lines(Root() / "tests/process/interface.txt")) {
+    const std::string word = line.substr(0, line.find(' '));
+    if (word.rfind("seam-", 0) == 0) programs.insert(word);
+  }
+  EXPECT_GT(programs.size(), 8u);
+  for (const Verb& verb : Verbs()) programs.erase(verb.program);
+  for (const std::string& program : programs) ADD_FAILURE() << "no verb runs " << program;
 }
 
 }  // namespace front_test

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "common/codec/lcm_types.h"
@@ -25,11 +26,15 @@ constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
 /// The scene `rover` with a server that records and a client that drives by LCM.
 class LcmRover : public InNamespace {
  protected:
-  void Start(const Words& drive = {"--drive", "lcm"}) {
+  void Serve() {
     server_ = std::make_unique<Program>(Words{
         BuiltProgram("seam-server"), (Root() / "scenes/rover.toml").string(), "--bind", "127.0.0.1",
         "--port", "7811", "--lcm-url", kUrl, "--duration", "0", "--record", Log()});
     ASSERT_TRUE(server_->WaitForErrors("Ctrl-C", kWithin_s)) << server_->Story();
+  }
+  void Start(const Words& drive = {"--drive", "lcm"}) {
+    Serve();
+    if (HasFatalFailure()) return;
     Words words = {BuiltProgram("seam-client"),
                    "127.0.0.1:7811",
                    "--name",
@@ -111,6 +116,41 @@ TEST_F(LcmRover, IsParkedByTheExampleProgram) {
   ASSERT_TRUE(replay.Wait(kWithin_s));
   EXPECT_EQ(replay.status(), 0) << replay.Story();
   EXPECT_NE(replay.output().find(" ticks done again"), std::string::npos) << replay.Story();
+}
+
+TEST_F(LcmRover, IsParkedByAPythonClientThatAPythonProgramDrives) {
+  SEAM_INSIDE_ONLY();
+  const std::string module =
+      std::filesystem::path(BuiltProgram("seam")).parent_path().string() + "/python";
+  if (!std::filesystem::exists(module + "/seam/_seam.so")) GTEST_SKIP() << "make python";
+  const Words python = {"env", "PYTHONPATH=" + module, "LCM_DEFAULT_URL=" + std::string(kUrl),
+                        "/usr/bin/python3"};
+  const auto with = [&](Words words) {
+    words.insert(words.begin(), python.begin(), python.end());
+    return words;
+  };
+  Bus bus(kUrl);
+  int poses = 0;
+  double x = 0;
+  bus.Subscribe("ROVER\\.SEEN", [&](const std::string&, std::int64_t, ByteView bytes) {
+    LcmPose pose;
+    if (!Decode(bytes, &pose).ok() || pose.name != "rover" || pose.peer != 1) return;
+    ++poses;
+    x = pose.x;
+  });
+  Serve();
+  if (HasFatalFailure()) return;
+  Program robot(with({"docs/examples/robot.py", "127.0.0.1:7811"}), Root().string());
+  Program rover(with({"docs/examples/rover.py"}), Root().string());
+  for (int i = 0; i < 600 && !rover.Wait(0); ++i) bus.Poll(100000);
+  ASSERT_TRUE(rover.Wait(kWithin_s)) << rover.Story() << robot.Story() << server_->Story();
+  EXPECT_EQ(rover.output(), "parked\n") << rover.Story();
+  for (int i = 0; i < 100; ++i) bus.Poll(1000);
+  EXPECT_GT(poses, 60) << "one for each tick that it sees";
+  EXPECT_NEAR(x, 10, 0.6) << "it sees itself in the bay";
+  server_->Signal(SIGINT);
+  EXPECT_TRUE(server_->Wait(kWithin_s));
+  EXPECT_TRUE(robot.Wait(kWithin_s) && robot.status() == 0) << robot.Story();
 }
 
 TEST_F(LcmRover, StandsStillUnderWrongMessagesAndWhenItsDriverIsSilent) {

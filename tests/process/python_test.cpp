@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -65,6 +66,9 @@ TEST_F(PythonModule, ReadsLogsAsArrays) { Check("ReadsLogs"); }
 TEST_F(PythonModule, StepsScenes) { Check("StepsScenes"); }
 TEST_F(PythonModule, RunsSessionsOfTwoClients) { Check("RunsSessions"); }
 
+TEST_F(PythonModule, KnowsTheLcmTypesAsLcmGenMakesThem) { Check("KnowsLcmTypes"); }
+TEST_F(PythonModule, JoinsServersAndDrives) { Check("JoinsServers"); }
+
 TEST_F(PythonModule, EachExampleRunsAndPrintsWhatItSays) {
   const auto error = Python({"docs/examples/error_over_time.py", Log()});
   EXPECT_EQ(error->status(), 0) << error->Story();
@@ -80,7 +84,8 @@ TEST_F(PythonModule, EachExampleRunsAndPrintsWhatItSays) {
   for (const auto& file : fs::directory_iterator(Root() / "docs/examples")) {
     examples += file.path().extension() == ".py" ? 1 : 0;
   }
-  EXPECT_EQ(examples, 3) << "each example is run here";
+  // The examples of robots, which need the bus, are run by tests/process/lcm_test.cpp.
+  EXPECT_EQ(examples, 3 + 2) << "each example is run by a test";
 }
 
 TEST_F(PythonModule, ThePrintedMeasuresAreThoseOfSeamMeasure) {
@@ -109,6 +114,30 @@ TEST_F(PythonModule, ALogWithoutItsBeginningHasMeasuresWithoutErrors) {
   EXPECT_NE(run->output().find("\n  no oracle: the log begins at tick "), std::string::npos)
       << run->Story();
   EXPECT_EQ(run->output().find("error_others_m"), std::string::npos) << "there is no such number";
+}
+
+TEST_F(PythonModule, NamesTheDamagedPartsAsSeamMeasureDoes) {
+  const std::string damaged = *made_ / "damaged.lcm";
+  fs::copy_file(Log(), damaged);
+  std::FILE* file = std::fopen(damaged.c_str(), "r+b");
+  ASSERT_NE(file, nullptr);
+  std::fseek(file, static_cast<long>(fs::file_size(damaged) / 2), SEEK_SET);
+  const std::string zeros(64, 0);
+  EXPECT_EQ(std::fwrite(zeros.data(), 1, zeros.size(), file), zeros.size());
+  std::fclose(file);
+  Program measured({BuiltProgram("seam-measure"), damaged});
+  ASSERT_TRUE(measured.Wait(60));
+  EXPECT_EQ(measured.status(), 1) << measured.Story();
+  for (const Words& words :
+       {Words{"-m", "seam", damaged}, Words{"-m", "seam", "--error", damaged}}) {
+    const auto run = Python(words);
+    EXPECT_EQ(run->status(), 1) << run->Story();
+    const std::string says = "python3 -m seam: warning: " + damaged + ": ticks ";
+    EXPECT_EQ(run->errors().rfind(says, 0), 0u) << run->Story();
+    const std::string line = run->errors().substr(std::string("python3 -m seam").size());
+    EXPECT_NE(measured.errors().find(line.substr(0, line.find('\n'))), std::string::npos)
+        << measured.Story() << run->Story();
+  }
 }
 
 TEST_F(PythonModule, AMissingLogIsOneLineAndStatusTwo) {

@@ -74,5 +74,12 @@ TEST(TomlHint, OtherMistakesKeepTheParsersWords) {
   EXPECT_NE(Complaint(std::string(390, '[')), "");
 }
 
+TEST(TomlHint, NamesTheShapeThatAValueHas) {
+  const std::string three = Complaint("name = 'a'\nposition = [1, 2, 3]");
+  EXPECT_EQ(three, "s.toml:3: part 'a': position must be two numbers [x, y], not an array of 3");
+  const std::string one = Complaint("name = 'a'\nbox = [1, 1]\n[water]\nname = 'pool'");
+  EXPECT_EQ(one, "s.toml:4: scene: water needs two brackets, [[water]]: there may be several");
+}
+
 }  // namespace toml_hint_test
 }  // namespace seam

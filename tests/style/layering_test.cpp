@@ -176,6 +176,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/record/events", "none"},
       {"common/record/store", "common/record(/events)?"},
       {"common/record/segments", "common/record"},
+      {"common/measure/around", "common/measure"},
       {"common/measure/contents", "common/measure"},
       {"common/measure/screen", "common/measure"},
       {"common/sync/show", "common/sync(/reach|/table)?"},

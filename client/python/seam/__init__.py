@@ -1,4 +1,4 @@
-"""Seam2D in Python: read logs as NumPy arrays, step scenes, run sessions, measure them.
+"""Seam2D in Python: read logs as NumPy arrays, step scenes, run sessions, measure, join servers.
 
     log = seam.read("session.lcm")
     log.views["ann"]["car"]            # float32 [ticks, 3]: x, y, angle
@@ -13,87 +13,21 @@ ValueError of one line. docs/python.md is the manual.
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _seam
+from . import _seam, lcm
 from ._seam import Error
+from .bodies import Bodies, Body, Floats, Input, Player, State, some
+from .client import Client
 
 __version__: str = _seam.version
-__all__ = ["Bodies", "Error", "Input", "Log", "Session", "State", "View", "World", "measure", "read"]
-
-Floats = NDArray[np.float32]
-Player = Union[str, int]
-Body = Union[str, int]
-
-
-@dataclasses.dataclass(frozen=True)
-class Input:
-    """A player's input: two axes from -1 to 1, and the numbers of the buttons that are down."""
-
-    drive: float = 0.0
-    lift: float = 0.0
-    buttons: Iterable[int] = ()
-
-    def _numbers(self) -> tuple[int, int, int]:
-        bits = 0
-        for button in self.buttons:
-            if not 0 <= button <= 14:
-                raise Error(f"button {button}: buttons are numbers from 0 to 14")
-            bits |= 1 << button
-        for axis in (self.drive, self.lift):
-            if not -1 <= axis <= 1:  # false for NaN
-                raise Error(f"{axis}: drive and lift are from -1 to 1")
-        return round(self.drive * 127), round(self.lift * 127), bits
-
-
-class Bodies:
-    """Bodies by name or id. A body is named by its root part; `names` are all of them."""
-
-    def __init__(self, names: list[str], ids: NDArray[np.int32]) -> None:
-        self.names = names
-        self.ids = ids
-
-    def index(self, body: Body) -> int:
-        """The body's place in the arrays."""
-        if isinstance(body, str):
-            if body in self.names:
-                return self.names.index(body)
-        elif body in self.ids:
-            return int(np.flatnonzero(self.ids == body)[0])
-        raise Error(f"there is no moving body {body!r}; there are: {_some(self.names)}")
-
-    def __len__(self) -> int:
-        return len(self.names)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.names)
-
-    def __contains__(self, body: object) -> bool:
-        return body in self.names
-
-
-class State(Bodies):
-    """Bodies at one tick: `poses` and `velocities`, float32 [bodies, 3] in m, rad and seconds."""
-
-    def __init__(self, data: dict[str, Any]) -> None:
-        super().__init__(data["names"], data["ids"])
-        self.tick: int = data["tick"]
-        self.poses: Floats = data["poses"]
-        self.velocities: Floats = data["velocities"]
-
-    def __getitem__(self, body: Body) -> Floats:
-        """The pose of a body: x, y, angle."""
-        return self.poses[self.index(body)]
-
-    def velocity(self, body: Body) -> Floats:
-        """vx, vy, spin of a body."""
-        return self.velocities[self.index(body)]
+__all__ = ["Bodies", "Client", "Error", "Input", "Log", "Session", "State", "View", "World", "lcm",
+           "measure", "read"]
 
 
 class View(Bodies):
@@ -148,6 +82,7 @@ class Log:
         self.peers: list[int] = about["peers"]
         self.missing: int = about["missing"]
         self.damaged_bytes: int = about["damaged_bytes"]
+        self.damage: list[str] = about["damage"]  # a line for each damaged part
         self.ticks: NDArray[np.int64] = np.arange(about["first_tick"], about["last_tick"] + 1)
         self.time: NDArray[np.float64] = self.ticks / self.tick_hz
         self.views: Mapping[Player, View] = _Views(self)
@@ -161,7 +96,7 @@ class Log:
                 return 0
             if peer in self.players:
                 return self.players.index(peer) + 1
-            raise Error(f"there is no peer {peer!r}; there are: {_some(['server', *self.players])}")
+            raise Error(f"there is no peer {peer!r}; there are: {some(['server', *self.players])}")
         return int(peer)
 
     def _view(self, peer: Player, errors: bool) -> View:
@@ -331,10 +266,6 @@ def measure(path: str | os.PathLike[str]) -> dict[str, Any]:
     return Log(path).measure()
 
 
-def _some(names: list[str]) -> str:
-    return ", ".join(names[:12]) + (" ..." if len(names) > 12 else "") if names else "none"
-
-
 def _count(ticks: int) -> int:
     if not 0 <= ticks <= 100_000_000:
         raise Error(f"{ticks} ticks: a call takes 0 to 100000000")
@@ -345,7 +276,7 @@ def _player(player: Player, players: list[str]) -> int:
     if isinstance(player, str):
         if player in players:
             return players.index(player)
-        raise Error(f"there is no player {player!r}; there are: {_some(players)}")
+        raise Error(f"there is no player {player!r}; there are: {some(players)}")
     return player
 
 

@@ -21,8 +21,15 @@ def bars(values: np.ndarray, width: int = 60) -> str:
     return "".join(" ▁▂▃▄▅▆▇█"[int(np.ceil(8 * mean / top))] for mean in means)
 
 
-def show(path: str) -> None:
+def read(path: str) -> seam.Log:
+    """Reads a log, and names its damaged parts on stderr."""
     log = seam.read(path)
+    for line in log.damage:
+        print(f"python3 -m seam: warning: {path}: {line}", file=sys.stderr)
+    return log
+
+
+def show(log: seam.Log, path: str) -> None:
     method = log.mode + (f"/{log.reconcile}" if log.reconcile else "")
     print(f"{path}: {log.scene}, {method}, network {log.impair}, seed {log.seed}, "
           f"{len(log.ticks)} ticks of 1/{log.tick_hz} s, players {', '.join(log.players)}")
@@ -49,12 +56,14 @@ def main() -> int:
     parser.add_argument("--error", action="store_true", help="print tick,error_m as CSV instead")
     parser.add_argument("--version", action="version", version=f"seam {seam.__version__}")
     options = parser.parse_args()
+    status = 0
     try:
         for path in options.log:
+            log = read(path)
+            status = max(status, 1 if log.damage else 0)
             if not options.error:
-                show(path)
+                show(log, path)
                 continue
-            log = seam.read(path)
             print("tick,error_m")
             for tick, error in zip(log.ticks, log.error()):
                 print(f"{tick},{error:.6g}")
@@ -63,7 +72,7 @@ def main() -> int:
         return 2
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 0
+    return status
 
 
 if __name__ == "__main__":

@@ -60,10 +60,12 @@ void SceneReader::FailAt(const char* key, const std::string& complaint) const {
 }
 
 void SceneReader::Expected(const TomlNode& node, const char* key, const std::string& what) const {
-  const std::string got =
-      node.kind == TomlNode::Kind::kInteger || node.kind == TomlNode::Kind::kNumber
-          ? Decimal(node.number)
-          : std::string(KindName(node.kind));
+  std::string got = KindName(node.kind);
+  if (node.kind == TomlNode::Kind::kInteger || node.kind == TomlNode::Kind::kNumber) {
+    got = Decimal(node.number);
+  } else if (node.kind == TomlNode::Kind::kArray) {
+    got += " of " + std::to_string(node.items.size());
+  }
   FailLine(node.line, std::string(key) + " must be " + what + ", not " + got);
 }
 
@@ -201,6 +203,10 @@ std::vector<std::string> SceneReader::Texts(const char* key) const {
 std::vector<const TomlNode*> SceneReader::Tables(const char* key) const {
   Note(table_, key, ReadAs::kTables);
   std::vector<const TomlNode*> tables;
+  if (IsTable(key)) {
+    const std::string name = key;
+    FailAt(key, name + " needs two brackets, [[" + name + "]]: there may be several");
+  }
   for (const TomlNode& item : Items(key)) {
     if (item.kind != TomlNode::Kind::kTable) Expected(item, key, "tables");
     tables.push_back(&item);

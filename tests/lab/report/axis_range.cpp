@@ -78,4 +78,17 @@ std::vector<double> LogTics(const PlotRange& range) {
   return tics;
 }
 
+PlotRanges RangesOf(const PlotPanel& panel) {
+  std::vector<double> xs, ys;
+  for (const PlotCurve& curve : panel.curves) {
+    for (const PlotPoint& point : curve.points) {
+      xs.push_back(point.x);
+      for (const double y : {point.y, point.low, point.high}) ys.push_back(y);
+    }
+  }
+  for (const Level& level : panel.levels) ys.push_back(level.y);
+  for (const Level& upright : panel.uprights) xs.push_back(upright.y);
+  return {FindRange(xs, panel.x.log), FindRange(ys, panel.y.log)};
+}
+
 }  // namespace seam

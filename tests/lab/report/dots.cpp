@@ -30,7 +30,7 @@ PlotPanel DotsPanel(const Sweep& sweep, const SweepGroup& group, double x, const
     dot.look.size = 1.2;
     dot.points.push_back({price->median, value->median, value->low, value->high});
     panel.curves.push_back(std::move(dot));
-    panel.notes.push_back({price->median, value->median, method, false, 0.7});
+    panel.notes.push_back({price->median, value->median, method, false, 0});
   }
   return panel;
 }
@@ -52,7 +52,9 @@ Figure DotsOf(const Sweep& sweep, const SweepGroup& group) {
     for (const char* cost : {"bytes", "cpu"}) {
       PlotPanel panel =
           DotsPanel(sweep, group, x, MeasureNamed(cost), MeasureNamed(error), &without);
-      if (panel.curves.size() > 1) figure.panels.push_back(std::move(panel));
+      if (panel.curves.size() < 2) continue;
+      SpreadNotes(figure.panel_width_px - 92, figure.panel_height_px - 82, &panel);
+      figure.panels.push_back(std::move(panel));
     }
   }
   figure.caption = fmt::format(

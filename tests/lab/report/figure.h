@@ -34,11 +34,14 @@ struct Level {
   std::string name;  ///< written at its right end
 };
 
+/// From a point to its note, px.
+constexpr double kBesidePx = 8;
+
 struct Note {
   double x = 0, y = 0;
   std::string text;
   bool left = false;  ///< of its place; else right
-  double lift = 0;    ///< above its place, in lines of text
+  double lift_px = 0;  ///< above its place
 };
 
 struct Axis {
@@ -87,6 +90,17 @@ PlotRange FindRange(const std::vector<double>& values, bool log);
 double PlaceOn(const PlotRange& range, double value, bool log);
 /// Powers of ten; where these are few, 1, 2 and 5 of each, or more.
 std::vector<double> LogTics(const PlotRange& range);
+
+struct PlotRanges {
+  PlotRange x, y;
+};
+/// Takes in all that a panel draws.
+PlotRanges RangesOf(const PlotPanel& panel);
+
+/// Puts each note beside its point, where it covers no point and no other note; where there is no
+/// such place near, the note goes. Sizes are of the panel inside its axes. Call it when the panel
+/// has its curves.
+void SpreadNotes(double width_px, double height_px, PlotPanel* panel);
 
 /// gnuplot's text for the whole figure, its data included; writes NAME.svg (or .png) beside it.
 std::string GnuplotScript(const Figure& figure, PictureFormat format);

@@ -77,13 +77,15 @@ class Script {
 
   void Begin(PictureFormat format) {
     text_ = fmt::format("# {}\n# {}\nreset\nset encoding utf8\n", f_.title, f_.command);
-    text_ += format == PictureFormat::kSvg
-                 ? fmt::format(
-                       "set terminal svg size {},{} font 'Helvetica,13' noenhanced "
-                       "background '#ffffff'\n",
-                       width_, height_)
-                 : fmt::format("set terminal pngcairo size {},{} font 'sans,10' noenhanced\n",
-                               width_, height_);
+    text_ +=
+        format == PictureFormat::kSvg
+            ? fmt::format(
+                  "set terminal svg size {},{} font 'Helvetica,13' noenhanced "
+                  "background '#ffffff'\n",
+                  width_, height_)
+            : fmt::format(
+                  "set terminal pngcairo size {},{} font 'sans,13' fontscale 0.75 noenhanced\n",
+                  width_, height_);
     text_ += fmt::format("set output '{}.{}'\nset multiplot\n", f_.name, Extension(format));
     text_ += fmt::format("set label 1 {} at screen 0.5,{} center font ',16'\n", Quoted(f_.title),
                          1 - 17.0 / height_);
@@ -136,16 +138,7 @@ class Script {
         "set tmargin at screen {}\nset bmargin at screen {}\n",
         X(left + f_.left_px), X(left + f_.panel_width_px - kRightPx), Y(top + kTopPx),
         Y(top + f_.panel_height_px - kBottomPx));
-    std::vector<double> xs, ys;
-    for (const PlotCurve& curve : p.curves) {
-      for (const PlotPoint& point : curve.points) {
-        xs.push_back(point.x);
-        for (const double y : {point.y, point.low, point.high}) ys.push_back(y);
-      }
-    }
-    for (const Level& level : p.levels) ys.push_back(level.y);
-    for (const Level& upright : p.uprights) xs.push_back(upright.y);
-    const PlotRange x = FindRange(xs, p.x.log), y = FindRange(ys, p.y.log);
+    const auto [x, y] = RangesOf(p);
     text_ += AxisLines("x", p.x, x) + AxisLines("y", p.y, y);
     text_ += fmt::format("set xlabel {} offset 0,0.3\n", Quoted(p.x.label));
     // The y axis is named above it, where one reads it without turning one's head.
@@ -182,9 +175,10 @@ class Script {
     }
     for (const Note& note : p.notes) {
       out +=
-          fmt::format("set label {} {} at {},{} {} offset {},{} font ',11'\n", tag++,
-                      Quoted(note.text), PlaceOn(x, note.x, p.x.log), PlaceOn(y, note.y, p.y.log),
-                      note.left ? "right" : "left", note.left ? "-0.8" : "0.8", note.lift);
+          fmt::format("set label {} {} at {},{} {} offset screen {:.5f},screen {:.5f} font ',11'\n",
+                      tag++, Quoted(note.text), PlaceOn(x, note.x, p.x.log),
+                      PlaceOn(y, note.y, p.y.log), note.left ? "right" : "left",
+                      X(note.left ? -kBesidePx : kBesidePx), note.lift_px / height_);
     }
     return out;
   }

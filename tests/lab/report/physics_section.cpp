@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "tests/lab/report/joints/solver_speed.h"
 
 namespace seam {
 namespace {
@@ -51,51 +54,6 @@ PlotCurve FrontCurve(const std::vector<PhysicsRun>& runs) {
     front.points.push_back(At(runs[i]));
   }
   return front;
-}
-
-/// A label's box in pixels.
-struct Box {
-  double left, bottom, right, top;
-  bool Meets(const Box& o) const {
-    return left < o.right && o.left < right && bottom < o.top && o.bottom < top;
-  }
-};
-
-/// Puts each note beside its point where it covers no other point and no other note; where there is
-/// no such place, the note goes.
-void SpreadNotes(double width_px, double height_px, PlotPanel* panel) {
-  std::vector<double> xs, ys;
-  for (const Note& note : panel->notes) xs.push_back(note.x), ys.push_back(note.y);
-  const PlotRange rx = FindRange(xs, true), ry = FindRange(ys, true);
-  const auto px = [&](const PlotRange& r, double v, double size) {
-    return std::log(PlaceOn(r, v, true) / r.low) / std::log(r.high / r.low) * size;
-  };
-  std::vector<Box> taken;
-  for (const Note& note : panel->notes) {
-    const double x = px(rx, note.x, width_px), y = px(ry, note.y, height_px);
-    taken.push_back({x - 5, y - 5, x + 5, y + 5});
-  }
-  for (Note& note : panel->notes) {
-    const double x = px(rx, note.x, width_px), y = px(ry, note.y, height_px);
-    const double length = 6.2 * static_cast<double>(note.text.size());
-    bool placed = false;
-    for (int attempt = 0; attempt < 14 && !placed; ++attempt) {
-      const bool left = attempt % 2 == 1;
-      const int step = (attempt / 2 + 1) / 2 * (attempt / 2 % 2 == 1 ? 1 : -1);
-      const double begin = left ? x - 8 - length : x + 8;
-      const double at = y + step * 12;
-      const Box box = {begin, at - 6, begin + length, at + 6};
-      const bool inside = begin > 0 && begin + length < width_px;
-      const bool meets = std::any_of(taken.begin(), taken.end(),
-                                     [&](const Box& other) { return box.Meets(other); });
-      if (!inside || meets) continue;
-      note.left = left;
-      note.lift = step * 12 / 15.0;
-      taken.push_back(box);
-      placed = true;
-    }
-    if (!placed) note.text.clear();  // the table and the list have it
-  }
 }
 
 }  // namespace
@@ -214,10 +172,10 @@ Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& 
     kind.points.push_back(point);
     panel.notes.push_back({point.x, point.y, c.name, false, 0});
   }
-  SpreadNotes(figure.panel_width_px - 92, figure.panel_height_px - 82, &panel);
   for (PlotCurve* curve : {&held, &rescued, &failed, &both}) {
     if (!curve->points.empty()) panel.curves.push_back(std::move(*curve));
   }
+  SpreadNotes(figure.panel_width_px - 92, figure.panel_height_px - 82, &panel);
   figure.panels.push_back(std::move(panel));
   figure.caption =
       "Below the line: less error than the stock setting (60 Hz, 8/3 iterations) on the same "
@@ -237,10 +195,15 @@ Section PhysicsSection(const CsvTable& table, const std::string& command) {
       "or by what must not happen (invariant). Settings that failed are marked; those that "
       "diverged are at the upper edge.";
   section.items.emplace_back(PhysicsSummary(cases, command));
+  Figure speed = SolverSpeed(cases, command);
+  if (!speed.panels.empty()) {
+    section.items.emplace_back(std::move(speed));
+    section.items.emplace_back(SolverSpeedTable(cases, command));
+  }
   section.items.emplace_back(PhysicsList(cases, command));
   for (TextTable t : {PhysicsTable(cases, command), PhysicsSearchTable(cases, command),
                       PhysicsSideTable(table, cases, command)}) {
-    t.open = section.items.size() == 2;
+    t.open = t.name == "hard-cases";
     section.items.emplace_back(std::move(t));
   }
   for (const PhysicsCase& c : cases) section.items.emplace_back(WorkPrecision(c, command));

@@ -18,7 +18,8 @@ constexpr double kMuchBetter = 0.5;
 
 bool IsOn(const std::string& text) { return text == "1" || text == "on" || text == "true"; }
 
-std::string Setting(const CsvTable& t, std::size_t row) {
+/// What a grid varies.
+std::string Levers(const CsvTable& t, std::size_t row) {
   std::string text =
       fmt::format("{} Hz, {}/{} × {}", t.Text(row, "tick_hz"), t.Text(row, "velocity_iterations"),
                   t.Text(row, "position_iterations"), t.Text(row, "substeps"));
@@ -27,6 +28,12 @@ std::string Setting(const CsvTable& t, std::size_t row) {
     text += ", skin " + skin + " m";
   }
   if (!IsOn(t.Text(row, "warm_starting"))) text += ", cold";
+  return text;
+}
+
+/// The levers, and what the scene says beside them.
+std::string Setting(const CsvTable& t, std::size_t row) {
+  std::string text = Levers(t, row);
   if (!IsOn(t.Text(row, "continuous"))) text += ", not continuous";
   const bool stock = t.Text(row, "role") == "stock";  // that always has them so
   if (!stock && t.Text(row, "welds") == "joint") text += ", welds jointed";
@@ -36,6 +43,7 @@ std::string Setting(const CsvTable& t, std::size_t row) {
 PhysicsRun RunOf(const CsvTable& t, std::size_t row) {
   PhysicsRun run;
   run.row = row;
+  run.levers = Levers(t, row);
   run.setting = Setting(t, row);
   run.tick_hz = t.Number(row, "tick_hz").value_or(60);
   run.warm = IsOn(t.Text(row, "warm_starting"));
@@ -48,7 +56,8 @@ PhysicsRun RunOf(const CsvTable& t, std::size_t row) {
     run.setting += fmt::format(", joints {} × {}", run.joints, run.joint_substeps);
   }
   if (t.Has("contacts") && t.Text(row, "contacts") == "soft") {
-    run.setting += ", soft contacts × " + t.Text(row, "contact_substeps");
+    run.contact_substeps = static_cast<int>(t.Number(row, "contact_substeps").value_or(1));
+    run.setting += fmt::format(", soft contacts × {}", run.contact_substeps);
   }
   const auto measured = [&](const char* column) {
     return t.Has(column) ? t.Number(row, column).value_or(kInfinity) : 0;

@@ -17,7 +17,8 @@ struct PhysicsRun {
   bool warm = true;
   std::string role;                  ///< stock | scene | grid | iterative | exact
   std::string joints = "iterative";  ///< auto | exact | iterative
-  int joint_substeps = 1;
+  int joint_substeps = 1, contact_substeps = 1;
+  std::string levers;  ///< the setting without what is the scene's: "60 Hz, 8/3 × 2, cold"
   double error = 0;  ///< in the case's unit; infinite: diverged
   double penetration_m = 0, joint_drift_m = 0;
   double cost_ratio = 1;  ///< of CPU time to stock's beside it; NaN: it crashed

@@ -11,6 +11,7 @@
 #include "tests/lab/report/hurry_section.h"
 #include "tests/lab/report/joints/exact_joints.h"
 #include "tests/lab/report/physics_section.h"
+#include "tests/lab/report/sessions/around_section.h"
 #include "tests/lab/report/sessions/fairness_section.h"
 #include "tests/lab/report/sessions/titles_section.h"
 #include "tests/lab/report/sweep_section.h"
@@ -158,6 +159,8 @@ std::vector<Section> BuildReport(const ReportInput& input) {
     sections.push_back(
         TitlesSection(CsvTable::Load(titles.string()), "seam-lab titles -o " + titles.string()));
   }
+  Section around = AroundSection((data / "around").string());
+  if (!around.items.empty()) sections.push_back(std::move(around));
   Section renders = RendersSection(input.out);
   if (!renders.items.empty()) sections.push_back(std::move(renders));
   const fs::path physics = data / "physics.csv";

@@ -215,7 +215,7 @@ PlotPanel FrontPanel(const Sweep& sweep, const SweepGroup& group, const SweepMea
       front.points.push_back({t.cost, before, before, before});
     }
     front.points.push_back({t.cost, t.error, t.error, t.error});
-    panel.notes.push_back({t.cost, t.error, AxisText(sweep.view.axis, trials[i].x), false, -0.7});
+    panel.notes.push_back({t.cost, t.error, AxisText(sweep.view.axis, trials[i].x), false, -11});
   }
   panel.curves.push_back(std::move(front));
   for (const std::string& method : group.methods) {
