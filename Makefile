@@ -79,7 +79,7 @@ DEBS_lint := clang-tidy git
 
 # All .cpp below a folder.
 below = $(sort $(shell find $(1) -name '*.cpp'))
-MAINS := server/main.cpp server/token/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp client/front/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp render/view_main.cpp render/log_main.cpp tests/lab/main.cpp tests/fuzz/fuzz_main.cpp
+MAINS := server/main.cpp server/token/main.cpp server/relay/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp client/front/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp render/import_main.cpp render/view_main.cpp render/log_main.cpp tests/lab/main.cpp tests/fuzz/fuzz_main.cpp
 SOURCES := $(call below,common server client render tests)
 
 # The objects of sources. Two thirds of a build is parsing headers, so the sources of a folder are compiled together
@@ -93,7 +93,9 @@ units = $(call alone,$(filter $(MAINS),$(1))) $(patsubst %,$(OUT)/unity/%.o,$(ca
 obj = $(if $(filter 0,$(UNITY)),$(alone),$(units))
 UNITS := $(call unit_names,$(filter-out $(MAINS),$(SOURCES)))
 COMMON := $(call obj,$(filter common/%,$(SOURCES)))
-SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
+SERVER := $(call obj,$(filter-out $(MAINS) server/relay/%,$(filter server/%,$(SOURCES))))
+# A client of a server, and a server of watchers.
+RELAY := $(call obj,$(filter-out $(MAINS),$(filter server/relay/%,$(SOURCES))))
 # The programs beside a player's: what a load test and a view of the server's load have in common with it.
 WATCHERS := $(call obj,$(filter-out $(MAINS),$(filter client/swarm/% client/top/%,$(SOURCES))))
 TOP := $(call obj,$(filter-out $(MAINS),$(filter client/top/%,$(SOURCES))))
@@ -118,7 +120,7 @@ LIBRARY := $(COMMON) $(SERVER) $(CLIENT) $(EMBED) $(PYTHON)
 OBJECTS_ALONE := $(call alone,$(SOURCES))
 OBJECTS := $(OBJECTS_ALONE) $(UNITS:%=$(OUT)/unity/%.o)
 CODEC := $(filter $(OUT)/common/codec/% $(OUT)/unity/common/codec%,$(OBJECTS))
-PROGRAMS := $(addprefix $(OUT)/,seam seam-server seam-token seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-view seam-log seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam seam-server seam-token seam-relay seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-import seam-view seam-log seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
@@ -277,6 +279,8 @@ $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-token: $(OUT)/server/token/main.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-relay: $(OUT)/server/relay/main.o $(RELAY) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-swarm: $(OUT)/client/swarm/main.o $(WATCHERS) $(CLIENT) $(OUT)/libseam-common.a
@@ -298,7 +302,7 @@ $(OUT)/seam-view: $(OUT)/render/view_main.o $(RENDER) $(OUT)/libseam-common.a
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(EMBED) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.
-$(OUT)/seam-tests: $(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
+$(OUT)/seam-tests: $(LAB) $(EMBED) $(RELAY) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # The tests of what reads from outside and keeps it, without long simulations, programs and pictures: a little
@@ -346,7 +350,7 @@ ROOM_TESTS := $(call obj,$(filter-out $(call slow,$(ROOM_SOURCES)),$(ROOM_SOURCE
 ROOM_USES := $(shell grep -lE '"(server|client|render|tests/lab|tests/support/[a-z_]+)/|tests/support/($(subst $() ,|,$(patsubst \
 	tests/support/%,%,$(shell grep -lE '"(server|client|render|tests/lab)/' tests/support/*.h))))"' $(ROOM_SOURCES))
 ROOM_NEEDS := $(call obj,$(filter $(if $(ROOM_USES),tests/support/%,$(wildcard tests/support/*.cpp)),$(SOURCES))) \
-	$(if $(ROOM_USES),$(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER))
+	$(if $(ROOM_USES),$(LAB) $(EMBED) $(RELAY) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER))
 ROOM_PROGRAM := $(OUT)/seam-tests-$(subst /,-,$(ROOM_FOLDER:tests/%=%))
 $(ROOM_PROGRAM): $(sort $(ROOM_TESTS) $(ROOM_NEEDS)) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(if $(ROOM_USES),$(RENDER_LIBS) $(SERVER_LIBS)) -lgtest -lgtest_main -o $@
@@ -372,7 +376,7 @@ sanitize:                            ## the tests of what reads from outside, un
 	tests/run.sh build/asan seam-tests-core
 
 FAST_TESTS := $(call obj,$(filter-out $(call slow,$(TEST_SOURCES)),$(TEST_SOURCES)))
-$(OUT)/seam-tests-fast: $(LAB) $(EMBED) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(FAST_TESTS) $(OUT)/libseam-common.a
+$(OUT)/seam-tests-fast: $(LAB) $(EMBED) $(RELAY) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(FAST_TESTS) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 check-fast: all $(OUT)/seam-tests-fast   ## build and run the tests that take no processes or long simulations

@@ -43,6 +43,11 @@ constexpr std::int64_t kInputMarginUs = 35000;
 /// The same where datagrams are lost: a burst may take an input and its first repeats. With less
 /// some act late; with more, copies are stepped again from older states.
 constexpr std::int64_t kInputMarginLossUs = 5 * kInputRepeatUs;
+/// With a tap: ticks shown later than the states of most of them come, and the most of all that,
+/// us. With fewer a tick's states are passed on after it; with more watchers see the room older.
+constexpr double kLagTicks = 2, kLagMostUs = 500000;
+/// Change of lead and lag in a step, as a share of it: no eye sees it.
+constexpr double kSlewShare = 0.02;
 
 }  // namespace
 
@@ -151,7 +156,17 @@ std::int64_t Client::RoomTime(std::int64_t now_us) {
     if (lead_us_ < 0) lead_us_ = static_cast<double>(LeadTarget());
     time += static_cast<std::int64_t>(lead_us_);
   }
+  if (config_.tap != nullptr) {
+    if (lag_us_ < 0) lag_us_ = LagTarget();
+    time -= static_cast<std::int64_t>(lag_us_);
+  }
   return time;
+}
+
+/// The time that nine in ten messages take, if all jitter is of their direction.
+double Client::LagTarget() const {
+  const auto path_us = static_cast<double>(clock_.rtt_p90_us() - clock_.rtt_min_us() / 2);
+  return std::min(path_us + kLagTicks * 1000000 / room_.tick_hz, kLagMostUs);
 }
 
 void Client::StartIfDue(std::int64_t now_us) {
@@ -200,10 +215,11 @@ void Client::StepDue(std::int64_t now_us) {
     worst_late_us_ = std::max(worst_late_us_, late_us_);
     if (!MayStep()) return;
     StepOnce(now_us);
+    const double most = 1000000.0 / static_cast<double>(hz) * kSlewShare;
     if (lead_us_ >= 0) {
-      const double most = 1000000.0 / static_cast<double>(hz) * 0.02;
       lead_us_ += std::clamp(static_cast<double>(LeadTarget()) - lead_us_, -most, most);
     }
+    if (lag_us_ >= 0) lag_us_ += std::clamp(LagTarget() - lag_us_, -most, most);
   }
 }
 

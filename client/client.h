@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/client_tap.h"
 #include "client/clock_filter.h"
 #include "client/join_buffer.h"
 #include "client/join_offers.h"
@@ -54,6 +55,8 @@ struct ClientConfig {
   bool shows = false;  ///< replica()'s view is displayed: all of it has to be up to date
   bool watch = false;  ///< join as a spectator; else a name that is not a player's is fatal
   SceneCache* scenes = nullptr;  ///< shared by a thread, outlives the client; nullptr: an own one
+  /// Outlives the client, which then shows the room a little late: the states of a tick are there.
+  ClientTap* tap = nullptr;
 };
 
 class Client {
@@ -90,6 +93,18 @@ class Client {
   /// Returns the size of the room as it comes, bytes; 0 until the server says it.
   std::size_t room_size() const { return room_size_; }
   bool running() const { return replica_ != nullptr && started_; }
+  /// Returns the time on the room's clock that it shows, us, below 0 before the room starts;
+  /// nullopt: not known.
+  std::optional<std::int64_t> RoomUs(std::int64_t now_us) {
+    if (!clock_.settled() || !timeline_.known()) return std::nullopt;
+    return RoomTime(now_us);
+  }
+  /// True if it has the room, which has not started.
+  bool waits_for_start() const {
+    return replica_ != nullptr && clock_.settled() && !timeline_.known();
+  }
+  /// Returns the time by which a client with a tap shows the room late, us; -1: not known.
+  double lag_us() const { return lag_us_; }
   int peer() const { return peer_; }
   /// Returns the server that it is in, or joins.
   const Address& server() const { return config_.server; }
@@ -229,6 +244,7 @@ class Client {
   void Flush(std::int64_t now_us);
   std::int64_t RoomTime(std::int64_t now_us);
   std::int64_t LeadTarget() const;
+  double LagTarget() const;
 
   ClientConfig config_;
   int name_number_ = 1;  // of config_.name, if the client numbers it
@@ -290,6 +306,7 @@ class Client {
   bool rest_agrees_ = false;      // at the last answered ping, everything at rest agreed
   std::int64_t idle_since_ = 0;   // tick from which on our input has been neutral
   double lead_us_ = -1;           // mode central: our lead over the server
+  double lag_us_ = -1;            // with a tap
   std::int64_t answered_us_ = 0;  // send time of the newest answered ping
   std::int64_t joining_since_us_ = 0;
   std::int64_t asked_names_us_ = -1;  // -1: did not ask

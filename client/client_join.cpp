@@ -62,7 +62,7 @@ void Client::Forget(std::int64_t now_us) {
   peer_ = player_ = -1;
   said_ready_ = started_ = released_ = loaded_now_ = moving_ = false;
   timeline_ = RoomTimeline();
-  lead_us_ = -1;
+  lead_us_ = lag_us_ = -1;
   answered_us_ = now_us;
   asked_names_us_ = -1;
 }

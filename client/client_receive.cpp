@@ -43,6 +43,7 @@ void Client::ReceiveAll(std::int64_t now_us) {
 
 void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   const AnyMessage any = Decode(bytes);
+  if (config_.tap != nullptr) config_.tap->OnMessage(any, bytes);
   if (const auto* redirect = std::get_if<Redirect>(&any)) {
     redirect_ = *redirect;
   } else if (const auto* chunk = std::get_if<Chunk>(&any)) {
@@ -88,6 +89,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
 }
 
 void Client::OnStates(const States& states) {
+  if (config_.tap != nullptr) config_.tap->OnStates(states);
   if (started_) {
     stats_.dropped_stale += replica_->Receive(states).stale;
   } else {
@@ -275,6 +277,7 @@ void Client::Build(std::int64_t now_us) {
     fatal_ = "cannot use the server's scene: " + std::string(e.what());
     return;
   }
+  if (config_.tap != nullptr) config_.tap->OnRoom();
   if (publisher_ != nullptr && publisher_->session() == room_.session) return;
   publisher_ = std::make_unique<Publisher>(recorder_, room_.room, room_.session);
 }

@@ -3,24 +3,21 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <optional>
 
 #include "client/client.h"
 #include "client/cpu_throttle.h"
 #include "client/input_lines.h"
+#include "client/join_flags.h"
 #include "client/key_file.h"
 #include "client/keyboard.h"
 #include "client/lcm_link.h"
 #include "client/progress_text.h"
 #include "client/terminal_view.h"
 #include "common/base/command_line.h"
-#include "common/base/hex.h"
-#include "common/base/names.h"
 #include "common/base/nearest.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
@@ -113,22 +110,9 @@ void Define(Command& app, Flags& f) {
   app.Switch("--quiet", f.quiet, "no progress line");
 }
 
-void CheckName(const std::string& flag, const std::string& name) {
-  const bool good = IsName(name);
-  if (!good) throw OperatorError(flag + " takes 1 to 32 letters, digits, - or _");
-}
-
 /// Reads the token, and takes name and room from it.
 void TakeToken(const std::string& path, ClientConfig* config) {
-  std::FILE* const file = std::fopen(path.c_str(), "re");
-  if (file == nullptr) throw OperatorError("--token " + path + ": " + std::strerror(errno));
-  std::string text(4096, 0);
-  text.resize(std::fread(&text[0], 1, text.size(), file));
-  std::fclose(file);
-  config->token.emplace();
-  const Status status = ReadToken(text, &*config->token);
-  Wipe(&text[0], text.size());
-  if (!status.ok()) throw OperatorError("--token " + path + ": " + status.why());
+  config->token = ReadTokenFile(path);
   config->name = config->token->name;
   config->room = config->token->room;
   config->numbers_name = false;
@@ -181,12 +165,7 @@ ClientConfig Configure(const Flags& f) {
   if (config.server.port == 0) {
     throw OperatorError("address \"" + f.server + "\": no server has port 0");
   }
-  if (!f.server_key.empty()) {
-    config.server_key.emplace();
-    if (!FromHex(f.server_key, config.server_key->data(), config.server_key->size())) {
-      throw OperatorError("--server-key takes the 64 digits that seam-server prints at its start");
-    }
-  }
+  if (!f.server_key.empty()) config.server_key = ParseServerKey(f.server_key);
   config.name = f.name.empty() ? "guest" : f.name;
   config.numbers_name = f.name.empty();
   if (!f.token.empty()) TakeToken(f.token, &config);

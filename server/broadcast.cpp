@@ -5,18 +5,9 @@
 
 #include "common/scene/mechanism_ids.h"
 #include "common/sync/lease.h"
+#include "server/interest/late.h"
 
 namespace seam {
-namespace {
-
-/// Returns the time without acknowledgement after which a message counts as lost, us: as for
-/// reliable messages, and a little more, since a client with nothing to send acknowledges late.
-std::int64_t LateUs(std::int64_t rtt_us) {
-  constexpr std::int64_t kUnknownUs = 250000, kMoreUs = 50000;
-  return (rtt_us < 0 ? kUnknownUs : rtt_us + rtt_us / 4) + kMoreUs;
-}
-
-}  // namespace
 
 bool Broadcast::Simulates(int peer, int mechanism) const {
   if (simulators_ == Policy::Simulators::kEveryone) return true;

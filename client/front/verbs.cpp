@@ -14,6 +14,7 @@ namespace seam {
 const std::vector<Verb>& Verbs() {
   static const std::vector<Verb> verbs = {
       {"server", "seam-server", "run a room, or several"},
+      {"relay", "seam-relay", "pass a room on to many watchers"},
       {"join", "seam-client", "be a player of a room, or look on"},
       {"view", "seam-view", "watch a running session in a browser"},
       {"record", "lcm-logger", "capture the LCM bus in a log"},

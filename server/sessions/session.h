@@ -19,6 +19,10 @@
 
 namespace seam {
 
+/// A goodbye is sent this often, each in a datagram of its own: a burst of losses, as of profile
+/// 4g, easily takes four in a row.
+constexpr int kByeCopies = 12;
+
 enum class SessionStage {
   kAdmitted,  ///< has proved its address; is sent the Welcome and the Room
   kLoading,   ///< the last of the Room is on its way to the client

@@ -3,37 +3,17 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/base/compress.h"
 #include "common/net/datagram.h"
 #include "common/net/loose_datagram.h"
 #include "common/sync/lease.h"
 
 namespace seam {
-namespace {
-
-/// A session that never gets ready is dropped after this, us, and the time for the room.
-constexpr std::int64_t kHalfOpenUs = 10000000;
-/// That time, us for each byte on its way: a line of 1 kB/s.
-constexpr std::int64_t kUsPerRoomByte = 1000;
-/// Time to parse a scene, us for each byte: a tenth of the speed that is usual. Meanwhile a client
-/// is silent.
-constexpr std::int64_t kUsPerSceneByte = 10;
-/// Messages of the room that wait at a session's link: more than a link sends ahead of its
-/// acknowledgements, and a small part of the room.
-constexpr std::size_t kRoomAhead = 96;
-static_assert(kRoomAhead * kChunkBytesMax > kReliableWindowBytes);
-/// A goodbye is sent this often, each in a datagram of its own: a burst of losses, as of profile
-/// 4g, easily takes four in a row.
-constexpr int kByeCopies = 12;
-
-}  // namespace
 
 SessionTable::SessionTable(const Scene& scene, const Bytes& room, const TrafficRate& allowed,
                            Net& net, Entropy& entropy, double bytes_per_s,
                            std::shared_ptr<const KeyPair> identity, TokenDoor door)
     : scene_(scene),
-      room_(Compress(room)),
-      load_us_(kUsPerSceneByte * static_cast<std::int64_t>(room.size())),
+      room_(room),
       allowed_(allowed),
       bytes_per_s_(bytes_per_s),
       net_(net),
@@ -211,29 +191,13 @@ void SessionTable::Advance(std::int64_t now_us) {
   if (!std::exchange(admitted_, false)) return;
   for (auto& [id, session] : sessions_) {
     if (session->stage != SessionStage::kAdmitted) continue;
-    SendRoom(now_us, session.get());
+    room_.SendAhead(now_us, &session->link, &session->room_sent);
     if (session->room_sent < room_.size()) {
       admitted_ = true;
       continue;
     }
     session->stage = SessionStage::kLoading;
     Note(SessionEvent::Kind::kLoading, *session);
-  }
-}
-
-/// Gives the link the next messages of the room; it holds few at a time, so that a joiner costs the
-/// server no copy of a long scene.
-void SessionTable::SendRoom(std::int64_t now_us, Session* session) {
-  while (session->room_sent < room_.size() && session->link.waiting() < kRoomAhead) {
-    const std::size_t at = session->room_sent;
-    const std::size_t end = std::min(room_.size(), at + kChunkBytesMax);
-    Chunk chunk;
-    chunk.utime = now_us;
-    chunk.offset_bytes = static_cast<std::int32_t>(at);
-    chunk.data.assign(room_.begin() + static_cast<std::ptrdiff_t>(at),
-                      room_.begin() + static_cast<std::ptrdiff_t>(end));
-    session->link.SendReliable(Encode(chunk));
-    session->room_sent = end;
   }
 }
 
@@ -274,13 +238,12 @@ std::string SessionTable::TooLong(std::int64_t now_us, const Session& session) {
 
 std::int64_t SessionTable::HeardByUs(const Session& session) const {
   const std::int64_t heard_us = std::max(session.link.last_receive_us(), session.created_us);
-  return heard_us + kPatienceUs + (session.stage == SessionStage::kReady ? 0 : load_us_);
+  return heard_us + kPatienceUs + (session.stage == SessionStage::kReady ? 0 : room_.load_us());
 }
 
 std::int64_t SessionTable::ReadyByUs(const Session& session) const {
   if (session.stage == SessionStage::kReady) return std::numeric_limits<std::int64_t>::max();
-  const auto bytes = static_cast<std::int64_t>(room_.size());
-  return session.created_us + kHalfOpenUs + kUsPerRoomByte * bytes + load_us_;
+  return room_.ReadyByUs(session.created_us);
 }
 
 void SessionTable::Drop(const SessionId& id, const std::string& why) {

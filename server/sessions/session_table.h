@@ -19,6 +19,7 @@
 #include "server/sessions/account_book.h"
 #include "server/sessions/handshake.h"
 #include "server/sessions/place_table.h"
+#include "server/sessions/room_chunks.h"
 #include "server/sessions/session.h"
 
 namespace seam {
@@ -153,14 +154,12 @@ class SessionTable {
   std::string TooLong(std::int64_t now_us, const Session& session);
   void Drop(const SessionId& id, const std::string& why);
   void Note(SessionEvent::Kind kind, const Session& session, const std::string& why = "");
-  void SendRoom(std::int64_t now_us, Session* session);
   /// Returns when the session must have said something again, and be ready, us.
   std::int64_t HeardByUs(const Session& session) const;
   std::int64_t ReadyByUs(const Session& session) const;
 
   const Scene& scene_;
-  const Bytes room_;            // compressed
-  const std::int64_t load_us_;  // time in which a slow machine unpacks and parses it
+  const RoomChunks room_;
   const TrafficRate allowed_;
   const double bytes_per_s_;
   Net& net_;

@@ -227,8 +227,8 @@ TEST_F(BadInput, TheRendererRefusesWrongLogsAndFlags) {
 }
 
 TEST_F(BadInput, HelpIsNoMistake) {
-  for (const char* name : {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top",
-                           "seam-measure", "seam-render", "seam-export"}) {
+  for (const char* name : {"seam-server", "seam-token", "seam-relay", "seam-client", "seam-swarm",
+                           "seam-top", "seam-measure", "seam-render", "seam-export"}) {
     Program program({BuiltProgram(name), "--help"}, made_->path());
     ASSERT_TRUE(program.Wait(30));
     EXPECT_EQ(program.status(), 0) << program.Story();

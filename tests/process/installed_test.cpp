@@ -183,9 +183,9 @@ TEST_F(Installed, PkgConfigAndEveryProgramPrintTheVersion) {
   const Workspace folder;
   EXPECT_EQ(Run({"pkg-config", "--modversion", "seam2d"}, folder)->output(),
             std::string(kVersion) + "\n");
-  for (const char* name : {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top",
-                           "seam-render", "seam-measure", "seam-export", "seam-import", "seam-view",
-                           "seam-log", "seam", "seam-lab"}) {
+  for (const char* name : {"seam-server", "seam-token", "seam-relay", "seam-client", "seam-swarm",
+                           "seam-top", "seam-render", "seam-measure", "seam-export", "seam-import",
+                           "seam-view", "seam-log", "seam", "seam-lab"}) {
     const auto program = Run({At(std::string("bin/") + name), "--version"}, folder);
     EXPECT_EQ(program->status(), 0) << program->Story();
     EXPECT_EQ(program->errors(), "");

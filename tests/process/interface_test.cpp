@@ -92,9 +92,9 @@ Names Below(const std::string& help, const std::string& title) {
 }
 
 void AddPrograms(Interface* interface) {
-  for (const char* program :
-       {"seam-server", "seam-token", "seam-client", "seam-swarm", "seam-top", "seam-render",
-        "seam-measure", "seam-export", "seam-import", "seam-view", "seam-log", "seam-lab"}) {
+  for (const char* program : {"seam-server", "seam-token", "seam-relay", "seam-client",
+                              "seam-swarm", "seam-top", "seam-render", "seam-measure",
+                              "seam-export", "seam-import", "seam-view", "seam-log", "seam-lab"}) {
     const std::string help = Output({program, "--help"});
     const std::string name = program;
     interface->Add(name + " flag", Below(help, "options"));

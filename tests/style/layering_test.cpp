@@ -77,13 +77,14 @@ const std::vector<Room>& Rooms() {
         "common/physics", "common/stages", "common/sync"}},
       {"server", common},
       {"client", common},
+      {"server/relay", with({"server", "client"})},
       {"client/embed", with({"server", "client"})},
       {"client/python", with({"server", "client", "client/embed"})},
       {"render", common},
       {"tests/support", with({"server", "client", "client/embed", "render", "tests/lab"})},
       {"tests/lab", with({"server", "client", "client/embed", "tests/support"})},
-      {"tests",
-       with({"server", "client", "client/embed", "render", "tests/support", "tests/lab"})}};
+      {"tests", with({"server", "server/relay", "client", "client/embed", "render", "tests/support",
+                      "tests/lab"})}};
   return rooms;
 }
 
