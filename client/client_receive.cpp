@@ -91,6 +91,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
 void Client::OnStates(const States& states) {
   if (config_.tap != nullptr) config_.tap->OnStates(states);
   if (started_) {
+    replica_->NoteDivergences(states);
     stats_.dropped_stale += replica_->Receive(states).stale;
   } else {
     held_.Add(states);

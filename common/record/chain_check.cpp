@@ -16,14 +16,15 @@ namespace {
 void AddRange(std::int64_t after_tick, std::int64_t tick, bool forged,
               const std::set<std::string>& channels, std::vector<DamagedRange>* all) {
   const std::int64_t first = std::max<std::int64_t>(0, std::min(after_tick + 1, tick));
-  if (!all->empty() && first >= all->back().first_tick && first <= all->back().last_tick + 1) {
+  if (!all->empty() && !all->back().missing && first >= all->back().first_tick &&
+      first <= all->back().last_tick + 1) {
     DamagedRange& last = all->back();
     last.last_tick = std::max(last.last_tick, tick);
     last.forged = last.forged && forged;
     last.channels.insert(channels.begin(), channels.end());
     return;
   }
-  all->push_back({first, std::max(first, tick), false, forged, channels});
+  all->push_back({first, std::max(first, tick), false, forged, false, channels});
 }
 
 }  // namespace
@@ -131,6 +132,7 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
   sealed_ = sealed_ || (good && seal.tick > 0);
   channels_.insert(event.channel);
   if (good && keyed) {
+    NoteHole(seal);
     CloseDamage(seal.first_tick - 1);
     tick_ = seal.tick;
   } else {  // its tick may be what is damaged: the next good one says where the damage ended
@@ -143,6 +145,17 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
   events_ = 0;
   skipped_ = false;
   channels_.clear();
+}
+
+void ChainCheck::NoteHole(const Seal& seal) {
+  if (seal.peer != 0) return;
+  const std::int64_t next = server_tick_ + 1;
+  if (!damaged_ && next > 0 && server_session_ == seal.session && seal.messages >= 0 &&
+      seal.first_tick > next) {
+    bytes_damage_.push_back({next, seal.first_tick - 1, false, false, true, {}});
+  }
+  server_tick_ = seal.tick;
+  server_session_ = seal.session;
 }
 
 void ChainCheck::CloseDamage(std::int64_t last_tick) {

@@ -25,6 +25,7 @@ struct DamagedRange {
   bool to_the_end = false;         ///< nothing from first_tick on is certain
   /// All of it has its checksums, but not those of the key: somebody else wrote it.
   bool forged = false;
+  bool missing = false;            ///< nothing of these ticks is there, though all around is whole
   std::set<std::string> channels;  ///< of the events in it; one or several of them are damaged
 };
 
@@ -86,7 +87,11 @@ class ChainCheck {
   std::optional<std::int64_t> begins_after_;
   std::set<std::string> channels_;
   std::int64_t tick_ = -1;  // of the last good one
+  std::int64_t server_tick_ = -1, server_session_ = 0;  // of the server's last good one
 
+  /// Notes the ticks between the server's last good seal and this one, of the same session: a disk
+  /// that was full takes nothing, and a room goes on.
+  void NoteHole(const Seal& seal);
   /// Ends the damaged part that began after tick_, if there is one.
   void CloseDamage(std::int64_t last_tick);
 

@@ -20,10 +20,11 @@ std::string PartText(const DamagedRange& part) {
   if (part.to_the_end) {
     text = "from " + text + " to the log's end nothing is certain";
   } else if (part.last_tick > part.first_tick) {
-    text = "ticks " + std::to_string(part.first_tick) + " to " + last + " are damaged";
+    text = "ticks " + std::to_string(part.first_tick) + " to " + last + " are ";
   } else {
-    text += " is damaged";
+    text += " is ";
   }
+  if (!part.to_the_end) text += part.missing ? "missing" : "damaged";
   if (part.forged) text += ": changed, or not written with this key";
   std::size_t named = 0;
   for (const std::string& channel : part.channels) {

@@ -211,7 +211,6 @@ void Replica::ReleaseAll() {
 
 Received Replica::Receive(const States& states) {
   ApplyEdits();
-  NoteDivergences(states);
   return corrector_.Receive(states);
 }
 

@@ -217,9 +217,11 @@ class Replica {
   Impacts MakeImpacts() const;
   /// Returns the impacts since the last call that can hurt bodies under this peer's authority.
   std::vector<ImpactReport> TakeImpactReports() { return impact_reporter_.Take(); }
-  /// Remembers from now on which received states differ from this peer's own (Divergences).
+  /// Remembers from now on which told states differ from this peer's own (Divergences).
   void WatchDivergences() { divergences_ = std::make_unique<Divergences>(); }
-  /// Returns them since the last call; nullopt: none, or they are not watched.
+  /// Compares what a holder tells with the past of that tick, believed or not.
+  void NoteDivergences(const States& states);
+  /// Returns the differences since the last call; nullopt: none, or they are not watched.
   std::optional<Divergence> TakeDivergence(std::int64_t now_us);
   /// Finds the touches of parts from the next step on.
   void WatchTouches() { world_.WatchTouches(); }
@@ -238,7 +240,6 @@ class Replica {
   };
 
   void FollowRoles();
-  void NoteDivergences(const States& states);
   /// Returns body indices, ascending.
   std::vector<int> BodiesOf(const std::vector<int>& mechanisms) const;
   /// Call after a step, also one of a replay. Finds edits proposed by physics.

@@ -85,6 +85,7 @@ void Replica::NoteDivergences(const States& states) {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || states.revision != revision() || !roles_.Simulates(body)) continue;
+    if (roles_.table().at(world_.mechanism(body)).authority != states.peer) continue;
     const BodyState* const then = memory_.ComparablePast(body, states.tick);
     if (then == nullptr) continue;
     const BodyState off = Minus(Unpack(states, i, then->angle), *then);

@@ -320,6 +320,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"differing_t", 0xfa7867b773f44db4u},     {"chain_t", 0x1bb504fc8ab818e3u},
       {"seal_t", 0x80b0f748ba568db6u},          {"summary_t", 0xeb72acb1fb62d80bu},
       {"accepted_t", 0x292fdd050bf2273bu},      {"redirect_t", 0x35aaf68715893148u},
+      {"divergence_t", 0x03a8b7d95d04fe05u},
   };
   std::map<std::string, std::uint64_t> hashes;
   std::set<std::uint64_t> different;

@@ -19,7 +19,7 @@ constexpr FloatField kFloatFields[] = {
 bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 /// Of body i of `a` and body j of `b`: fills field, unit and values of `d`. True when they differ.
-bool BodyDiffers(const View& a, std::size_t i, const View& b, std::size_t j, FirstDivergence* d) {
+bool BodyDiffers(const View& a, std::size_t i, const View& b, std::size_t j, RunDifference* d) {
   for (const FloatField& field : kFloatFields) {
     const float left = (a.*field.values)[i], right = (b.*field.values)[j];
     if (SameBits(left, right)) continue;
@@ -42,7 +42,7 @@ bool BodyDiffers(const View& a, std::size_t i, const View& b, std::size_t j, Fir
 }
 
 /// The same of two views of a tick and peer; ids ascend in both.
-bool ViewDiffers(const View& a, const View& b, FirstDivergence* d) {
+bool ViewDiffers(const View& a, const View& b, RunDifference* d) {
   std::size_t i = 0, j = 0;
   while (i < a.id.size() || j < b.id.size()) {
     const bool only_a = j == b.id.size() || (i < a.id.size() && a.id[i] < b.id[j]);
@@ -83,7 +83,7 @@ Comparison CompareViews(const Recording& a, const Recording& b, int peer, bool c
     const View* left = ViewOf(a, who, tick);
     const View* right = ViewOf(b, who, tick);
     if (common && (left == nullptr || right == nullptr)) continue;
-    FirstDivergence divergence;
+    RunDifference divergence;
     divergence.tick = tick;
     divergence.peer = who;
     divergence.only_in_a = right == nullptr;

@@ -9,7 +9,7 @@
 
 namespace seam {
 
-struct FirstDivergence {
+struct RunDifference {
   std::int64_t tick = 0;
   int peer = 0;
   /// -1: the whole view is in one of the two only.
@@ -23,7 +23,7 @@ struct FirstDivergence {
 
 struct Comparison {
   std::int64_t equal_views = 0;  ///< before the divergence, or all
-  std::optional<FirstDivergence> first;
+  std::optional<RunDifference> first;
 };
 
 /// Compares tick by tick, then by peer, body id and field (x, y, angle, vx, vy, spin, role,

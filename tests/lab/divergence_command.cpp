@@ -33,8 +33,8 @@ std::string BodyText(const Recording& recording, int body) {
   return text;
 }
 
-std::string DivergenceText(const Recording& recording, const FirstDivergence& d,
-                           const std::string& a, const std::string& b) {
+std::string DivergenceText(const Recording& recording, const RunDifference& d, const std::string& a,
+                           const std::string& b) {
   std::string text = fmt::format("tick {}, peer {}", d.tick, d.peer);
   if (d.body >= 0) text += ", " + BodyText(recording, d.body);
   if (d.field.empty()) return text + ": only in " + (d.only_in_a ? a : b);
