@@ -43,7 +43,7 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
 }
 
 void Server::TakeStates(std::int64_t now_us, Session& session, const States& states) {
-  replica_.NoteDivergences(states);
+  if (states.peer == session.peer) replica_.NoteDivergences(states);
   const States& kept = filter_.Keep(now_us, session.peer, states);
   FollowDoubts(now_us, session);
   if (kept.id.empty()) return;

@@ -36,7 +36,7 @@ int PublisherOfChannel(const std::string& channel) {
   const std::size_t point = rest.find('.');
   const std::string kind = rest.substr(0, point);
   bool own = false;
-  for (const char* each : {"view", "strands", "impacts", "stats", "event", "chain"}) {
+  for (const char* each : {"view", "strands", "impacts", "stats", "event", "chain", "divergence"}) {
     own = own || kind == each;
   }
   return own && point != std::string::npos ? std::atoi(rest.c_str() + point + 1) : 0;

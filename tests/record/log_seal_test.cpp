@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "common/base/random.h"
+#include "common/record/damage.h"
 #include "common/record/log_file.h"
 #include "common/record/room_log.h"
 #include "common/record/tick_splitter.h"
@@ -32,6 +33,12 @@ class Room {
     event.tick = tick;
     event.text = text + std::string(40, '.');
     publisher_.Publish(event);
+  }
+  /// Goes on `ticks` ticks later, as a room whose disk was full goes on from a newer snapshot.
+  void Skip(std::int64_t ticks) {
+    Say("before");
+    publisher_.EndTick(tick, 0, tick, true);
+    tick += ticks;
   }
   RoomLog log;
   std::int64_t tick = 0;
@@ -142,6 +149,23 @@ TEST(LogSeal, IsKeptWhereALogMayGoOn) {
     EXPECT_EQ(next, 200);
     EXPECT_TRUE(reader.damage().empty()) << tick;
   }
+}
+
+TEST(LogSeal, TicksThatTheLogLacksAreNamed) {
+  TemporaryFile file;
+  Room room(file.path(), 3);
+  for (int i = 0; i < 100; ++i) room.Step();
+  room.Skip(400);
+  for (int i = 0; i < 100; ++i) room.Step();
+  room.log.Flush();
+  const Found found = ReadAll(file.path());
+  ASSERT_EQ(found.damage.size(), 1u);
+  EXPECT_TRUE(found.damage[0].missing);
+  EXPECT_EQ(found.damage[0].first_tick, 101);
+  EXPECT_EQ(found.damage[0].last_tick, 500);
+  Recording recording;
+  recording.damage = found.damage;
+  EXPECT_EQ(DamageLines(recording).front(), "ticks 101 to 500 are missing");
 }
 
 TEST(LogSeal, EveryFlippedBitIsReportedWithItsTicks) {
