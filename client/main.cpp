@@ -34,9 +34,7 @@ namespace {
 
 using namespace seam;
 
-struct Flags {
-  std::string server;
-  std::string name;
+struct Flags : JoinFlags {
   bool watch = false;
   bool show = false;
   std::string drive = "none";
@@ -50,13 +48,8 @@ struct Flags {
   double join_s = 10;
   double throttle = 1;
   std::string key;
-  std::string server_key;
-  std::string token;
   std::string record;
   bool force = false;
-  std::string room;  // "": the server's first
-  std::string directory;
-  std::string fleet = "main";
   std::string lcm_url;
   std::string publish = "auto";
   bool quiet = false;
@@ -92,30 +85,15 @@ void Define(Command& app, Flags& f) {
   app.Option("--key", f.key,
              "keep the secret of our place in this file (mode 0600): after a restart the "
              "place, with its car, is ours again at once");
-  app.Option("--token", f.token, "show the token in this file, which names player and room");
-  app.Option("--server-key", f.server_key,
-             "join only the server that printed this key at its start (default: whoever answers)");
+  DefineJoin(app, f);
   app.Option("--record", f.record, "write an LCM log of the bus to this file");
   app.Switch("--force", f.force, "replace the --record file");
-  app.Option("--room", f.room, "the room to join (default: the server's first)");
-  app.Option("--directory", f.directory,
-             "find the room's server in this directory of a fleet, file:FOLDER or "
-             "etcd:HOST:PORT,...; also when it moves (then no server need be given)");
-  app.Option("--fleet", f.fleet, "name of the fleet in the directory");
   app.Option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.Option("--publish", f.publish,
              "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
              "at most " +
                  std::to_string(kPublishAllMost) + " bodies, else own)");
   app.Switch("--quiet", f.quiet, "no progress line");
-}
-
-/// Reads the token, and takes name and room from it.
-void TakeToken(const std::string& path, ClientConfig* config) {
-  config->token = ReadTokenFile(path);
-  config->name = config->token->name;
-  config->room = config->token->room;
-  config->numbers_name = false;
 }
 
 /// Refuses a misspelt --drive before anything starts, as far as no player can have that name: short
@@ -147,30 +125,15 @@ std::optional<std::string> LcmDriveOf(const Flags& f) {
 }
 
 ClientConfig Configure(const Flags& f) {
-  if (!f.token.empty() && !(f.name.empty() && f.room.empty())) {
-    throw OperatorError("--token names player and room: not with --name or --room");
-  }
   if (f.token.empty() && f.name.empty() && !f.watch) {
     throw OperatorError("who are you? --name PLAYER, one of the scene's; or --watch");
   }
   CheckDrive(f);
-  if (!f.name.empty()) CheckName("--name", f.name);
-  if (!f.room.empty()) CheckName("--room", f.room);
   if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (std::isnan(f.throttle)) throw OperatorError("--cpu-throttle must be a number");
   if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
-  ClientConfig config;
-  if (!f.directory.empty()) CheckName("--fleet", f.fleet);
-  config.server = ParseAddress(f.server.empty() ? "127.0.0.1:7777" : f.server, 7777);
-  if (config.server.port == 0) {
-    throw OperatorError("address \"" + f.server + "\": no server has port 0");
-  }
-  if (!f.server_key.empty()) config.server_key = ParseServerKey(f.server_key);
-  config.name = f.name.empty() ? "guest" : f.name;
-  config.numbers_name = f.name.empty();
-  if (!f.token.empty()) TakeToken(f.token, &config);
+  ClientConfig config = JoinConfig(f);
   config.watch = f.watch;
-  if (f.token.empty()) config.room = f.room;
   config.smooth_rate = ParseSmoothRate(f.smooth);
   if (f.show_age >= 0) config.show_age_ticks = f.show_age;
   config.publish = ParsePublish(f.publish);

@@ -23,18 +23,13 @@ namespace {
 
 using namespace seam;
 
-struct Flags {
-  std::string server;
+struct Flags : JoinFlags {
   int port = 7778;
   std::string bind = "[::]";
   int watchers = 1000;
   std::string budget;  // "": kClientBytesPerS
   std::string play_at;
-  std::string name;
-  std::string room;  // "": the server's first
-  std::string directory;
-  std::string fleet = "main";
-  std::string token, server_key, identity, token_key;
+  std::string identity, token_key;
   double duration_s = 0;
   double join_s = 30;
   bool quiet = false;
@@ -51,14 +46,7 @@ void Define(Command& app, Flags& f) {
              "host:port at which players who come here are sent to join (default: the server's "
              "address)");
   app.Option("--name", f.name, "name under which it watches (default: guest, guest-2, ...)");
-  app.Option("--room", f.room, "the room to watch (default: the server's first)");
-  app.Option("--directory", f.directory,
-             "find the room's server in this directory of a fleet, file:FOLDER or "
-             "etcd:HOST:PORT,...; also when it moves (then no server need be given)");
-  app.Option("--fleet", f.fleet, "name of the fleet in the directory");
-  app.Option("--token", f.token, "show the token in this file, which names room and watcher");
-  app.Option("--server-key", f.server_key,
-             "watch only the server that printed this key at its start (default: whoever answers)");
+  DefineJoin(app, f);
   app.Option("--identity", f.identity,
              "keep the relay's key in this file (mode 0600; made if there is none), so that it is "
              "the same after a restart");
@@ -70,38 +58,14 @@ void Define(Command& app, Flags& f) {
   app.Switch("--quiet", f.quiet, "no progress line");
 }
 
-ClientConfig UpstreamOf(const Flags& f) {
-  ClientConfig config;
-  config.server = ParseAddress(f.server.empty() ? "127.0.0.1:7777" : f.server, 7777);
-  if (config.server.port == 0) {
-    throw OperatorError("address \"" + f.server + "\": no server has port 0");
-  }
-  if (!f.server_key.empty()) config.server_key = ParseServerKey(f.server_key);
-  config.name = f.name.empty() ? "guest" : f.name;
-  config.numbers_name = f.name.empty();
-  config.room = f.room;
-  if (f.token.empty()) return config;
-  if (!(f.name.empty() && f.room.empty())) {
-    throw OperatorError("--token names watcher and room: not with --name or --room");
-  }
-  config.token = ReadTokenFile(f.token);
-  config.name = config.token->name;
-  config.room = config.token->room;
-  config.numbers_name = false;
-  return config;
-}
-
 RelayConfig Configure(const Flags& f) {
   if (f.server.empty() && f.directory.empty()) {
     throw OperatorError("which server? for example: seam-relay 127.0.0.1:7777");
   }
-  if (!f.name.empty()) CheckName("--name", f.name);
-  if (!f.room.empty()) CheckName("--room", f.room);
-  if (!f.directory.empty()) CheckName("--fleet", f.fleet);
   if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
   RelayConfig config;
-  config.upstream = UpstreamOf(f);
+  config.upstream = JoinConfig(f);
   config.limits.watchers = f.watchers;
   config.limits.bytes_per_s = f.budget.empty() ? kClientBytesPerS : ParseBudget(f.budget);
   if (!f.play_at.empty()) {
