@@ -77,7 +77,7 @@ void Replica::EachDifference(const States& states,
 }
 
 void Replica::NoteDivergences(const States& states) {
-  if (divergences_ == nullptr || states.tick > tick()) return;
+  if (divergences_ == nullptr || states.tick > tick() || states.peer == roles_.self()) return;
   int missing = 0;
   for (const int player : drivers_.concerned()) {
     missing += inputs_[static_cast<std::size_t>(player)].knows(states.tick) ? 0 : 1;
@@ -89,6 +89,7 @@ void Replica::NoteDivergences(const States& states) {
     const BodyState* const then = memory_.ComparablePast(body, states.tick);
     if (then == nullptr) continue;
     const BodyState off = Minus(Unpack(states, i, then->angle), *then);
+    if (Replay::Agrees(off)) continue;
     divergences_->Note(states.id[i], states.tick, states.peer, off, missing);
   }
 }

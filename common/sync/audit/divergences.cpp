@@ -4,16 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include "common/sync/rollback/replay.h"
-
 namespace seam {
 
 void Divergences::Note(std::int32_t id, std::int64_t tick, int holder, const BodyState& off,
                        int missing) {
-  if (Replay::Agrees(off)) return;
   const Greatest found{tick, holder, missing, off.position.norm(), off.velocity.norm()};
-  Greatest& greatest = greatest_[id];
-  if (found.size() > greatest.size()) greatest = found;
+  const auto [greatest, is_first] = greatest_.try_emplace(id, found);
+  if (!is_first && found.size() > greatest->second.size()) greatest->second = found;
 }
 
 std::optional<Divergence> Divergences::Take(std::int64_t now_us, int peer, std::int64_t tick) {

@@ -13,12 +13,12 @@ namespace seam {
 
 class Divergences {
  public:
-  /// Adds a state told by `holder` of the body with this id; `off`: it, minus our own. `missing`:
-  /// players whose inputs of that tick are not known here. Ignored if it is only the wire's
-  /// rounding (Replay::Agrees), or less than what was added since the last Take.
+  /// Adds the difference `off` of a state told by `holder` from our own of that tick. `missing`:
+  /// number of players without known inputs of that tick. Of each body the greatest one is kept,
+  /// until it is taken.
   void Note(std::int32_t id, std::int64_t tick, int holder, const BodyState& off, int missing);
-  /// Returns what was added since the last call, for a peer at `tick`; nullopt: nothing. The
-  /// greatest kDivergenceMax are kept.
+  /// Returns the differences since the last call, of a peer at `tick`; the greatest kDivergenceMax.
+  /// nullopt: none.
   std::optional<Divergence> Take(std::int64_t now_us, int peer, std::int64_t tick);
 
  private:

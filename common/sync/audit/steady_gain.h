@@ -21,12 +21,12 @@ class SteadyGain {
  public:
   /// `times`: an honest gain is so many times as great.
   void Add(const Gain& gain, double times = 1);
-  /// Counts whether the client has told all that a comparison needs. Nothing compels a client that
-  /// lies to tell it: leaving it out again and again counts as the greatest gain.
+  /// Counts whether the client has told all that a comparison needs: leaving it out again and again
+  /// counts as the greatest gain.
   void NoteAllTold(bool all);
   /// True if the gains so far are no chance.
   bool lies() const { return share() > 1; }
-  /// True if only what was left out says so.
+  /// True if only omissions say so.
   bool leaves_out() const { return lies() && share_of_gains() <= 1; }
   /// True if the newest gain was as great as any counts, and that is far from chance.
   bool gross() const { return gross_ && share() > kGrossShare; }

@@ -35,12 +35,6 @@ TEST(Divergences, KeepTheGreatestOfEachBodyUntilTheyAreTaken) {
   EXPECT_FALSE(divergences.Take(6'000'000, 4, 170));
 }
 
-TEST(Divergences, TheRoundingOfTheWireIsNone) {
-  Divergences divergences;
-  divergences.Note(1, 10, 1, Off(0.001f, 0.002f), 0);
-  EXPECT_FALSE(divergences.Take(0, 0, 10));
-}
-
 TEST(Divergences, AMessageHasTheGreatestAndCountsTheRest) {
   Divergences divergences;
   for (int id = 0; id < 100; ++id) {
