@@ -244,7 +244,7 @@ class Server {
   std::unique_ptr<Auditor> MakeAuditor() const;
   /// Audits for a moment, after all of a tick is sent, unless the next one is due.
   void RunAudit(std::int64_t now_us);
-  bool Excused(std::int64_t now_us, int player);
+  bool Excused(std::int64_t now_us, int player, DoubtKind kind);
   void NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& doubt);
   /// Says the ladder's new steps; a client that has fallen off has to leave.
   void FollowLadder(std::int64_t now_us);

@@ -96,7 +96,8 @@ void Server::TakeWaitingBreaks(std::int64_t now_us) {
       ++stats_.counters.dropped_implausible;
       ++stats_.connections.loadless;
       const int player = session->player;
-      if (player >= 0 && !Excused(now_us, player)) ladder_.Note(player, kLoadlessWeight);
+      if (player >= 0 && !Excused(now_us, player, DoubtKind::kRefused))
+        ladder_.Note(player, kLoadlessWeight);
     }
     AddDrops(stats_.counters, before, &session->account->dropped);
   }
@@ -112,16 +113,25 @@ void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
   NoteDoubt(now_us, session.peer, session.player, gravest);
 }
 
-bool Server::Excused(std::int64_t now_us, int player) {
-  return sessions_.AnyReturned(now_us, kReturnUs) && ladder_.Excuse(player, replica_.tick());
+/// A client cannot make the silence of another; its own it can, so that it excuses only so often,
+/// and nothing small. Gains within a client's own states come from no silence.
+bool Server::Excused(std::int64_t now_us, int player, DoubtKind kind) {
+  if (kind == DoubtKind::kGain) return false;
+  const std::vector<int> returned = sessions_.Returned(now_us, kReturnUs);
+  const auto own = std::count(returned.begin(), returned.end(), player);
+  const bool others = static_cast<std::ptrdiff_t>(returned.size()) > own;
+  const bool small = kind == DoubtKind::kSmall;
+  return others || (own > 0 && !small && ladder_.Excuse(player, replica_.tick()));
 }
 
 void Server::NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& doubt) {
   ++stats_.connections.doubts;
-  // Small differences, and gains within a client's own states, are not those of a silence.
-  if (!(doubt.refused || doubt.left_out) || !Excused(now_us, player)) {
+  const bool refused = doubt.kind == DoubtKind::kRefused;
+  // What follows from a silence goes on until the server has the player's bodies.
+  const bool parted = ladder_.Withholds(player, replica_.tick());
+  if (!Excused(now_us, player, doubt.kind) && !parted) {
     ladder_.Note(player, doubt.weight);
-  } else if (doubt.refused && config_.trust == TrustMode::kAct) {
+  } else if (refused && config_.trust == TrustMode::kAct) {
     ladder_.NoteParted(player, replica_.tick());
   }
   Audit audit;
@@ -133,7 +143,7 @@ void Server::NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& d
   audit.body = replica_.world().id(doubt.body);
   audit.told = NumbersOf(doubt.told);
   audit.expected = NumbersOf(doubt.expected);
-  audit.refused = doubt.refused ? 1 : 0;
+  audit.refused = refused ? 1 : 0;
   audit.score_milli = Milli(ladder_.score(player));
   audit.step = static_cast<std::int8_t>(ladder_.step(player));
   broadcast_.Publish(audit);

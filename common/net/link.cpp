@@ -36,8 +36,9 @@ constexpr std::size_t kSpareRecords = 16;
 struct Link::Impl {
   const Seal seal;
 
-  std::int64_t sequence = 0;  // number of the newest datagram sent; the first is 1
-  std::int64_t acknowledged = 0;  // number of the newest datagram known to have arrived
+  std::int64_t sequence = 0;         // number of the newest datagram sent; the first is 1
+  std::int64_t acknowledged = 0;     // number of the newest datagram known to have arrived
+  std::int64_t known_until_us = -1;  // when that was sent
   std::int64_t last_send_us = -1;
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest acknowledged number
@@ -182,7 +183,10 @@ struct Link::Impl {
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
-    acknowledged = std::max(acknowledged, number);
+    if (number > acknowledged) {
+      acknowledged = number;
+      known_until_us = record.sent_us;
+    }
     rate.NoteArrived(now_us, record.bytes);
     if (sample && !quiet) {
       SampleRtt(now_us - record.sent_us);
@@ -338,6 +342,7 @@ std::int64_t Link::acknowledged() const { return impl_->acknowledged; }
 bool Link::received_newest() const { return impl_->newest; }
 std::uint64_t Link::session() const { return impl_->seal.session(); }
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
+std::int64_t Link::known_until_us() const { return impl_->known_until_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 const LineRate& Link::rate() const { return impl_->rate; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }

@@ -88,6 +88,9 @@ class Link {
   std::uint64_t session() const;         ///< number of the session in its datagrams
   std::int64_t sent() const;             ///< number of the newest datagram sent; 0: none
   std::int64_t acknowledged() const;     ///< number of the newest one acknowledged; 0: none
+  /// Returns the time at which that one was sent, us: the peer knows what we sent until then, as
+  /// far as is known. -1: none.
+  std::int64_t known_until_us() const;
   bool received_newest() const;          ///< the last accepted datagram was later than all before
   std::int64_t last_receive_us() const;  ///< -1 before the first
   /// Returns the smoothed round trip (RFC 6298), including the peer's wait for its next datagram;

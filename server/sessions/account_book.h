@@ -31,7 +31,8 @@ struct ClientAccount {
   std::int64_t rtt_us_sum = 0, rtt_us_max = 0;  ///< over the readings
   std::int64_t loss_ppm_sum = 0;                ///< on the way to the server, over the readings
 
-  std::int64_t returned_us = -1;  ///< became ready, or was heard again after a silence; -1: never
+  /// Became ready, was heard again after a silence, or was last found to hear nothing; -1: never.
+  std::int64_t returned_us = -1;
 
   /// Counts a session that became ready after `tick` (change 1), or that left (-1).
   void NotePresent(std::int64_t tick, int change);

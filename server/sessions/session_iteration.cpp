@@ -117,11 +117,14 @@ void SessionTable::Forsake() {
   NoteChanged();
 }
 
-bool SessionTable::AnyReturned(std::int64_t now_us, std::int64_t within_us) const {
-  return std::any_of(in_order_.begin(), in_order_.end(), [&](const Session* session) {
+std::vector<int> SessionTable::Returned(std::int64_t now_us, std::int64_t within_us) const {
+  std::vector<int> players;
+  for (const Session* const session : in_order_) {
     const std::int64_t returned_us = session->account->returned_us;
-    return session->player >= 0 && returned_us >= 0 && now_us - returned_us < within_us;
-  });
+    const bool of_late = returned_us >= 0 && now_us - returned_us < within_us;
+    if (of_late && session->player >= 0) players.push_back(session->player);
+  }
+  return players;
 }
 
 bool SessionTable::AllTold() const {

@@ -143,11 +143,13 @@ Session* SessionTable::Admit(std::int64_t now_us, const SessionId& id, const Sea
 SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& session,
                                               const Address& from, const Bytes& datagram,
                                               const Deliver& deliver) {
-  const std::int64_t heard_us = session.link.last_receive_us();
-  const bool silent = heard_us >= 0 && now_us - heard_us > kSilentUs;
+  const Link& link = session.link;
+  const bool unheard = link.last_receive_us() >= 0 && now_us - link.last_receive_us() > kSilentUs;
+  const bool unhearing =
+      link.known_until_us() >= 0 && now_us - link.known_until_us() > kSilentUs + link.rtt_us();
   bool over = false;
   const auto gate = [&](std::size_t messages) {
-    if (silent) session.account->returned_us = now_us;
+    if (unheard || unhearing) session.account->returned_us = now_us;
     over = !session.budget.Take(now_us, datagram.size(), messages);
     return !over;
   };

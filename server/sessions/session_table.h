@@ -60,9 +60,9 @@ class SessionTable {
                   const Deliver& deliver);
   /// Handles a Ready message. Ignored unless the session is loading.
   void NoteReady(Session& session);
-  /// True if a player's client has returned (ClientAccount::returned_us) within the last
+  /// Returns the players whose clients have returned (ClientAccount::returned_us) within the last
   /// `within_us`.
-  bool AnyReturned(std::int64_t now_us, std::int64_t within_us) const;
+  std::vector<int> Returned(std::int64_t now_us, std::int64_t within_us) const;
   /// Drops sessions that are silent (lease.h), never get ready, send too much, or are leaving.
   void DropSilent(std::int64_t now_us);
   /// Marks a session to be dropped by the next DropSilent. The first reason counts.

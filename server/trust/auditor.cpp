@@ -6,6 +6,7 @@
 #include "common/physics/part_places.h"
 #include "common/scene/character.h"
 #include "common/scene/mechanism_ids.h"
+#include "common/sync/inputs/input_feed.h"
 #include "common/sync/quantize.h"
 #include "common/sync/rollback/presses.h"
 
@@ -101,6 +102,7 @@ void Auditor::NoteTold(int player, const States& states) {
   const World& world = replica_.world();
   const std::int64_t oldest = world.tick() - Seconds(kBehindS + kSkipS);
   if (states.tick <= oldest) return;
+  surroundings_.NoteTold(states);
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world.BodyOfId(states.id[i]);
     if (body < 0) continue;
@@ -219,9 +221,11 @@ void Auditor::PutStill(int mechanism, std::int64_t tick) {
   Activate(mechanism);
 }
 
-bool Auditor::KnowsInputs(int player, std::int64_t from, std::int64_t to) const {
+/// True if the inputs came that go with each message of states. What is missing before these was
+/// held, or was lost with sixteen datagrams in a row.
+bool Auditor::ToldInputs(int player, std::int64_t from, std::int64_t to) const {
   const InputTrack& inputs = replica_.inputs(player);
-  for (std::int64_t tick = from + 1; tick <= to; ++tick) {
+  for (std::int64_t tick = std::max(from, to - kInputsRedundant) + 1; tick <= to; ++tick) {
     if (!inputs.knows(tick)) return false;
   }
   return true;
@@ -246,14 +250,12 @@ bool Auditor::Knows(int mechanism, std::int64_t from, std::int64_t to) const {
   return alone;
 }
 
-/// An honest client's states and inputs are sent together, and what is lost is repeated: .5 s later
-/// nothing is missing.
 void Auditor::Compare(int mechanism, const ToldStates::Told& told) {
   Track& track = tracks_[mechanism];
   if (track.player < 0) return;
   const std::int64_t from = track.put >= 0 ? track.put : told.tick;
   const bool all =
-      KnowsInputs(track.player, from, told.tick) && !track.told.LeavesOut(Seconds(kOutS));
+      ToldInputs(track.player, from, told.tick) && !track.told.LeavesOut(Seconds(kOutS));
   track.gain.NoteAllTold(all);
   if (all && track.put >= 0 && Knows(mechanism, from, told.tick)) {
     const std::optional<Gain> gain = spare_->Compare(mechanism, told.states);
@@ -279,7 +281,7 @@ void Auditor::NoteLie(int mechanism, const ToldStates::Told& told) {
   found.doubt.tick = told.tick;
   found.doubt.told = **first;
   found.doubt.expected = spare_->world().Read(found.doubt.body);
-  found.doubt.left_out = track.gain.leaves_out();
+  found.doubt.kind = track.gain.leaves_out() ? DoubtKind::kLeftOut : DoubtKind::kGain;
   found.doubt.weight =
       static_cast<float>(std::clamp(since, 0.0, 1.0)) * (track.gain.gross() ? kGrossAudited : 1);
   found_.push_back(found);

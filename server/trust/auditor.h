@@ -83,7 +83,7 @@ class Auditor {
   void Activate(int mechanism);
   void Compare(int mechanism, const ToldStates::Told& told);
   void NoteLie(int mechanism, const ToldStates::Told& told);
-  bool KnowsInputs(int player, std::int64_t from, std::int64_t to) const;
+  bool ToldInputs(int player, std::int64_t from, std::int64_t to) const;
   bool Knows(int mechanism, std::int64_t from, std::int64_t to) const;
   void Forget(int mechanism);
   void NoteRenumbered();

@@ -7,15 +7,19 @@
 
 namespace seam {
 
-/// A state that differs from the expected one, or that was told without what it takes to check it.
+enum class DoubtKind {
+  kSmall,    ///< a believed state differs from the server's copy
+  kRefused,  ///< a state differs too much to be believed
+  kGain,     ///< the client's own states do not follow from each other (Auditor)
+  kLeftOut   ///< nothing is known to differ: other bodies' states or inputs are missing
+};
+
 struct Doubt {
+  DoubtKind kind = DoubtKind::kSmall;
   int body = -1;
   std::int64_t tick = 0;
   BodyState told, expected;
   float weight = 0;  ///< see TrustLadder
-  bool refused = false;
-  bool left_out =
-      false;  ///< nothing is known to differ: other bodies' states or inputs are missing
 };
 
 }  // namespace seam

@@ -13,6 +13,9 @@ namespace {
 constexpr float kMoves = 0.5f;
 /// Greatest difference of one message that counts, m and m/s.
 constexpr float kStep = 0.02f, kKick = 0.2f;
+/// Time constant of the share of late, s: longer than the noise of a message, so that a sum which
+/// only fades is seen to fall.
+constexpr float kOfLateS = 2;
 /// A longer silence begins the sums anew, s: the copy has been corrected by others meanwhile.
 constexpr float kSilence = 3;
 
@@ -43,13 +46,14 @@ void Drift::Add(int body, std::int64_t tick, const BodyState& copy, const BodySt
     sums->sum = keep * sums->sum + more;
     sums->chance2 = keep * keep * sums->chance2 + more.square();
   };
-  const float before = Share(track);
   const Vec2 way = off.position - track.left.position - seconds * track.left.velocity;
   add(AtMost(kStep, way), &track.moved);
   add(AtMost(kKick, off.velocity - track.left.velocity), &track.kicked);
   track.left = Replay::Agrees(off) ? off : BodyState{};
-  track.falls = Share(track) < before;
-  greatest_ = std::max(greatest_, Share(track));
+  const float share = Share(track);
+  track.of_late += (1 - std::exp(-seconds / kOfLateS)) * (share - track.of_late);
+  track.falls = share < track.of_late;
+  greatest_ = std::max(greatest_, share);
 }
 
 float Drift::Share(const Sums& sums, float bound) {

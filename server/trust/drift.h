@@ -7,7 +7,7 @@
 ///   chance = sqrt(chance^2 k^2 + difference^2)              deviation of a sum without direction
 ///
 /// It counts above a bound, and above kChances times chance: chaos makes a few that are great. Only
-/// while it does not fall: what once differed and agrees again is no lie.
+/// while it is not below its mean of late: what once differed and agrees again is no lie.
 
 #include <cstdint>
 
@@ -24,7 +24,7 @@ class Drift {
   /// Adds the difference `off` of a told state from the server's copy of that tick; requires
   /// ascending ticks of a body.
   void Add(int body, std::int64_t tick, const BodyState& copy, const BodyState& off);
-  /// True if the sum is more than chance explains, and the newest difference did not lessen it.
+  /// True if the sum is more than chance explains, and does not fall.
   bool Lies(int body) const;
   /// Greatest sum of a body so far, as a share of the one that counts.
   float greatest() const { return greatest_; }
@@ -45,7 +45,8 @@ class Drift {
     std::int64_t tick = 0;  // of the newest difference
     BodyState left;         // that difference, if it is too small to correct the copy
     Sums moved, kicked;     // m, m/s
-    bool falls = false;     // the sums' share, with the newest difference
+    float of_late = 0;      // mean of the sums' share
+    bool falls = false;     // the share is below it
   };
 
   static float Share(const Sums& sums, float bound);

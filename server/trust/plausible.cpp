@@ -109,7 +109,8 @@ void Plausible::NoteDoubt(int body, std::int64_t tick, const BodyState& told,
   const float weight = std::clamp(silence / kWeighedS, 0.0f, 1.0f) * (gross ? kGrossWeight : 1);
   ++counts_.doubted;
   counts_.refused += refused ? 1 : 0;
-  doubts_.push_back({body, tick, told, expected, weight, refused});
+  const DoubtKind kind = refused ? DoubtKind::kRefused : DoubtKind::kSmall;
+  doubts_.push_back({kind, body, tick, told, expected, weight});
 }
 
 bool Plausible::Judge(int body, std::int64_t tick, int revision, const BodyState& state,

@@ -3,23 +3,23 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
-#include <tuple>
 
 #include "common/scene/mechanism_ids.h"
+#include "common/sync/quantize.h"
 #include "common/sync/reach/zones.h"
 #include "server/rules/impact_check.h"
 
 namespace seam {
 namespace {
 
-/// Looks that are kept: two seconds.
-constexpr std::size_t kLooks = 20;
-/// Mechanisms that may touch within this time are near, s: a client that shows another's bodies
-/// late strikes them where the server does not have them.
-constexpr float kNearS = 0.25f;
+/// No client is thought to be later than this, s: what it does with others' bodies is not audited
+/// meanwhile.
+constexpr double kLagMostS = 1;
+/// A lag that was worse a while ago counts less by a tick each so many ticks.
+constexpr std::int64_t kForgetEvery = 6;
 
-/// Side of a cell, and the greatest extent and way within kNearS of bodies that are only looked at
-/// in the cells of others, m.
+/// Side of a cell, and the greatest extent and way within kLagMostS of bodies that are only looked
+/// at in the cells of others, m.
 constexpr float kLookCell = 16, kSmall = 8;
 
 /// Cells with something to look at. Cells may share a place here: then more is looked at.
@@ -45,19 +45,30 @@ class Cells {
   std::bitset<kPlaces> cells_;
 };
 
+/// Where bodies of this place and velocity may be within `seconds`.
+Eigen::AlignedBox2f Swept(const Eigen::AlignedBox2f& place, const Eigen::AlignedBox2f& velocity,
+                          float seconds) {
+  Eigen::AlignedBox2f swept = place;
+  swept.min() += velocity.min().cwiseMin(0) * seconds;
+  swept.max() += velocity.max().cwiseMax(0) * seconds;
+  return swept;
+}
+
 }  // namespace
 
 Surroundings::Surroundings(const Replica& replica)
-    : replica_(replica), forget_(replica.table(), [this](const BodyRemap&) {
-        looks_.clear();
-        FindLarge();
-      }) {
-  FindLarge();
+    : replica_(replica),
+      heard_(static_cast<std::size_t>(kPeersMax), -1),
+      lag_(heard_.size(), 0),
+      forget_(replica.table(), [this](const BodyRemap&) { Forget(); }) {
+  Forget();
 }
 
-void Surroundings::FindLarge() {
+void Surroundings::Forget() {
   const World& world = replica_.world();
   const Composition& c = world.composition();
+  first_ = newest_ = -1;
+  trails_.assign(c.mechanisms.size(), Trail());
   large_.assign(static_cast<std::size_t>(world.body_count()), 0);
   for (int body = 0; body < world.body_count(); ++body) {
     const int assembly = c.assembly_of_part[static_cast<std::size_t>(world.id(body))];
@@ -66,40 +77,116 @@ void Surroundings::FindLarge() {
   }
 }
 
+std::int64_t Surroundings::LagMost() const {
+  return static_cast<std::int64_t>(kLagMostS * replica_.world().scene().solver.tick_hz);
+}
+
+void Surroundings::Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tick, int body,
+                        const BodyState& state) {
+  const World& world = replica_.world();
+  Trail& trail = trails_[static_cast<std::size_t>(world.mechanism(body))];
+  const std::int64_t number = tick / kEvery;
+  Look& look = (trail.*looks)[static_cast<std::size_t>(number) % kLooks];
+  if (look.number > number) return;
+  if (look.number < number) look = Look{number, Box(), Box()};
+  const auto [min, max] = world.Bounds(body);
+  const Vec2 off = state.position - world.Read(body).position;
+  const Box place(Vec2(min + off), Vec2(max + off));
+  look.place.extend(place);
+  look.velocity.extend(state.velocity);
+  const auto seconds = static_cast<float>(kLagMostS);
+  trail.reach.extend(Swept(place, Box(state.velocity), seconds));
+}
+
+void Surroundings::NoteTold(const States& states) {
+  const World& world = replica_.world();
+  std::int64_t& heard = heard_[static_cast<std::size_t>(states.peer)];
+  std::int64_t& lag = lag_[static_cast<std::size_t>(states.peer)];
+  lag = std::clamp(world.tick() - heard, lag, std::max(lag, LagMost()));
+  heard = std::max(heard, states.tick);
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world.BodyOfId(states.id[i]);
+    if (body < 0) continue;
+    Note(&Trail::told, states.tick, body, Unpack(states, i, world.Read(body).angle));
+  }
+}
+
 void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
   const World& world = replica_.world();
+  if (world.tick() % kForgetEvery == 0) {
+    for (std::int64_t& lag : lag_) lag = std::max<std::int64_t>(0, lag - 1);
+  }
   if (world.tick() % kEvery != 0) return;
+  const std::int64_t oldest = world.tick() / kEvery - static_cast<std::int64_t>(kLooks);
+  for (Trail& trail : trails_) {
+    trail.reach.setEmpty();
+    for (auto* const looks : {&trail.told, &trail.had}) {
+      for (Look& look : *looks) {
+        if (look.number <= oldest) look = Look();
+        if (look.number < 0) continue;
+        trail.reach.extend(Swept(look.place, look.velocity, static_cast<float>(kLagMostS)));
+      }
+    }
+  }
   Cells cells;
   for (const int m : mechanisms) {
     EachIdOf(world.composition(), m, [&](PartId id) {
       const int body = world.BodyOfId(id);
       const auto [min, max] = world.Bounds(body);
-      const float reach = world.Read(body).velocity.norm() * kNearS + 2 * kSmall + kZoneSlack;
+      const float way = world.Read(body).velocity.norm() * static_cast<float>(kLagMostS);
+      const float reach = way + 2 * kSmall + kZoneSlack;
       cells.Add(min - Vec2(reach, reach), max + Vec2(reach, reach));
     });
   }
-  std::vector<MovingBox> boxes;
   for (int body = 0; !mechanisms.empty() && body < world.body_count(); ++body) {
     const BodyState state = world.Read(body);
-    const bool fast = state.velocity.norm() * kNearS > kSmall;
+    const bool fast = state.velocity.norm() * static_cast<float>(kLagMostS) > kSmall;
     const bool large = large_[static_cast<std::size_t>(body)] != 0;
     if (!fast && !large && !cells.Has(state.position)) continue;
-    MovingBox box;
-    std::tie(box.min, box.max) = world.Bounds(body);
-    if (world.awake(body)) box.velocity = state.velocity;
-    box.group = world.mechanism(body);
-    boxes.push_back(box);
+    Note(&Trail::had, world.tick(), body, state);
   }
-  Look look;
-  look.tick = world.tick();
-  look.near = MeetingGroups(boxes, kNearS);
-  const std::size_t once = look.near.size();
-  for (std::size_t i = 0; i < once; ++i) {
-    look.near.emplace_back(look.near[i].second, look.near[i].first);
+  newest_ = world.tick();
+  if (first_ < 0) first_ = newest_;
+  first_ = std::max(first_, newest_ - static_cast<std::int64_t>(kLooks - 1) * kEvery);
+}
+
+/// Where it was told to be, or if nothing was told where the server had it.
+Surroundings::Box Surroundings::PlacesOf(int mechanism, std::int64_t from, std::int64_t to) const {
+  const Trail& trail = trails_[static_cast<std::size_t>(mechanism)];
+  Box places;
+  for (const auto* const looks : {&trail.told, &trail.had}) {
+    for (const Look& look : *looks) {
+      if (look.number >= from / kEvery && look.number <= to / kEvery) places.extend(look.place);
+    }
+    if (!places.isEmpty()) break;
   }
-  std::sort(look.near.begin(), look.near.end());
-  looks_.push_back(std::move(look));
-  if (looks_.size() > kLooks) looks_.pop_front();
+  return places;
+}
+
+/// How late the server hears of a mechanism, ticks.
+std::int64_t Surroundings::LagOf(int mechanism) const {
+  return lag_[static_cast<std::size_t>(replica_.authority().at(mechanism).authority)];
+}
+
+bool Surroundings::MayTouch(const Box& own, int mechanism, int other, std::int64_t from,
+                            std::int64_t to) const {
+  const Trail& trail = trails_[static_cast<std::size_t>(other)];
+  const Vec2 slack(kZoneSlack, kZoneSlack);
+  const Box wide(Vec2(own.min() - slack), Vec2(own.max() + slack));
+  if (!trail.reach.intersects(wide)) return false;
+  const std::int64_t lag =
+      std::max(kEvery, std::min(LagMost(), LagOf(mechanism) + LagOf(other) + kEvery));
+  const float dt = replica_.world().dt();
+  for (const auto* const looks : {&trail.told, &trail.had}) {
+    for (const Look& look : *looks) {
+      const std::int64_t tick = look.number * kEvery;
+      if (tick + kEvery <= from - lag || tick > to + kEvery) continue;
+      const float seconds =
+          static_cast<float>(std::clamp<std::int64_t>(to - tick, kEvery, lag)) * dt;
+      if (Swept(look.place, look.velocity, seconds).intersects(wide)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace seam

@@ -1,10 +1,15 @@
 #pragma once
-/// Remembers for a second which mechanisms were near each other, for an audit of that time.
+/// Remembers for two seconds where mechanisms were, for an audit of that time, and tells what one
+/// of them may have touched in the world of its holder. A client hears of others' bodies late and
+/// moves them on by itself, so that there one of them may be anywhere on its way since then:
+///
+///   where the server had it, where it was told to be
+///        |------------------ velocity x lag ------------------>|
+///   lag: how old the newest states of its holder were, here, and as long again down to the client
 
-#include <algorithm>
+#include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
-#include <deque>
-#include <utility>
 #include <vector>
 
 #include "common/sync/replica.h"
@@ -16,18 +21,19 @@ class Surroundings {
   /// `replica` must outlive this.
   explicit Surroundings(const Replica& replica);
 
-  /// Call after each tick. In each kEvery-th, finds the mechanisms near these.
+  /// Takes accepted states of a client, before they move the replica's bodies.
+  void NoteTold(const States& states);
+  /// Call after each tick. In each kEvery-th, notes where these mechanisms are, and what may meet
+  /// them within kLagMostS.
   void AfterTick(const std::vector<int>& mechanisms);
-  /// Calls `visit(other)` for each mechanism that was near this one between the ticks, some more
-  /// than once. Returns false if that is not known.
+  /// Calls `visit(other)` for each mechanism that may have touched this one between the ticks in
+  /// the world of its holder. Returns false if that is not known.
   template <class Visit>
   bool EachNear(int mechanism, std::int64_t from, std::int64_t to, const Visit& visit) const {
-    if (looks_.empty() || looks_.front().tick > from || looks_.back().tick < to) return false;
-    for (const Look& look : looks_) {
-      if (look.tick < from - kEvery || look.tick > to + kEvery) continue;
-      auto pair =
-          std::lower_bound(look.near.begin(), look.near.end(), std::make_pair(mechanism, -1));
-      for (; pair != look.near.end() && pair->first == mechanism; ++pair) visit(pair->second);
+    const Box own = PlacesOf(mechanism, from, to);
+    if (own.isEmpty() || newest_ < to || first_ > from) return false;
+    for (int other = 0; other < static_cast<int>(trails_.size()); ++other) {
+      if (other != mechanism && MayTouch(own, mechanism, other, from, to)) visit(other);
     }
     return true;
   }
@@ -36,16 +42,31 @@ class Surroundings {
   static constexpr std::int64_t kEvery = 6;
 
  private:
-  void FindLarge();
-
+  using Box = Eigen::AlignedBox2f;
+  /// Places and velocities of a mechanism's bodies in kEvery ticks.
   struct Look {
-    std::int64_t tick = 0;
-    std::vector<std::pair<int, int>> near;  // of mechanisms, each both ways, ascending
+    std::int64_t number = -1;  // tick / kEvery
+    Box place, velocity;
+  };
+  static constexpr std::size_t kLooks = 20;
+  struct Trail {
+    std::array<Look, kLooks> told, had;  // by number modulo kLooks
+    Box reach;                           // everything that it may have been in
   };
 
+  void Forget();
+  void Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tick, int body,
+            const BodyState& state);
+  Box PlacesOf(int mechanism, std::int64_t from, std::int64_t to) const;
+  bool MayTouch(const Box& own, int mechanism, int other, std::int64_t from, std::int64_t to) const;
+  std::int64_t LagOf(int mechanism) const;
+  std::int64_t LagMost() const;
+
   const Replica& replica_;
-  std::deque<Look> looks_;
-  std::vector<char> large_;  // rebuilt at edits, by body: looked at wherever it is
+  std::vector<Trail> trails_;              // rebuilt at edits, by mechanism
+  std::vector<char> large_;                // rebuilt at edits, by body: looked at wherever it is
+  std::vector<std::int64_t> heard_, lag_;  // by peer: newest tick told of; greatest lag of late
+  std::int64_t first_ = -1, newest_ = -1;  // ticks of the looks
   EditHook forget_;
 };
 

@@ -37,7 +37,7 @@ class TrustLadder {
   void NoteWithheld(int player, std::int64_t tick) {
     Withhold(player, tick + kWithheldS * tick_hz_);
   }
-  /// True if a difference of the player's states may be the effect of somebody's silence that has
+  /// True if a difference of the player's states may be the effect of its own silence that has
   /// just ended. It then is for kReturnS; kExcusesAtOnce times, and once more each kExcuseEveryS:
   /// a silence must not excuse lies for ever. Not kept in a saved room: all return when it goes on.
   bool Excuse(int player, std::int64_t tick);
