@@ -30,9 +30,11 @@ INSTRUMENT_coverage := --coverage
 # By clang++ alone (make fuzz).
 INSTRUMENT_fuzz := -fsanitize=fuzzer-no-link,address,undefined
 CXXFLAGS_release := -O2
+# Optimising the tests themselves takes a third of the time to compile them; what they test is optimised.
+TEST_CXXFLAGS_release := -O1
 CXXFLAGS_debug := -O0 -g
 CXXFLAGS_asan := -O1 -g1 $(INSTRUMENT_asan) -fno-sanitize-recover=all -fno-omit-frame-pointer
-# The tests themselves without checks that take half of the time to compile them, and not optimised; what they test is.
+# The same under the sanitizers, and without checks that take half of the time to compile them.
 TEST_CXXFLAGS_asan := -O0 -fno-sanitize=null,alignment,object-size,vptr
 CXXFLAGS_fuzz := -O1 -g1 $(INSTRUMENT_fuzz) -fno-sanitize-recover=all -fno-omit-frame-pointer
 CXXFLAGS_tsan := -O1 -g1 $(INSTRUMENT_tsan)
@@ -132,7 +134,7 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all fuzz check check-includes objects docs help deps demo fleet-demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
+.PHONY: all fuzz check check-includes objects core-tests docs help deps demo fleet-demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
 	lint compile_commands.json install install-built python wheel deb clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
@@ -220,24 +222,30 @@ $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	$(CXX) $(ALL_CXXFLAGS) $(if $(filter 0,$(UNITY)),,-include $(PRECOMPILED)) -c $< -o $@
 
 # The headers that most units include, parsed once; tests have a second one, with GoogleTest and their own options,
-# and what goes into libraries a third one. UNITY=0 goes without, so that each file includes what it needs.
+# those that run a server and clients a third one, with the headers of both, and what goes into libraries a fourth one.
+# UNITY=0 goes without, so that each file includes what it needs.
+SESSION_TESTS := $(filter $(foreach f,client cluster embed fleet fuzz process relay server,$(OUT)/unity/tests/$(f)%),$(TESTS))
 PRECOMPILED = $(OUT)/precompiled.h
 $(TESTS): private PRECOMPILED = $(OUT)/precompiled-tests.h
+$(SESSION_TESTS): private PRECOMPILED = $(OUT)/precompiled-sessions.h
 $(LIBRARY): private PRECOMPILED = $(OUT)/precompiled-library.h
+PRECOMPILED_ALL := $(OUT)/precompiled.h $(foreach n,library tests sessions,$(OUT)/precompiled-$(n).h)
 PRECOMPILED_HEADERS := Eigen/Core algorithm array box2d/box2d.h cmath cstdint deque fmt/format.h functional map memory \
 	numeric optional set sstream string unordered_map variant vector
 $(OUT)/precompiled-tests.h: PRECOMPILED_HEADERS += gtest/gtest.h filesystem fstream
-$(OUT)/precompiled.h $(OUT)/precompiled-library.h $(OUT)/precompiled-tests.h: Makefile | build/.deps-build
+$(OUT)/precompiled-sessions.h: PRECOMPILED_HEADERS += gtest/gtest.h filesystem fstream client/embed/cluster.h
+$(PRECOMPILED_ALL): Makefile | build/.deps-build
 	@mkdir -p $(@D)
 	@printf '#include <%s>\n' $(PRECOMPILED_HEADERS) > $@
-$(OUT)/precompiled-tests.h.gch: private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
+$(OUT)/precompiled-tests.h.gch $(OUT)/precompiled-sessions.h.gch: private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
 $(OUT)/precompiled-library.h.gch: private ALL_CXXFLAGS += $(LIBRARY_CXXFLAGS)
-$(OUT)/precompiled.h.gch $(OUT)/precompiled-library.h.gch $(OUT)/precompiled-tests.h.gch: %.gch: % $(OUT)/.flags
+$(PRECOMPILED_ALL:=.gch): %.gch: % $(OUT)/.flags
 	$(CXX) $(ALL_CXXFLAGS) -x c++-header $< -o $@
 ifneq ($(UNITY),0)
 $(filter-out $(LIBRARY) $(TESTS),$(OBJECTS)): $(OUT)/precompiled.h.gch
 $(LIBRARY): $(OUT)/precompiled-library.h.gch
-$(TESTS): $(OUT)/precompiled-tests.h.gch
+$(filter-out $(SESSION_TESTS),$(TESTS)): $(OUT)/precompiled-tests.h.gch
+$(SESSION_TESTS): $(OUT)/precompiled-sessions.h.gch
 endif
 
 # What the pages are made of is copied into the programs (render/page/assets.cpp).
@@ -302,14 +310,16 @@ $(OUT)/seam-view: $(OUT)/render/view_main.o $(RENDER) $(OUT)/libseam-common.a
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(EMBED) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.
-$(OUT)/seam-tests: $(LAB) $(EMBED) $(RELAY) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
+$(OUT)/seam-tests: $(COMMON) $(LAB) $(EMBED) $(RELAY) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(TESTS)
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # The tests of what reads from outside and keeps it, without long simulations, programs and pictures: a little
-# more than half of the sources.
+# more than half of the sources. The tests themselves are those of build/release: what they test is under the sanitizers.
 CORE_TESTS := $(foreach f,base client codec fuzz net record scene server sync topology,$(filter \
 	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES)) $(FUZZ)
-$(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(call alone,client/embed/cluster.cpp tests/lab/world/plan_worlds.cpp) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+CORE_OBJECTS := $(patsubst $(OUT)/%,build/release/%,$(call obj,$(CORE_TESTS)))
+core-tests: $(CORE_OBJECTS)
+$(OUT)/seam-tests-core: $(COMMON) $(call alone,client/embed/cluster.cpp tests/lab/world/plan_worlds.cpp) $(WATCHERS) $(SERVER) $(CLIENT) $(CORE_OBJECTS)
 	$(LINK) $(LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # Man pages, completion and the schema of scenes, by the programs themselves: from what parses their flags and scenes.
@@ -372,11 +382,12 @@ test: tests                          ## build and run all tests (tests/run.sh), 
 	$(if $(FILTER),$(run-tests),tests/run.sh $(OUT))
 
 sanitize:                            ## the tests of what reads from outside, under asan and ubsan: twenty minutes
-	@$(MAKE) --no-print-directory BUILD=asan build/.deps-build build/asan/seam-tests-core
+	@$(MAKE) --no-print-directory BUILD=release build/.deps-build core-tests
+	@$(MAKE) --no-print-directory BUILD=asan build/asan/seam-tests-core
 	tests/run.sh build/asan seam-tests-core
 
 FAST_TESTS := $(call obj,$(filter-out $(call slow,$(TEST_SOURCES)),$(TEST_SOURCES)))
-$(OUT)/seam-tests-fast: $(LAB) $(EMBED) $(RELAY) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(FAST_TESTS) $(OUT)/libseam-common.a
+$(OUT)/seam-tests-fast: $(COMMON) $(LAB) $(EMBED) $(RELAY) $(SERVER) $(CLIENT) $(WATCHERS) $(FRONT) $(RENDER) $(FAST_TESTS)
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 check-fast: all $(OUT)/seam-tests-fast   ## build and run the tests that take no processes or long simulations
@@ -572,4 +583,4 @@ deb: build/.deps-deb all python $(OUT)/libseam.a $(SHARED) $(JAR)   ## Debian pa
 clean:                               ## remove build/ and out/
 	rm -rf build out
 
--include $(wildcard $(OBJECTS:.o=.d))
+-include $(wildcard $(OBJECTS:.o=.d) $(PRECOMPILED_ALL:=.d))
