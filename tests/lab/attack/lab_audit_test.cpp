@@ -111,6 +111,35 @@ TEST(Audit, HonestClientsWithoutCopiesAreFarFromALie) {
   }
 }
 
+/// Each was acted on before: by what the client's world had where the server's had nothing, by
+/// differences after the client alone had heard nothing, and by a sum that had ceased to grow.
+TEST(Audit, AnHonestClientOverABadNetworkLosesNothing) {
+  struct Case {
+    const char *scene, *impair;
+    int seed, seconds;
+    bool shown;
+  };
+  const Case cases[] = {
+      {"crossing", "3g", 4, 30, false},
+      {"crossing", "3g", 11, 30, false},
+      {"crossing", "4g_driving", 6, 15, true},
+      {"gas", "4g_driving", 1, 12, true},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(std::string(c.scene) + " " + c.impair + " " + std::to_string(c.seed));
+    ClusterConfig config;
+    config.scene = c.scene;
+    config.impair = c.impair;
+    config.mode = "buffer";
+    config.seed = c.seed;
+    config.drive = Drive::kBot;
+    config.duration_s = c.seconds;
+    const HonestOutcome outcome = RunHonest(config, c.shown);
+    EXPECT_GT(outcome.judged, 100);
+    EXPECT_LE(outcome.step, static_cast<int>(TrustStep::kWatched));
+  }
+}
+
 TEST(Audit, ItTakesNoMoreThanItsBudget) {
   ClusterConfig config;
   config.scene = "pile";  // of 1000 bodies that one client holds
