@@ -36,7 +36,9 @@ void AuthoritySource::NoteStates(const States& accepted) {
     const Held held{accepted.peer, accepted.epoch[i]};
     if (!(holders.last == held)) holders = {held, holders.last};
     // Unwraps the angle towards the server's copy: it may be off by whole turns.
-    trail_.Add(body, accepted.tick, Unpack(accepted, i, replica_.world().Read(body).angle));
+    const BodyState told = Unpack(accepted, i, replica_.world().Read(body).angle);
+    const auto way = [this, body](std::int64_t tick) { return replica_.SettledPast(body, tick); };
+    trail_.Add(body, accepted.tick, told, way);
   }
 }
 

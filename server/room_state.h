@@ -37,7 +37,7 @@ class SessionTable;
 class TrustLadder;
 
 /// Version of the saved bytes. Raise it with every change of them; older ones are not read.
-constexpr std::uint32_t kRoomStateVersion = 6;
+constexpr std::uint32_t kRoomStateVersion = 7;
 
 /// The beginning of a saved room, enough to make the server that loads it.
 class SavedRoom {

@@ -1,11 +1,14 @@
 #include "server/rules/state_trail.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <set>
 #include <utility>
 
+#include "common/base/geometry.h"
 #include "common/scene/saved/persist_state.h"
+#include "common/sync/state_arithmetic.h"
 
 namespace seam {
 
@@ -22,6 +25,45 @@ void StateTrail::Add(int body, std::int64_t tick, const BodyState& state) {
   if (!trail.empty() && tick <= trail.back().tick) return;
   trail.push_back({tick, state});
   if (trail.size() > kKept) trail.pop_front();
+}
+
+void StateTrail::Add(int body, std::int64_t tick, const BodyState& state, const Way& way) {
+  const Trail& trail = trails_[body];
+  if (!trail.empty()) {
+    const Seen& from = trail.back();
+    const std::int64_t ticks = tick - from.tick;
+    if (ticks > 1 && ticks <= kMaxGapTicks) {
+      const Trail between = Between(from, {tick, state}, way);
+      Trail& ways = ways_[body];
+      ways.insert(ways.end(), between.begin(), between.end());
+      while (ways.size() > kKept) ways.pop_front();
+    }
+  }
+  Add(body, tick, state);
+}
+
+StateTrail::Trail StateTrail::Between(const Seen& from, const Seen& to, const Way& way) {
+  Trail between;
+  const BodyState *const first = way(from.tick), *const last = way(to.tick);
+  if (first == nullptr || last == nullptr) return between;
+  const BodyState off = Minus(from.state, *first), end = Minus(to.state, *last);
+  const Vec2 begins = first->position, line = last->position - begins;
+  const float turn = std::remainder(end.angle - off.angle, 2 * kPiFloat);
+  const float off_most = std::max(off.position.norm(), end.position.norm());
+  float bend = 0;
+  for (std::int64_t tick = from.tick + 1; tick < to.tick; ++tick) {
+    const BodyState* const then = way(tick);
+    if (then == nullptr) return {};
+    const float share =
+        static_cast<float>(tick - from.tick) / static_cast<float>(to.tick - from.tick);
+    bend = std::max(bend, (then->position - begins - share * line).norm());
+    BodyState state = *then;
+    state.position += off.position + share * (end.position - off.position);
+    state.angle += off.angle + share * turn;
+    between.push_back({tick, state});
+  }
+  if (bend <= off_most) return {};
+  return between;
 }
 
 const StateTrail::Seen* StateTrail::Newest(int body) const {
@@ -67,6 +109,10 @@ std::optional<BodyState> StateTrail::At(int body, std::int64_t tick) const {
   std::size_t next = trail.size();  // the first state after `at`
   while (next > 0 && trail[next - 1].tick > at) --next;
   if (next == 0) return std::nullopt;
+  const Trail& way = ways_[body];
+  const auto known = std::lower_bound(
+      way.begin(), way.end(), at, [](const Seen& seen, std::int64_t of) { return seen.tick < of; });
+  if (known != way.end() && known->tick == at) return known->state;
   BodyState state = trail[next - 1].state;
   if (next == trail.size() || FirstOf(trail, next) > at) return state;
   const Seen &from = trail[next - 1], &to = trail[next];
@@ -86,6 +132,7 @@ std::int64_t StateTrail::TickOf(int body, std::int64_t tick) const {
 void StateTrail::MarkProcessed() {
   for (int b = 0; b < trails_.size(); ++b) {
     if (!trails_[b].empty()) looked_[b] = trails_[b].back().tick;
+    ways_[b].clear();
   }
 }
 
@@ -101,26 +148,32 @@ std::vector<StateTrail::Run> StateTrail::RunsOf(const Trail& trail) {
   return runs;
 }
 
+void StateTrail::PersistTrail(StateArchive& a, Trail* trail) {
+  std::vector<Run> runs;
+  if (!a.reading()) runs = RunsOf(*trail);
+  std::int64_t after = -StateArchive::kTickMost;
+  a.List(&runs, kKept, [&](Run* run) {
+    a.Int(&run->first.tick, after, StateArchive::kTickMost);
+    a.Int(&run->ticks, 1, static_cast<std::int64_t>(kKept));
+    PersistStates(a, &run->first.state, 1);
+    after = run->first.tick + run->ticks;
+  });
+  if (!a.ok() || !a.reading()) return;
+  trail->clear();
+  for (const Run& run : runs) {
+    for (int t = 0; t < run.ticks && trail->size() < kKept; ++t) {
+      trail->push_back({run.first.tick + t, run.first.state});
+    }
+  }
+}
+
 void StateTrail::Persist(StateArchive& a) {
   a.Section("trails");
   a.Exactly(&looked_, [&](std::int64_t* tick) { a.Tick(tick); });
-  for (Trail& trail : trails_) {
-    std::vector<Run> runs;
-    if (!a.reading()) runs = RunsOf(trail);
-    std::int64_t after = -StateArchive::kTickMost;
-    a.List(&runs, kKept, [&](Run* run) {
-      a.Int(&run->first.tick, after, StateArchive::kTickMost);
-      a.Int(&run->ticks, 1, static_cast<std::int64_t>(kKept));
-      PersistStates(a, &run->first.state, 1);
-      after = run->first.tick + run->ticks;
-    });
-    if (!a.ok()) return;
-    if (!a.reading()) continue;
-    trail.clear();
-    for (const Run& run : runs) {
-      for (int t = 0; t < run.ticks && trail.size() < kKept; ++t) {
-        trail.push_back({run.first.tick + t, run.first.state});
-      }
+  for (BodyColumn<Trail>* const trails : {&trails_, &ways_}) {
+    for (Trail& trail : *trails) {
+      PersistTrail(a, &trail);
+      if (!a.ok()) return;
     }
   }
 }

@@ -90,6 +90,44 @@ TEST(StateTrail, AJumpOrALongSilenceHasNoPath) {
   EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13 + StateTrail::kMaxGapTicks}));
 }
 
+/// Between two states a body runs against a wall and back. Somebody's world knows it, 0.1 m off.
+TEST(StateTrail, AKnownWayBetweenTwoStatesIsFollowed) {
+  BodyTable bodies(2, 0);
+  StateTrail trail(bodies);
+  BodyState world[11];
+  for (int t = 0; t <= 10; ++t) {
+    const auto way = static_cast<float>(t < 6 ? t : 12 - t);
+    world[t] = At(way + 0.1f);
+  }
+  const auto knows = [&](std::int64_t tick) -> const BodyState* {
+    return tick >= 20 && tick <= 30 ? &world[tick - 20] : nullptr;
+  };
+  trail.Add(0, 20, At(0));
+  trail.MarkProcessed();
+  trail.Add(0, 30, At(2), knows);
+  EXPECT_EQ(trail.NewTicks().size(), 10u);
+  EXPECT_FLOAT_EQ(trail.At(0, 25)->position.x(), 5);
+  EXPECT_FLOAT_EQ(trail.At(0, 26)->position.x(), 6);
+  EXPECT_FLOAT_EQ(trail.At(0, 30)->position.x(), 2);
+  trail.MarkProcessed();
+  EXPECT_FLOAT_EQ(trail.At(0, 26)->position.x(), 2) << "processed: no body goes back";
+}
+
+/// What is off by more than its way bends knows nothing of the body's way.
+TEST(StateTrail, AWayThatEndsElsewhereIsNotFollowed) {
+  BodyTable bodies(2, 0);
+  StateTrail trail(bodies);
+  BodyState world[11];
+  for (int t = 0; t <= 10; ++t) world[t] = At(static_cast<float>(t < 6 ? t : 12 - t));
+  const auto knows = [&](std::int64_t tick) { return &world[tick - 20]; };
+  trail.Add(0, 20, At(0));
+  trail.Add(0, 30, At(10), knows);
+  EXPECT_FLOAT_EQ(trail.At(0, 27)->position.x(), 7);
+  const auto unknown = [](std::int64_t) -> const BodyState* { return nullptr; };
+  trail.Add(0, 32, At(12), unknown);
+  EXPECT_FLOAT_EQ(trail.At(0, 31)->position.x(), 11);
+}
+
 /// Six states come at once; a coin lies between the first and the last.
 TEST(StateTrail, ABurstOfStatesDoesNotCarryABodyPastATrigger) {
   Trigger coin;
