@@ -21,6 +21,11 @@ constexpr float kTurnsIn = 4;
 /// Together with kGoingFor less than b2_timeToSleep, so that nothing sleeps while it turns.
 constexpr float kStopsIn = b2_timeToSleep / 4;
 
+/// Change of speed in a second, as a multiple of the engine's tolerances, up to which the speed is
+/// steady: 2e-5 m/s. Rounding in the solver makes up to a tenth of it; longer ones would join the
+/// rises and falls of what trembles.
+constexpr float kSteadyIn = 2e-3f;
+
 /// Returns the body's speed and spin as a multiple of the engine's tolerances.
 float SpeedOf(const b2Body& body) {
   const float spin = body.GetAngularVelocity() / b2_angularSleepTolerance;
@@ -54,7 +59,7 @@ bool IsHeld(b2Body* body) {
 
 void SlowWatch::Reset(std::size_t bodies) {
   going_s_.assign(bodies, 0);
-  before_.assign(bodies, 0);
+  before_.assign(bodies, Motion());
   found_.assign(bodies, 0);
 }
 
@@ -62,7 +67,7 @@ void SlowWatch::Before(const std::vector<int>& present, const BuiltScene& built)
   for (const int body : present) {
     const auto i = static_cast<std::size_t>(body);
     const b2Body& b = *built.moving[i].body;
-    if (b.IsAwake()) before_[i] = SpeedOf(b);
+    if (b.IsAwake()) before_[i] = {SpeedOf(b), b.GetLinearVelocity(), b.GetAngularVelocity()};
   }
 }
 
@@ -74,11 +79,18 @@ void SlowWatch::After(const std::vector<int>& present, const std::vector<Activit
     b2Body* b = built.moving[i].body;
     float& quiet = b->*Member(QuietTime());
     const bool goes = b->IsAwake() && quiet > 0 && activities[i] == Activity::kSimulated &&
-                      GoesOn(b, before_[i], h);
-    const float after = SpeedOf(*b), lost = before_[i] - after;
+                      GoesOn(b, before_[i].speed, h);
+    const float after = SpeedOf(*b), lost = before_[i].speed - after;
+    const bool same_way = b2Dot(b->GetLinearVelocity(), before_[i].velocity) /
+                                  (b2_linearSleepTolerance * b2_linearSleepTolerance) +
+                              b->GetAngularVelocity() * before_[i].spin /
+                                  (b2_angularSleepTolerance * b2_angularSleepTolerance) >=
+                          0;
     float& going = going_s_[i];
     if (!goes) {
       going = 0;
+    } else if (same_way && std::fabs(lost) <= kSteadyIn * h) {
+      going += going < 0 ? -h : h;
     } else if (lost < 0) {
       going = std::fabs(going) + h;
     } else {

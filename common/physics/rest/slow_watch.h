@@ -14,7 +14,8 @@
 ///
 /// The way left is v / (-dv/dt / v), as if the speed went on to fall at its present relative rate.
 /// A fall and the rise after it count as one, a rise and the fall after it do not: what trembles
-/// faster than 1.3 times in a second sleeps.
+/// faster than 1.3 times in a second sleeps. A steady speed is neither: in a body that a belt or a
+/// motor drives, rounding makes it rise and fall in its last digits.
 
 #include <cstdint>
 #include <vector>
@@ -41,11 +42,16 @@ class SlowWatch {
   void Restore(int body, float going_s) { going_s_[static_cast<std::size_t>(body)] = going_s; }
 
  private:
+  struct Motion {
+    float speed = 0;  // SpeedOf
+    b2Vec2 velocity{0, 0};
+    float spin = 0;
+  };
   bool GoesOn(b2Body* body, float before, float h);
   bool Rests(b2Body* body);
 
   std::vector<float> going_s_;       // by moving body
-  std::vector<float> before_;        // by moving body: SpeedOf before the step
+  std::vector<Motion> before_;       // by moving body: before the step
   std::vector<std::int64_t> found_;  // by moving body: steps_, negative if it does not rest
   std::vector<b2Body*> chain_;       // scratch
   std::int64_t steps_ = 0;           // number of After
