@@ -149,6 +149,11 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
 
 void ChainCheck::NoteHole(const Seal& seal) {
   if (seal.peer != 0) return;
+  // One of no tick names the last sealed tick, which may be another peer's; 0 before the first.
+  if (seal.messages < 0 &&
+      (seal.tick == 0 || (server_session_ == seal.session && seal.tick <= server_tick_))) {
+    return;
+  }
   const std::int64_t next = server_tick_ + 1;
   if (!damaged_ && next > 0 && server_session_ == seal.session && seal.messages >= 0 &&
       seal.first_tick > next) {

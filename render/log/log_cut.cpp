@@ -110,17 +110,15 @@ std::int64_t ClockAhead(const std::unordered_map<std::uint64_t, std::int64_t>& f
   return *middle;
 }
 
-}  // namespace
-
-int RunLogCut(const LogCutCommand& command) {
-  const Recording recording = ReadRecording(command.log, command.room, command.session);
-  ReportDamage("seam-log", command.log, recording);
-  const KeptTicks kept = TicksToKeep(command, recording);
-  RequireUndamaged(command.log, recording.damage, kept.last);
-  LogCopy copy(command.out, command.force, {command.log});
-  LogReader reader(command.log);
+/// Calls `take(event, place, message, in_part)` for the messages of the recording's session: where
+/// each stands in the log, and whether it is of the ticks, or of those that readers need of before.
+template <class Take>
+void EachEvent(const std::string& log, const Recording& recording, const KeptTicks& kept,
+               const Take& take) {
+  LogReader reader(log);
   bool over = false;  // the messages without a tick go as those around them
-  for (LogEvent event; reader.Next(&event);) {
+  std::int64_t place = 0;
+  for (LogEvent event; reader.Next(&event); ++place) {
     const bool ours = RoomOfChannel(event.channel) == recording.room.room &&
                       SessionOf(event.data).value_or(0) == recording.room.session;
     if (!ours) continue;
@@ -130,8 +128,34 @@ int RunLogCut(const LogCutCommand& command) {
     if (tick && !std::holds_alternative<Inputs>(message)) over = *tick > kept.last;
     const bool before = tick && *tick < kept.first && !IsContext(message);
     const bool after = tick ? *tick > kept.last : over;
-    if (!before && !after) copy.Add(event, event.timestamp_us, message);
+    take(event, place, message, !before && !after);
   }
+}
+
+}  // namespace
+
+int RunLogCut(const LogCutCommand& command) {
+  const Recording recording = ReadRecording(command.log, command.room, command.session);
+  ReportDamage("seam-log", command.log, recording);
+  const KeptTicks kept = TicksToKeep(command, recording);
+  RequireUndamaged(command.log, recording.damage, kept.last);
+  // Messages stand in the order of arrival, with numbers by channel. All between the first and the
+  // last one of a channel that are kept go with them: what is late, too, leaves no gap.
+  std::unordered_map<std::string, std::int64_t> last;  // place of the last kept event by channel
+  EachEvent(command.log, recording, kept,
+            [&last](const LogEvent& event, std::int64_t place, const AnyMessage&, bool in_part) {
+              if (in_part) last[event.channel] = place;
+            });
+  LogCopy copy(command.out, command.force, {command.log});
+  std::unordered_set<std::string> begun;
+  EachEvent(
+      command.log, recording, kept,
+      [&](const LogEvent& event, std::int64_t place, const AnyMessage& message, bool in_part) {
+        if (in_part) begun.insert(event.channel);
+        const bool between = begun.count(event.channel) != 0;
+        if (!between || place > last[event.channel]) return;
+        copy.Add(event, event.timestamp_us, message);
+      });
   copy.Finish();
   std::printf("%s: %lld events\n", command.out.c_str(), static_cast<long long>(copy.events()));
   return StatusAfterReading(0);

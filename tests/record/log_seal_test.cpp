@@ -168,6 +168,33 @@ TEST(LogSeal, TicksThatTheLogLacksAreNamed) {
   EXPECT_EQ(DamageLines(recording).front(), "ticks 101 to 500 are missing");
 }
 
+TEST(LogSeal, OneOfNoTickIsNoTickOfTheRoom) {
+  TemporaryFile file;
+  Room room(file.path(), 3);
+  room.Say("before");  // as a cut's scene and edits, before its part
+  room.log.Flush();
+  room.tick = 60;
+  for (int i = 0; i < 9; ++i) room.Step();
+  room.log.Flush();
+  EXPECT_TRUE(ReadAll(file.path()).damage.empty());
+}
+
+TEST(LogSeal, AnotherPeersTickIsNoTickOfTheRoom) {
+  TemporaryFile file;
+  Room room(file.path(), 3);
+  for (int i = 0; i < 9; ++i) room.Step();
+  LogSeal late;
+  late.session = 77;
+  late.peer = 1;
+  late.tick = 5;
+  room.log.EndTick("SEAM.r.chain.1", late, true);
+  room.Say("before");
+  room.log.Flush();
+  for (int i = 0; i < 9; ++i) room.Step();
+  room.log.Flush();
+  EXPECT_TRUE(ReadAll(file.path()).damage.empty());
+}
+
 TEST(LogSeal, EveryFlippedBitIsReportedWithItsTicks) {
   TemporaryFile file;
   std::vector<std::int64_t> ends;

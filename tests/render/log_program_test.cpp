@@ -129,6 +129,17 @@ TEST_F(LogProgram, ACutHasTheTicksAndReadersTakeIt) {
   for (const std::string& name : files_->Names()) EXPECT_EQ(name.find("no.lcm"), std::string::npos);
 }
 
+TEST_F(LogProgram, ACutIsWholeWhereverItEnds) {
+  for (int first = 10; first < 220; first += 23) {
+    Run({"cut", At("run.lcm"), "--from-tick", std::to_string(first), "--to-tick",
+         std::to_string(first + 17), "-o", At("part.lcm"), "--force"});
+    const Recording part = ReadRecording(At("part.lcm"));
+    EXPECT_TRUE(DamageLines(part).empty()) << first << ": " << DamageLines(part).front();
+    EXPECT_EQ(part.first_tick, first);
+    EXPECT_EQ(part.last_tick, first + 17);
+  }
+}
+
 std::int64_t EventsOf(const std::string& path) {
   std::int64_t events = 0;
   LogReader reader(path);
