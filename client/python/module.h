@@ -29,8 +29,17 @@ pybind11::array_t<T> ArrayOf(const std::vector<T>& values, std::vector<pybind11:
   return array;
 }
 
-/// Returns the states of a view's bodies as arrays, with their names in `scene`.
-pybind11::dict ViewDict(const Scene& scene, const View& view);
+/// Bodies at a tick, as arrays by body.
+struct Bodies {
+  std::int64_t tick = 0;
+  std::vector<PartId> ids;
+  std::vector<std::string> names;
+  std::vector<float> poses, velocities;  ///< three of each body
+};
+/// Returns the bodies of a view, with their names in `scene`.
+Bodies BodiesOf(const Scene& scene, const View& view);
+/// Returns them for Python.
+pybind11::dict DictOf(const Bodies& bodies);
 
 /// Returns an input of axes in 1/127 and a bit for each button. Throws OperatorError for others.
 Input InputOf(int drive, int lift, int buttons);

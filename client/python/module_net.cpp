@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/python/guarded.h"
 #include "client/python/module.h"
 #include "client/python/udp_client.h"
 #include "common/base/check.h"
@@ -57,12 +58,11 @@ class PythonBus {
   std::vector<Arrival> arrived_;
 };
 
-py::list PollBus(PythonBus& bus, std::int64_t wait_us) {
-  std::vector<PythonBus::Arrival> arrived;
-  {
-    const py::gil_scoped_release release;
-    arrived = bus.Poll(wait_us);
-  }
+using OneBus = Guarded<PythonBus>;
+using OneClient = Guarded<UdpClient>;
+
+py::list PollBus(OneBus& bus, std::int64_t wait_us) {
+  const auto arrived = bus.Do([wait_us](PythonBus& b) { return b.Poll(wait_us); });
   py::list list;
   for (const PythonBus::Arrival& a : arrived) {
     list.append(py::make_tuple(a.subscription, a.channel, a.utime, py::bytes(a.message)));
@@ -87,13 +87,23 @@ Message DecodeChecked(const std::string& bytes) {
 }
 
 void AddBus(py::module_& module) {
-  py::class_<PythonBus>(module, "Bus")
+  py::class_<OneBus>(module, "Bus")
       .def(py::init<const std::string&>(), py::arg("url"))
-      .def("publish", &PythonBus::Publish, py::arg("channel"), py::arg("message"))
-      .def("subscribe", &PythonBus::Subscribe, py::arg("channels"), py::arg("number"),
-           py::call_guard<py::gil_scoped_release>())
+      .def(
+          "publish",
+          [](OneBus& bus, const std::string& channel, const std::string& message) {
+            bus.Do([&](PythonBus& b) { b.Publish(channel, message); });
+          },
+          py::arg("channel"), py::arg("message"))
+      .def(
+          "subscribe",
+          [](OneBus& bus, const std::string& channels, int number) {
+            bus.Do([&](PythonBus& b) { b.Subscribe(channels, number); });
+          },
+          py::arg("channels"), py::arg("number"))
       .def("poll", &PollBus, py::arg("wait_us"))
-      .def("warnings", &PythonBus::warnings);
+      .def("warnings",
+           [](OneBus& bus) { return bus.Quick([](PythonBus& b) { return b.warnings(); }); });
   module.def("encode_pose", [](std::int64_t utime, std::int64_t tick, int peer,
                                const std::string& name, double x, double y, double angle, double vx,
                                double vy, double spin) {
@@ -127,36 +137,47 @@ void AddBus(py::module_& module) {
 }
 
 void AddClient(py::module_& module) {
-  py::class_<UdpClient>(module, "Client")
+  py::class_<OneClient>(module, "Client")
       .def(py::init([](const std::string& server, const std::string& name, const std::string& room,
                        const std::string& server_key, const std::string& impair, std::int64_t seed,
                        const std::string& lcm_url, const std::string& record, bool force) {
-             return std::make_unique<UdpClient>(UdpClientConfig{
+             return std::make_unique<OneClient>(UdpClientConfig{
                  server, name, room, server_key, impair, seed, lcm_url, record, force});
            }),
            py::arg("server"), py::arg("name"), py::kw_only(), py::arg("room"),
            py::arg("server_key"), py::arg("impair"), py::arg("seed"), py::arg("lcm_url"),
            py::arg("record"), py::arg("force"))
-      .def("turn", &UdpClient::Turn, py::call_guard<py::gil_scoped_release>())
-      .def("leave", &UdpClient::Leave, py::call_guard<py::gil_scoped_release>())
+      .def("turn", [](OneClient& one) { one.Do([](UdpClient& c) { c.Turn(); }); })
+      .def("leave", [](OneClient& one) { one.Do([](UdpClient& c) { c.Leave(); }); })
       .def(
           "input",
-          [](UdpClient& client, int drive, int lift, int buttons) {
-            client.SetInput(InputOf(drive, lift, buttons));
+          [](OneClient& one, int drive, int lift, int buttons) {
+            const Input input = InputOf(drive, lift, buttons);
+            one.Quick([&](UdpClient& c) { c.SetInput(input); });
           },
           py::arg("drive"), py::arg("lift"), py::arg("buttons"))
-      .def("tick", &UdpClient::tick)
-      .def("tick_hz", [](const UdpClient& client) { return client.client().room().tick_hz; })
-      .def("peer", [](const UdpClient& client) { return client.client().peer(); })
-      .def("ended", &UdpClient::ended)
-      .def("joining_s",
-           [](const UdpClient& client) {
-             return static_cast<double>(client.client().joining_us(SteadyClockUs())) * 1e-6;
+      .def("tick", [](OneClient& one) { return one.Quick([](UdpClient& c) { return c.tick(); }); })
+      .def("tick_hz",
+           [](OneClient& one) {
+             return one.Quick([](UdpClient& c) { return c.client().room().tick_hz; });
            })
-      .def("notice", &UdpClient::TakeNotice)
-      .def("state", [](const UdpClient& client) {
-        const View view = client.ViewNow();  // throws before there is a world
-        return ViewDict(client.client().replica()->world().scene(), view);
+      .def("peer",
+           [](OneClient& one) { return one.Quick([](UdpClient& c) { return c.client().peer(); }); })
+      .def("ended",
+           [](OneClient& one) { return one.Quick([](UdpClient& c) { return c.ended(); }); })
+      .def("joining_s",
+           [](OneClient& one) {
+             return one.Quick([](UdpClient& c) {
+               return static_cast<double>(c.client().joining_us(SteadyClockUs())) * 1e-6;
+             });
+           })
+      .def("notice",
+           [](OneClient& one) { return one.Quick([](UdpClient& c) { return c.TakeNotice(); }); })
+      .def("state", [](OneClient& one) {
+        return DictOf(one.Quick([](UdpClient& c) {
+          const View view = c.ViewNow();  // throws before there is a world
+          return BodiesOf(c.client().replica()->world().scene(), view);
+        }));
       });
 }
 

@@ -5,6 +5,7 @@
 
 #include "client/embed/local_session.h"
 #include "client/embed/lone_world.h"
+#include "client/python/guarded.h"
 #include "client/python/module.h"
 #include "common/base/check.h"
 #include "common/base/find_scene.h"
@@ -16,37 +17,31 @@ namespace {
 
 namespace py = pybind11;
 
-/// Returns the states of bodies as arrays, with their names.
-py::dict StateDict(const Scene& scene, std::int64_t tick, const std::vector<PartId>& ids,
-                   const std::vector<float>& poses, const std::vector<float>& velocities) {
+using OneWorld = Guarded<LoneWorld>;
+using OneSession = Guarded<LocalSession>;
+
+std::vector<std::string> NamesOf(const Scene& scene, const std::vector<PartId>& ids) {
   std::vector<std::string> names;
   for (const PartId id : ids) names.push_back(scene.parts.at(static_cast<std::size_t>(id)).name);
-  const auto bodies = static_cast<py::ssize_t>(ids.size());
-  py::dict dict;
-  dict["tick"] = tick;
-  dict["ids"] = ArrayOf(ids, {bodies});
-  dict["names"] = names;
-  dict["poses"] = ArrayOf(poses, {bodies, 3});
-  dict["velocities"] = ArrayOf(velocities, {bodies, 3});
-  return dict;
+  return names;
 }
 
-py::dict WorldState(const LoneWorld& alone) {
-  const World& world = alone.world();
-  std::vector<PartId> ids;
-  std::vector<float> poses, velocities;
+Bodies WorldBodies(const World& world) {
+  Bodies bodies;
+  bodies.tick = world.tick();
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyState s = world.Read(body);
-    ids.push_back(world.id(body));
-    poses.insert(poses.end(), {s.position.x(), s.position.y(), s.angle});
-    velocities.insert(velocities.end(), {s.velocity.x(), s.velocity.y(), s.spin});
+    bodies.ids.push_back(world.id(body));
+    bodies.poses.insert(bodies.poses.end(), {s.position.x(), s.position.y(), s.angle});
+    bodies.velocities.insert(bodies.velocities.end(), {s.velocity.x(), s.velocity.y(), s.spin});
   }
-  return StateDict(world.scene(), world.tick(), ids, poses, velocities);
+  bodies.names = NamesOf(world.scene(), bodies.ids);
+  return bodies;
 }
 
-py::dict SessionState(const LocalSession& session, int peer) {
+Bodies SessionBodies(const LocalSession& session, int peer) {
   // The server's world has every part of which a peer can show a body.
-  return ViewDict(session.server().replica().world().scene(), session.ViewOf(peer));
+  return BodiesOf(session.server().replica().world().scene(), session.ViewOf(peer));
 }
 
 std::vector<std::string> PlayersOf(const Scene& scene) {
@@ -60,37 +55,36 @@ void Require(const Status& status) {
 }
 
 /// Returns the measures of all that a session has recorded.
-py::dict MeasureSession(LocalSession& session) {
-  Measures measures;
-  std::string valid;
-  {
-    const py::gil_scoped_release release;
-    const Recording& recording = session.recording();
-    if (recording.views.empty()) {
-      throw OperatorError("nothing to measure: a session with keep=True, after some ticks");
-    }
-    const Oracle oracle = ComputeOracle(recording, JudgeOf(recording.room));
-    measures = Measure(recording, oracle);
-    MeasureResponse(recording, oracle, &measures);
-    valid = WhyNotValid(recording, oracle, measures);
+Measures MeasureSession(LocalSession& session, std::string* valid) {
+  const Recording& recording = session.recording();
+  if (recording.views.empty()) {
+    throw OperatorError("nothing to measure: a session with keep=True, after some ticks");
   }
-  return MeasuresDict(measures, valid);
+  const Oracle oracle = ComputeOracle(recording, JudgeOf(recording.room));
+  Measures measures = Measure(recording, oracle);
+  MeasureResponse(recording, oracle, &measures);
+  *valid = WhyNotValid(recording, oracle, measures);
+  return measures;
 }
 
 void AddWorld(py::module_& module) {
-  py::class_<LoneWorld>(module, "World")
+  py::class_<OneWorld>(module, "World")
       .def(py::init<const Scene&>(), py::arg("scene"))
-      .def("reset", &LoneWorld::Reset)
-      .def("step", &LoneWorld::Step, py::arg("ticks"), py::call_guard<py::gil_scoped_release>())
+      .def("reset", [](OneWorld& world) { world.Quick([](LoneWorld& w) { w.Reset(); }); })
+      .def(
+          "step",
+          [](OneWorld& world, int ticks) { world.Do([ticks](LoneWorld& w) { w.Step(ticks); }); },
+          py::arg("ticks"))
       .def(
           "input",
-          [](LoneWorld& world, int player, int drive, int lift, int buttons) {
-            Require(world.SetInput(player, InputOf(drive, lift, buttons)));
+          [](OneWorld& world, int player, int drive, int lift, int buttons) {
+            const Input input = InputOf(drive, lift, buttons);
+            Require(world.Quick([&](LoneWorld& w) { return w.SetInput(player, input); }));
           },
           py::arg("player"), py::arg("drive"), py::arg("lift"), py::arg("buttons"))
       .def(
           "write",
-          [](LoneWorld& world, PartId id, const std::vector<float>& pose,
+          [](OneWorld& world, PartId id, const std::vector<float>& pose,
              const std::vector<float>& velocity) {
             if (pose.size() != 3 || velocity.size() != 3) {
               throw OperatorError("a pose is x, y, angle; a velocity is vx, vy, spin");
@@ -100,24 +94,31 @@ void AddWorld(py::module_& module) {
             state.angle = pose[2];
             state.velocity = {velocity[0], velocity[1]};
             state.spin = velocity[2];
-            Require(world.Write(id, state));
+            Require(world.Quick([&](LoneWorld& w) { return w.Write(id, state); }));
           },
           py::arg("id"), py::arg("pose"), py::arg("velocity"))
       .def("save",
-           [](LoneWorld& world) {
-             const Bytes bytes = world.Save();
+           [](OneWorld& world) {
+             const Bytes bytes = world.Quick([](LoneWorld& w) { return w.Save(); });
              return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
            })
       .def(
           "load",
-          [](LoneWorld& world, const std::string& bytes) { Require(world.Load(TextBytes(bytes))); },
+          [](OneWorld& world, const std::string& bytes) {
+            Require(world.Quick([&](LoneWorld& w) { return w.Load(TextBytes(bytes)); }));
+          },
           py::arg("bytes"))
-      .def("state", &WorldState)
-      .def("energy", [](const LoneWorld& world) { return world.world().Energy(); });
+      .def("state",
+           [](OneWorld& world) {
+             return DictOf(world.Quick([](LoneWorld& w) { return WorldBodies(w.world()); }));
+           })
+      .def("energy", [](OneWorld& world) {
+        return world.Quick([](LoneWorld& w) { return w.world().Energy(); });
+      });
 }
 
 void AddSession(py::module_& module) {
-  py::class_<LocalSession>(module, "Session")
+  py::class_<OneSession>(module, "Session")
       .def(py::init([](const Scene& scene, const std::string& mode, const std::string& reconcile,
                        const std::string& predict, const std::string& impair, std::int64_t seed,
                        int send_hz, const std::string& drive, const std::string& record, bool force,
@@ -133,34 +134,64 @@ void AddSession(py::module_& module) {
              config.record = record;
              config.force = force;
              config.keep = keep;
-             return std::make_unique<LocalSession>(scene, config);
+             return std::make_unique<OneSession>(scene, config);
            }),
            py::arg("scene"), py::kw_only(), py::arg("mode"), py::arg("reconcile"),
            py::arg("predict"), py::arg("impair"), py::arg("seed"), py::arg("send_hz"),
            py::arg("drive"), py::arg("record"), py::arg("force"), py::arg("keep"))
-      .def("run_to", &LocalSession::RunToTick, py::arg("tick"),
-           py::call_guard<py::gil_scoped_release>())
-      .def("tick", &LocalSession::tick)
+      .def(
+          "run_to",
+          [](OneSession& session, std::int64_t tick) {
+            session.Do([tick](LocalSession& s) { s.RunToTick(tick); });
+          },
+          py::arg("tick"))
+      .def("tick",
+           [](OneSession& session) {
+             return session.Quick([](LocalSession& s) { return s.tick(); });
+           })
       .def(
           "input",
-          [](LocalSession& session, int player, int drive, int lift, int buttons) {
-            session.SetInput(player, InputOf(drive, lift, buttons));
+          [](OneSession& session, int player, int drive, int lift, int buttons) {
+            const Input input = InputOf(drive, lift, buttons);
+            session.Quick([&](LocalSession& s) { s.SetInput(player, input); });
           },
           py::arg("player"), py::arg("drive"), py::arg("lift"), py::arg("buttons"))
-      .def("state", &SessionState, py::arg("peer"))
-      .def("flush", &LocalSession::Flush)
-      .def("measure", &MeasureSession);
+      .def(
+          "state",
+          [](OneSession& session, int peer) {
+            return DictOf(
+                session.Quick([peer](LocalSession& s) { return SessionBodies(s, peer); }));
+          },
+          py::arg("peer"))
+      .def("flush", [](OneSession& session) { session.Do([](LocalSession& s) { s.Flush(); }); })
+      .def("measure", [](OneSession& session) {
+        std::string valid;
+        const Measures measures =
+            session.Do([&valid](LocalSession& s) { return MeasureSession(s, &valid); });
+        return MeasuresDict(measures, valid);
+      });
 }
 
 }  // namespace
 
-py::dict ViewDict(const Scene& scene, const View& view) {
-  std::vector<float> poses, velocities;
+Bodies BodiesOf(const Scene& scene, const View& view) {
+  Bodies bodies{view.tick, view.id, NamesOf(scene, view.id), {}, {}};
   for (std::size_t i = 0; i < view.id.size(); ++i) {
-    poses.insert(poses.end(), {view.x[i], view.y[i], view.angle[i]});
-    velocities.insert(velocities.end(), {view.vx[i], view.vy[i], view.spin[i]});
+    bodies.poses.insert(bodies.poses.end(), {view.x[i], view.y[i], view.angle[i]});
+    bodies.velocities.insert(bodies.velocities.end(), {view.vx[i], view.vy[i], view.spin[i]});
   }
-  return StateDict(scene, view.tick, view.id, poses, velocities);
+  return bodies;
+}
+
+py::dict DictOf(const Bodies& of) {
+  const auto bodies = static_cast<py::ssize_t>(of.ids.size());
+  py::dict dict;
+  dict["tick"] = of.tick;
+  dict["ids"] = ArrayOf(of.ids, {bodies});
+  dict["names"] = of.names;
+  dict["poses"] = ArrayOf(of.poses, {bodies, 3});
+  dict["velocities"] = ArrayOf(of.velocities, {bodies, 3});
+  return dict;
 }
 
 Input InputOf(int drive, int lift, int buttons) {

@@ -54,7 +54,10 @@ class PythonModule : public ::testing::Test {
   }
 
   static void Check(const std::string& cases) {
-    const auto run = Python({"tests/process/check_seam.py", Log(), *made_ / "views.csv", cases});
+    CheckAs({"tests/process/check_seam.py", Log(), *made_ / "views.csv", cases});
+  }
+  static void CheckAs(const Words& words) {
+    const auto run = Python(words);
     EXPECT_EQ(run->status(), 0) << run->Story();
     EXPECT_NE(run->errors().find("\nOK"), std::string::npos) << run->Story();
   }
@@ -68,6 +71,16 @@ TEST_F(PythonModule, RunsSessionsOfTwoClients) { Check("RunsSessions"); }
 
 TEST_F(PythonModule, KnowsTheLcmTypesAsLcmGenMakesThem) { Check("KnowsLcmTypes"); }
 TEST_F(PythonModule, JoinsServersAndDrives) { Check("JoinsServers"); }
+
+TEST_F(PythonModule, ThreadsShareAnObjectAndItTakesOneCallAtATime) {
+  CheckAs({"tests/process/check_shared.py", Log(), "SharesObjects"});
+}
+TEST_F(PythonModule, AHandlerThatRaisesLosesItsOwnMessageAlone) {
+  CheckAs({"tests/process/check_shared.py", Log(), "HandlesMessages"});
+}
+TEST_F(PythonModule, AnErrorThatIsNotKnownHasNoNumber) {
+  CheckAs({"tests/process/check_shared.py", *made_ / "cut.lcm", "Measures"});
+}
 
 TEST_F(PythonModule, EachExampleRunsAndPrintsWhatItSays) {
   const auto error = Python({"docs/examples/error_over_time.py", Log()});

@@ -17,7 +17,7 @@ class Client:
     `server`: host:port; `name`: the player to be, "" only looks on; `room`: "" is the server's
     first; `impair`: a network profile, both directions; `lcm_url`: a bus for its views ("none":
     none); `record`: a log to write. The client lives in `join` and `step`: a program that calls
-    neither for 5 s has to join anew. For one thread.
+    neither for 5 s has to join anew. It takes one call at a time.
     """
 
     def __init__(

@@ -11,6 +11,7 @@ Drive, Pose and Message are the types that rooms understand (docs/recordings.md)
 
 from __future__ import annotations
 
+import collections
 import dataclasses
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol, Union
@@ -94,7 +95,7 @@ Handler = Callable[[str, Any], object]
 
 
 class Bus:
-    """The bus of `url` (LCM's; "": LCM_DEFAULT_URL, or LCM's default). For one thread.
+    """The bus of `url` (LCM's; "": LCM_DEFAULT_URL, or LCM's default). It takes one call at a time.
 
     `refused`: messages that have come on a typed subscription and were of another type.
     """
@@ -102,6 +103,7 @@ class Bus:
     def __init__(self, url: str = "") -> None:
         self._bus = _seam.Bus(url)
         self._subscriptions: list[tuple[Handler, Decodes | None]] = []
+        self._arrived: collections.deque[tuple[int, str, int, bytes]] = collections.deque()
         self.refused = 0
 
     def publish(self, channel: str, message: Union[bytes, Encodes]) -> None:
@@ -117,9 +119,14 @@ class Bus:
 
     def poll(self, timeout: float = 0.0) -> int:
         """Calls the handlers of what has come; waits at most `timeout` s for the first message.
-        Returns the number of messages."""
-        arrived = self._bus.poll(round(1e6 * timeout))
-        for number, channel, _, data in arrived:
+        Returns the number of messages. When a handler raises, those behind its message are for
+        the next call."""
+        arrived = self._arrived
+        arrived.extend(self._bus.poll(0 if arrived else round(1e6 * timeout)))
+        taken = 0
+        while arrived:
+            number, channel, _, data = arrived.popleft()
+            taken += 1
             handler, type = self._subscriptions[number]
             if type is None:
                 handler(channel, data)
@@ -130,7 +137,7 @@ class Bus:
                 self.refused += 1
                 continue
             handler(channel, message)
-        return len(arrived)
+        return taken
 
     @property
     def warnings(self) -> list[str]:
