@@ -34,12 +34,14 @@ struct Flags {
   std::string lcm_url;
   std::string drive;
   std::string control;  // address of a server's door; "": none
+  std::string token;    // "": one of its own
   bool oracle = false;
   bool quiet = false;
 };
 
 /// Time between two looks at logs that grow, us.
 constexpr std::int64_t kLogsUs = 10000;
+constexpr std::size_t kTokenMin = 16;
 /// Messages that are read at a time, between two looks at the watchers.
 constexpr int kMessagesAtATime = 2000;
 
@@ -57,6 +59,10 @@ void Define(Command& app, Flags& f) {
       "--control", f.control,
       "let the page change the room, and drag bodies: the address that seam-server --control "
       "prints (-: a line of standard input)");
+  app.Option("--token", f.token,
+             "of the page's address, instead of a new one: - is a line of standard input, behind "
+             "that of --control")
+      .OneOf({"-"});
   app.Switch("--oracle", f.oracle,
              "simulate the session in one world beside it, and show each view's error against it");
   app.Switch("--quiet", f.quiet, "do not print the page's address");
@@ -74,6 +80,19 @@ std::unique_ptr<ControlLine> ControlOf(std::string address) {
   if (address.empty()) return nullptr;
   if (address == "-") std::getline(std::cin, address);
   return std::make_unique<ControlLine>(address);
+}
+
+/// Returns what a page needs to drive and to control; "": it may do neither.
+std::string TokenOf(const Flags& f) {
+  if (f.drive.empty() && f.control.empty()) return "";
+  OsEntropy entropy;
+  if (f.token.empty()) return SecretDigits(entropy);
+  std::string token;
+  std::getline(std::cin, token);
+  if (token.size() < kTokenMin || !IsName(token)) {
+    throw OperatorError("--token takes a line of 16 to 32 letters and digits on standard input");
+  }
+  return token;
 }
 
 /// Reads what has come to the logs; false when nothing has.
@@ -113,8 +132,7 @@ int Run(const Flags& f) {
   }
   HttpServer server(static_cast<std::uint16_t>(f.port));
   const std::unique_ptr<ControlLine> control = ControlOf(f.control);
-  OsEntropy entropy;
-  const std::string token = f.drive.empty() && control == nullptr ? "" : SecretDigits(entropy);
+  const std::string token = TokenOf(f);
   const auto command = [&](std::int64_t now_us, const std::string& line) {
     const Status done = control->Send(now_us, line);
     feed.ShowControl(control->state());

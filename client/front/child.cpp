@@ -28,6 +28,16 @@ void Give(int fd, int as) {
 
 }  // namespace
 
+int ReadableText(const std::string& text) {
+  int pipe[2] = {-1, -1};
+  if (pipe2(pipe, O_CLOEXEC) != 0) throw OperatorError("no pipe");
+  const bool written =
+      write(pipe[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  close(pipe[1]);
+  if (!written) throw OperatorError("no pipe");
+  return pipe[0];
+}
+
 Child::Child(const std::vector<std::string>& words, const ChildFiles& files) : name_(words[0]) {
   std::vector<std::string> copies = words;
   std::vector<char*> argv;
@@ -55,13 +65,13 @@ Child::Child(const std::vector<std::string>& words, const ChildFiles& files) : n
   _exit(127);
 }
 
-Child::~Child() {
-  if (!running()) return;
+int Child::End() {
   Interrupt();
   for (int i = 0; i < 300 && running(); ++i) SleepUs(10000);
-  if (!running()) return;
+  if (!running()) return status_;
   kill(pid_, SIGKILL);
   (void)waitpid(pid_, nullptr, 0);
+  return status_ = 128 + SIGKILL;
 }
 
 bool Child::running() {

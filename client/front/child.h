@@ -6,6 +6,9 @@
 
 namespace seam {
 
+/// Returns a descriptor from which a short text is read, and then the end.
+int ReadableText(const std::string& text);
+
 /// The files of a program that is started; -1: as ours, or none.
 struct ChildFiles {
   int input = -1;         ///< standard input; -1: empty
@@ -19,8 +22,7 @@ class Child {
  public:
   /// Starts a program; it ends by SIGTERM if we die. Throws OperatorError if it cannot be started.
   Child(const std::vector<std::string>& words, const ChildFiles& files);
-  /// Ends it: SIGINT, and SIGKILL after 3 s.
-  ~Child();
+  ~Child() { End(); }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
@@ -31,6 +33,8 @@ class Child {
   const std::string& name() const { return name_; }
   /// Asks it to end, and does not wait.
   void Interrupt();
+  /// Ends it: SIGINT, and SIGKILL after 3 s. Returns status().
+  int End();
 
  private:
   std::string name_;

@@ -15,8 +15,11 @@
 #include "client/front/child.h"
 #include "client/front/verbs.h"
 #include "common/base/check.h"
+#include "common/base/entropy.h"
 #include "common/base/find_scene.h"
+#include "common/base/hex.h"
 #include "common/base/process.h"
+#include "common/net/http_server.h"
 
 namespace seam {
 namespace {
@@ -74,15 +77,22 @@ class SaveWatch {
 class Editing {
  public:
   explicit Editing(const EditOptions& options)
-      : options_(options), path_(FindScene(options.scene)), watch_(path_) {}
+      : options_(options), path_(FindScene(options.scene)), watch_(path_) {
+    if (!options_.play) return;
+    OsEntropy entropy;
+    token_ = SecretDigits(entropy);
+    port_ = options_.room.port != 0 ? options_.room.port : HttpServer(0).port();
+  }
 
   int Run() {
     Look();
     while (g_stop == 0) {
       if (watch_.Saved()) Look();
-      if (room_ != nullptr && !room_->running()) room_.reset();
+      if (room_ == nullptr || room_->running()) continue;
+      status_ = room_->status() == 1 ? 1 : 0;
+      room_.reset();
     }
-    return 0;
+    return room_ != nullptr && room_->End() == 1 ? 1 : status_;
   }
 
  private:
@@ -108,20 +118,28 @@ class Editing {
 
   void Play() {
     room_.reset();  // ends the room of before
+    status_ = 0;
     const PlayOptions& o = options_.room;
     std::vector<std::string> words = {
-        "seam",   "play", path_,    "--no-browser",         "--impair", o.impair,
-        "--mode", o.mode, "--bots", std::to_string(o.bots), "--port",   std::to_string(o.port)};
+        "seam",    "play", path_,    "--no-browser",         "--impair", o.impair,
+        "--mode",  o.mode, "--bots", std::to_string(o.bots), "--port",   std::to_string(port_),
+        "--token", "-"};
     if (!o.name.empty()) words.insert(words.end(), {"--name", o.name});
     ChildFiles files;
     files.errors = STDERR_FILENO;
+    files.input = ReadableText(token_ + "\n");
     room_ = std::make_unique<Child>(words, files);
+    close(files.input);
   }
 
   const EditOptions options_;
   const std::string path_;
   SaveWatch watch_;
+  // Of all rooms, so that the open page goes on with the next one.
+  std::string token_;
+  int port_ = 0;
   std::unique_ptr<Child> room_;  // `seam play`
+  int status_ = 0;               // of the last one, if it has ended
 };
 
 }  // namespace

@@ -13,8 +13,8 @@ struct EditOptions {
   PlayOptions room;   ///< of that; its scene is not used
 };
 
-/// Runs until Ctrl-C. Returns the exit status. Throws OperatorError when there is no such scene, or
-/// its folder cannot be watched.
+/// Runs until Ctrl-C. Returns the exit status: 1 if the script of the last room was stopped. Throws
+/// OperatorError when there is no such scene, or its folder cannot be watched.
 int EditScene(const EditOptions& options);
 
 }  // namespace seam

@@ -34,6 +34,10 @@ void AddPlay(Command& command, FrontCommands& f) {
   command.Option("--mode", o.mode, "as of seam-server (buffer)");
   command.Option("--bots", o.bots, "at most so many other players (7)").Range(0, 31);
   command.Option("--port", o.port, "of the page; 0: any that is free (0)").Range(0, 65535);
+  command
+      .Option("--token", o.token,
+              "of the page's address, instead of a new one: - is a line of standard input")
+      .OneOf({"-"});
   command.Option("--duration", o.duration_s, "seconds (0: until stopped)").Range(0.0, 1e6);
   command.Switch("--no-browser", f.no_browser, "only print the page's address");
 }

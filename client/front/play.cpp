@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <vector>
 
@@ -54,18 +55,6 @@ std::string WordAfter(const std::string& text, const std::string& mark) {
   return end == std::string::npos ? "" : text.substr(begin, end - begin);
 }
 
-/// Returns a descriptor from which one line is read, and then the end.
-int ReadableLine(const std::string& line) {
-  int pipe[2] = {-1, -1};
-  const std::string text = line + "\n";
-  if (pipe2(pipe, O_CLOEXEC) != 0) throw OperatorError("no pipe");
-  const bool written =
-      write(pipe[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  close(pipe[1]);
-  if (!written) throw OperatorError("no pipe");
-  return pipe[0];
-}
-
 /// True if LCM's bus works here.
 bool BusWorks() {
   try {
@@ -86,11 +75,15 @@ class Session {
 
   int Run() {
     ChoosePlayers();
+    if (options_.token == "-") std::getline(std::cin, token_);
     StartServer();
     if (g_stop == 0) StartView();
     if (g_stop == 0) StartPlayers();
     if (g_stop == 0 && options_.browser) OpenBrowser();
-    while (g_stop == 0 && AllRun()) SleepUs(50000);
+    while (g_stop == 0 && AllRun()) {
+      TellTroubles();
+      SleepUs(50000);
+    }
     return End();
   }
 
@@ -122,14 +115,14 @@ class Session {
     return children_.back().get();
   }
 
-  /// Waits for a text among what a program says. Throws its first line if it ends before.
+  /// Waits for a text among what a program says. Throws its last line if it ends before.
   std::string WaitFor(Child* child, const std::string& as, const std::string& mark) {
     const std::int64_t begin_us = SteadyClockUs();
     while (g_stop == 0) {
       const std::string text = ReadPlainFile(FileOf(as), 1 << 20);
       const std::string word = WordAfter(text, mark);
       if (!word.empty()) return word;
-      if (!child->running()) throw OperatorError(FirstLine(as));
+      if (!child->running()) throw OperatorError(LastLine(as));
       if (static_cast<double>(SteadyClockUs() - begin_us) * 1e-6 > kStart_s) {
         throw OperatorError(as + " does not start");
       }
@@ -138,10 +131,30 @@ class Session {
     return "";
   }
 
-  std::string FirstLine(const std::string& as) const {
-    const std::string text = ReadPlainFile(FileOf(as), 1 << 20);
-    const std::string line = text.substr(0, text.find('\n'));
+  /// Returns the last line that a program has said: an error, if it has ended by one.
+  std::string LastLine(const std::string& as) const {
+    std::string text = ReadPlainFile(FileOf(as), 1 << 20);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    const std::string line = text.substr(text.rfind('\n') + 1);
     return line.empty() ? as + " has ended" : line;
+  }
+
+  /// Prints the server's lines about trouble in its room, such as a script that is stopped: all
+  /// that it says between its start and its summary. A terminal that shows the room has them at the
+  /// end.
+  void TellTroubles() {
+    if (heard_ == std::string::npos) return;
+    const std::string text = ReadPlainFile(FileOf("server"), 1 << 20);
+    for (std::size_t end = 0; (end = text.find('\n', heard_)) != std::string::npos;) {
+      const std::string line = text.substr(heard_, end - heard_);
+      if (line.find(" ticks; dropped ") != std::string::npos) return;  // the summary
+      heard_ = end + 1;
+      troubles_.push_back(line);
+    }
+    if (in_terminal_) return;
+    for (; told_ < troubles_.size(); ++told_) {
+      std::fprintf(stderr, "%s\n", troubles_[told_].c_str());
+    }
   }
 
   /// Adds the flags by which a program's messages reach the view.
@@ -160,11 +173,15 @@ class Session {
                                    "--mode",      options_.mode,
                                    "--wait",      std::to_string(players),
                                    "--duration",  std::to_string(options_.duration_s),
-                                   "--control",   "0"};
+                                   "--control",   "0",
+                                   "--quiet"};
     AddBus("server", &words);
     Child* server = Start("server", words, {});
     control_ = "http://127.0.0.1:" + WaitFor(server, "server", "control at http://127.0.0.1:");
     address_ = "127.0.0.1:" + WaitFor(server, "server", "on 127.0.0.1:");
+    if (g_stop != 0) return;
+    const std::string text = ReadPlainFile(FileOf("server"), 1 << 20);
+    heard_ = text.find('\n', text.find("control at ")) + 1;
   }
 
   void StartView() {
@@ -173,6 +190,7 @@ class Session {
                                    "--room",    room_,    "--oracle",
                                    "--control", "-"};
     if (options_.drive) words.insert(words.end(), {"--drive", own_});
+    if (!token_.empty()) words.insert(words.end(), {"--token", "-"});
     if (!on_bus_) {
       logs.push_back(folder_ / (own_ + ".lcm"));
       for (const std::string& bot : bots_) logs.push_back(folder_ / (bot + ".lcm"));
@@ -184,7 +202,7 @@ class Session {
     if (options_.drive && pipe2(pipe, O_CLOEXEC) != 0) throw OperatorError("no pipe");
     ChildFiles files;
     files.output = pipe[1];
-    files.input = ReadableLine(control_);
+    files.input = ReadableText(control_ + "\n" + token_ + "\n");
     Child* view = Start("view", words, files);
     close(files.input);
     if (pipe[1] >= 0) close(pipe[1]);
@@ -208,13 +226,15 @@ class Session {
     ChildFiles files;
     files.third = keys_;
     files.terminal = IsTerminal();
+    in_terminal_ = files.terminal;
     if (files.terminal) {
       words.insert(words.end(), {"--drive", "keyboard", "--hint", "also " + page_});
-    } else {
+    }
+    player_ = Start(own_, words, files);
+    if (!files.terminal) {
       std::fprintf(stderr, "seam: drive %s there by arrows or WASD; Ctrl-C ends it\n",
                    own_.c_str());
     }
-    player_ = Start(own_, words, files);
     close(keys_);
   }
 
@@ -238,6 +258,14 @@ class Session {
     return true;
   }
 
+  /// Says why a program has ended by itself.
+  std::string WhyEnded(std::size_t child) const {
+    const int status = children_[child]->status();
+    if (status <= 128) return LastLine(names_[child]);
+    return "seam: " + children_[child]->name() + " was killed by signal " +
+           std::to_string(status - 128);
+  }
+
   /// Ends the programs, the players first; returns the exit status.
   int End() {
     std::string ended;
@@ -245,13 +273,17 @@ class Session {
     for (std::size_t i = 0; i < children_.size() && g_stop == 0; ++i) {
       if (children_[i]->running() || names_[i] == "browser") continue;
       status = children_[i]->status();
-      if (status != 0) ended = FirstLine(names_[i]);
+      if (status != 0) ended = WhyEnded(i);
       break;
     }
     if (player_ != nullptr) player_->Interrupt();
-    for (std::size_t i = children_.size(); i-- > 0;) children_[i].reset();
-    if (status != 0) std::fprintf(stderr, "%s\n", ended.c_str());
-    return status == 0 ? 0 : 1;
+    for (std::size_t i = children_.size(); i-- > 0;) children_[i]->End();
+    in_terminal_ = false;
+    TellTroubles();
+    // The server is the first. It ends with 1 because of what it has said.
+    const bool told = !troubles_.empty() && children_[0]->status() == 1;
+    if (status != 0 && !told) std::fprintf(stderr, "%s\n", ended.c_str());
+    return status == 0 && !told ? 0 : 1;
   }
 
   const PlayOptions options_;
@@ -263,6 +295,11 @@ class Session {
   std::vector<std::unique_ptr<Child>> children_;
   Child* player_ = nullptr;  // among children_
   std::string address_, page_, control_;
+  std::string token_;                      // of the page; "": its own
+  std::vector<std::string> troubles_;      // lines of the server
+  std::size_t heard_ = std::string::npos;  // bytes of its lines; npos: it starts
+  std::size_t told_ = 0;                   // of troubles_
+  bool in_terminal_ = false;               // the player shows the room in our terminal
   int keys_ = -1;  // the page's inputs come here
 };
 

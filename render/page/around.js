@@ -5,7 +5,7 @@ const AROUND_SECONDS = {
   before: 0.5,
   after: 2
 };
-const AROUND_KINDS = ['impact', 'hand-over', 'correction', 'edit', 'note'];
+const AROUND_KINDS = ['impact', 'hand-over', 'correction', 'edit', 'note', 'warning'];
 
 // Returns the run's event that is nearest to a tick since its first; of one kind, if one is given.
 function nearestEvent(run, tick, kind) {

@@ -116,7 +116,10 @@ std::vector<PageEvent> EventsOf(const Playback& playback) {
   return all;
 }
 
-PageEvent NoteOf(const Event& event) { return Make(event.tick, "note", event.peer, 0, event.text); }
+PageEvent NoteOf(const Event& event) {
+  const bool warns = event.kind == static_cast<std::int8_t>(EventKind::kWarning);
+  return Make(event.tick, warns ? "warning" : "note", event.peer, 0, event.text);
+}
 
 std::vector<PageEvent> EditsAfter(const Playback& playback, int number) {
   static const char* const kMarkNames[] = {"nothing", "joint broken", "bond", "parts inserted",

@@ -11,7 +11,7 @@ namespace seam {
 
 struct PageEvent {
   std::int64_t tick = 0;
-  std::string kind;     ///< impact | hand-over | edit | correction | gap | join | note
+  std::string kind;     ///< impact | hand-over | edit | correction | gap | join | note | warning
   int peer = -1;        ///< the peer concerned; -1: none
   bool placed = false;  ///< true if `at` is set
   Vec2 at{0, 0};        ///< m

@@ -151,6 +151,7 @@ class LiveSource {
     this.renamed();
     this.grew();
     page.player.follow();
+    this.said();
   }
   worlds(data) {
     const [run] = this.page.runs;
@@ -180,6 +181,16 @@ class LiveSource {
     for (const event of JSON.parse(data)) run.events.push({...event, at: event.tick - run.first});
     if (run.events.length > 2000) run.events.splice(0, 1000);
     addLegend(this.page);
+    this.said();
+  }
+  // Shows the newest line of the room, and keeps a warning in sight.
+  said() {
+    const {events} = this.page.runs[0];
+    const line = events.findLast((event) => event.kind === 'note' || event.kind === 'warning');
+    const warning = events.findLast((event) => event.kind === 'warning');
+    if (line && line !== this.line && state.live) this.page.tell(this.page.eventText(line));
+    this.line = line;
+    this.warning = warning ? warning.text : '';
   }
   stats(data) {
     for (const [peer, row] of JSON.parse(data)) {
@@ -232,7 +243,8 @@ class LiveSource {
     sayLive(
         silent_s > SILENT_SECONDS ? `Nothing has come for ${Math.floor(silent_s)} s: ` +
                 'the session is over or stands still.' :
-            this.late         ? 'No errors against the oracle: the view began after the session.' :
+            this.late    ? 'No errors against the oracle: the view began after the session.' :
+            this.warning ? `Warning: ${this.warning}` :
             this.behind_s > 2 ? `The oracle is ${Math.floor(this.behind_s)} s late.` :
                                 '');
   }

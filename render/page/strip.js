@@ -14,6 +14,7 @@ const EVENT_KINDS = {
   'gap': {name: 'Gap', colour: '#5a6472'},
   'join': {name: 'Join, leave', colour: '#007880'},
   'note': {name: 'Note', colour: '#8a8f98'},
+  'warning': {name: 'Warning', colour: '#c41e3a'},
 };
 
 class Strip {

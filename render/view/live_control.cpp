@@ -1,15 +1,13 @@
-/// LiveFeed: what an operator changes in the room.
+/// LiveFeed: what the room says, and what an operator changes in it.
 
 #include "render/view/live_feed.h"
 
 namespace seam {
 
-/// Makes marks of what an operator has changed.
-void LiveFeed::NoteControl() {
+/// Makes marks of what the room's server says: of scripts, scores, players, warnings, changes.
+void LiveFeed::NoteSaid() {
   for (const Event& event : builder_.recording().events) {
-    if (event.kind == static_cast<std::int8_t>(EventKind::kControl)) {
-      events_.push_back(NoteOf(event));
-    }
+    if (event.kind != static_cast<std::int8_t>(EventKind::kLine)) events_.push_back(NoteOf(event));
   }
 }
 

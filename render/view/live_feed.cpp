@@ -21,6 +21,8 @@ constexpr std::int64_t kFlushUs = 33000;
 constexpr std::size_t kPosesKept = 150000;
 constexpr std::int64_t kKept_s = 20;
 constexpr double kLiveErrorUnit_m = 1e-4;  ///< of the errors that are sent
+/// After so many ms without a server a page asks for it again.
+const std::string kRetry = "retry: 500\n";
 constexpr std::size_t kEventsKept = 2000;
 /// Worlds after which the pages begin anew: a room that breaks for hours has very many.
 constexpr int kWorldsMax = 5000;
@@ -112,7 +114,7 @@ void LiveFeed::Prune() {
   const int hz = std::max(1, recording.room.tick_hz);
   const auto ticks = static_cast<std::int64_t>(kPosesKept / bodies);
   if (errors_ != nullptr) errors_->Forget(newest - kKept_s * hz);
-  NoteControl();
+  NoteSaid();
   // The oracle is a second late, and measures what is still there.
   Forget(&recording, newest - std::clamp<std::int64_t>(ticks, 2 * hz, kKept_s * hz));
 }
@@ -320,9 +322,9 @@ std::string LiveFeed::Start() {
   for (auto& [peer, feed] : peers_) feed.alone = true;
   motions_.alone = true;
   const char* oracle = !measures_ ? "" : too_late_ ? "late" : "beside";
-  const std::string start = EventText(
-      "start",
-      fmt::format(R"({{"player":{},"oracle":"{}","data":"{}"}})", JsonText(player_), oracle, data));
+  const std::string start =
+      kRetry + EventText("start", fmt::format(R"({{"player":{},"oracle":"{}","data":"{}"}})",
+                                              JsonText(player_), oracle, data));
   return start + (control_.empty() ? "" : EventText("control", control_)) +
          (errors_ == nullptr ? "" : EventText("errors", ErrorsJson(0)));
 }
@@ -332,7 +334,7 @@ EventRing::Piece LiveFeed::Next(std::uint64_t* place) {
   *place = ring_.end();
   if (playback_ != nullptr) return std::make_shared<const std::string>(Start());
   const std::string room = room_.empty() ? "a session" : "room " + room_;
-  return std::make_shared<const std::string>(EventText("waiting", JsonText(room)));
+  return std::make_shared<const std::string>(kRetry + EventText("waiting", JsonText(room)));
 }
 
 }  // namespace seam

@@ -72,7 +72,7 @@ class LiveFeed {
   std::string ErrorsJson(std::size_t from) const;
   void HearForErrors();
   void NoteHandOvers(const View& view);
-  void NoteControl();
+  void NoteSaid();
 
   const std::string room_, player_;
   const double bytes_per_s_;

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "tests/support/browser/browser.h"
 #include "tests/support/program.h"
 
 namespace seam {
@@ -52,6 +54,16 @@ class Edit : public ::testing::Test {
     return at == std::string::npos ? -1 : std::atoi(text.c_str() + at + 11);
   }
 
+  /// Returns the addresses of the pages that the program has said.
+  std::vector<std::string> Pages() const {
+    const std::string text = program_->errors();
+    std::vector<std::string> pages;
+    for (std::size_t at = 0; (at = text.find("http://127.0.0.1:", at)) != std::string::npos; ++at) {
+      pages.push_back(text.substr(at, text.find('\n', at) - at));
+    }
+    return pages;
+  }
+
   const Workspace folder_;
   std::unique_ptr<Program> program_;
 };
@@ -88,7 +100,45 @@ TEST_F(Edit, WithPlayTheRoomBeginsAnewAfterASaveThatLoads) {
   ASSERT_TRUE(Says("it does not load", 1)) << program_->Story();
   folder_.Write("s.toml", kGood);
   ASSERT_TRUE(Says("Ctrl-C ends it", 2)) << program_->Story();
+  // The page that is open goes on: port and token are those of before.
+  const std::vector<std::string> pages = Pages();
+  ASSERT_EQ(pages.size(), 2u) << program_->Story();
+  EXPECT_NE(pages[0].find("?token="), std::string::npos);
+  EXPECT_EQ(pages[0], pages[1]);
   Stop();
+}
+
+TEST_F(Edit, TheOpenPageShowsAndDrivesTheRoomOfTheNextSave) {
+  if (Browser::Find().empty()) GTEST_SKIP() << "no chromium here: apt-get install chromium";
+  Start({"--play", "--impair", "perfect"});
+  ASSERT_TRUE(Says("Ctrl-C ends it", 1)) << program_->Story();
+  Browser browser(900, 700);
+  const std::string body = "live.page.runs[0].names.size";
+  ASSERT_TRUE(browser.Open(Pages().at(0), "", "window.live && live.driver && " + body + " > 0"));
+  const double before = browser.Number(body);
+  folder_.Write("s.toml", std::string(kGood) +
+                              "[[part]]\nname = \"more\"\nbox = [1, 1]\nposition = [3, 2]\n");
+  ASSERT_TRUE(Says("Ctrl-C ends it", 2)) << program_->Story();
+  for (int i = 0; i < 100 && browser.Number(body) <= before; ++i) usleep(100000);
+  EXPECT_EQ(browser.Number(body), before + 1) << "the page has the new scene";
+  const std::string drives = browser.Evaluate(
+      "(async () => (await fetch('drive' + location.search, {method: 'POST', "
+      "body: '1000000 0 0 0'})).status)()");
+  EXPECT_EQ(drives, "204");
+  Stop();
+}
+
+TEST_F(Edit, AStoppedScriptOfThePlayedRoomIsSaidAndTheStatusIsOne) {
+  Start({"--play", "--impair", "perfect"});
+  ASSERT_TRUE(Says("Ctrl-C ends it", 1)) << program_->Story();
+  // The look of `seam-lab check` takes one second of the session.
+  folder_.Write("s.toml", std::string(kGood) +
+                              "[[script]]\nname = \"host\"\ncode = '''\nfunction on_tick(t)\n"
+                              "if t > 2 then world.say(nil .. 'x') end\nend\n'''\n");
+  ASSERT_TRUE(Says("seam-server: script host is stopped: s.toml:15: ", 1)) << program_->Story();
+  program_->Signal(SIGINT);
+  ASSERT_TRUE(program_->Wait(kPatience_s));
+  EXPECT_EQ(program_->status(), 1) << program_->Story();
 }
 
 TEST_F(Edit, ASceneThatIsNotThereIsOneLine) {

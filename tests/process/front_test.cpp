@@ -155,7 +155,55 @@ TEST(Front, TheEndOfAProgramEndsTheOthersAndIsSaid) {
   }
   ASSERT_TRUE(demo.Wait(kPatience_s));
   EXPECT_EQ(demo.status(), 1) << demo.Story();
+  EXPECT_NE(demo.errors().find("\nseam: seam-server was killed by signal 9\n"), std::string::npos)
+      << demo.Story();
   EXPECT_TRUE(AllGone(children));
+}
+
+/// A scene whose script greets at 0.5 s, and fails at 1 s, on line 15.
+const char* const kFails =
+    "[[player]]\nname = \"ann\"\nvehicle = \"crate\"\n[[part]]\nname = \"ground\"\n"
+    "chain = [[-9, 0], [9, 0]]\n[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [0, 2]\n"
+    "[[script]]\nname = \"host\"\ncode = '''\nfunction on_tick(t)\n"
+    "if t > 1 then world.say(nil .. 'x') end\n"
+    "if t > 0.5 and not room.said then room.said = true; world.say('good evening') end\n"
+    "end\n'''\n";
+
+TEST(Front, AStoppedScriptIsSaidAndTheStatusIsOne) {
+  const Workspace folder;
+  folder.Write("s.toml", kFails);
+  const std::string line = "seam-server: script host is stopped: s.toml:15: ";
+  for (const char* duration : {"0", "2"}) {
+    Program play({BuiltProgram("seam"), "play", "s.toml", "--no-browser", "--duration", duration},
+                 folder.path());
+    ASSERT_TRUE(play.WaitForErrors(line, kPatience_s)) << play.Story();
+    if (duration[0] == '0') play.Signal(SIGINT);
+    ASSERT_TRUE(play.Wait(kPatience_s));
+    EXPECT_EQ(play.status(), 1) << play.Story();
+    const std::string text = play.errors();
+    EXPECT_EQ(text.find(line), text.rfind(line)) << "once\n" << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << "page, keys, script\n" << text;
+  }
+}
+
+TEST(Front, TheLivePageHasTheLinesOfScripts) {
+  if (Browser::Find().empty()) GTEST_SKIP() << "no chromium here: apt-get install chromium";
+  const Workspace folder;
+  folder.Write("s.toml", kFails);
+  Program play({BuiltProgram("seam"), "play", "s.toml", "--no-browser"}, folder.path());
+  const std::string page = PageOf(&play);
+  ASSERT_NE(page, "") << play.Story();
+  Browser browser(1200, 900);
+  ASSERT_TRUE(browser.Open(page, "", "window.live && live.page && live.warning"));
+  EXPECT_EQ(browser.Evaluate("live.page.runs[0].events.some((e) => e.text === 'good evening')"),
+            "true");
+  const char* const shown = "document.getElementById('live-state').textContent";
+  usleep(200000);
+  EXPECT_EQ(browser.Evaluate(shown).rfind("Warning: script host is stopped: s.toml:15", 0), 0u)
+      << browser.Evaluate(shown);
+  const std::string told = browser.Evaluate("document.getElementById('event-text').textContent");
+  EXPECT_NE(told.find("script host is stopped"), std::string::npos) << told;
+  for (const std::string& complaint : browser.complaints()) ADD_FAILURE() << complaint;
 }
 
 TEST(Front, HasAVerbForEachProgram) {

@@ -189,11 +189,13 @@ TEST(LiveFeed, ASmallRoomIsShownTickByTick) {
   CrowdFeed crowd(10);
   std::uint64_t place = 0;
   const std::string waiting = *crowd.feed().Next(&place);
-  EXPECT_EQ(waiting.rfind("event: waiting\ndata: ", 0), 0u) << waiting;
+  EXPECT_EQ(waiting.rfind("retry: 500\nevent: waiting\ndata: ", 0), 0u) << waiting;
   for (int tick = 0; tick < 120; ++tick) crowd.Tick(tick);
   const EventRing::Piece start = crowd.feed().Next(&place);
-  EXPECT_EQ(start->rfind("event: start\ndata: {\"player\":\"\",\"oracle\":\"\",\"data\":\"H4s", 0),
-            0u);
+  EXPECT_EQ(
+      start->rfind(
+          "retry: 500\nevent: start\ndata: {\"player\":\"\",\"oracle\":\"\",\"data\":\"H4s", 0),
+      0u);
   // All ticks after the begin, of both peers, the first of each by itself.
   for (int tick = 120; tick < 180; ++tick) crowd.Tick(tick);
   int frames = 0;
@@ -201,6 +203,37 @@ TEST(LiveFeed, ASmallRoomIsShownTickByTick) {
     if (piece->rfind("event: frames\n", 0) == 0) ++frames;
   }
   EXPECT_GE(frames, 25) << "thirty times a second";
+}
+
+TEST(LiveFeed, LinesOfTheRoomAreMarks) {
+  CrowdFeed crowd(10);
+  std::uint64_t place = 0;
+  crowd.feed().Next(&place);
+  for (int tick = 0; tick < 60; ++tick) crowd.Tick(tick);
+  crowd.feed().Next(&place);
+  for (const EventKind kind : {EventKind::kScript, EventKind::kScored, EventKind::kWarning}) {
+    Event event;
+    event.session = 5;
+    event.tick = 50;
+    event.kind = static_cast<std::int8_t>(kind);
+    event.text = "line " + std::to_string(event.kind);
+    event.sequence = event.kind;
+    crowd.feed().Add("SEAM.crowd.event.0", Encode(event));
+  }
+  for (int tick = 60; tick < 70; ++tick) crowd.Tick(tick);
+  std::string marks;
+  while (const EventRing::Piece piece = crowd.feed().Next(&place)) {
+    if (piece->rfind("event: marks\n", 0) == 0) marks += *piece;
+  }
+  const auto has = [&](const char* kind, EventKind of) {
+    const std::string text = "\"text\":\"line " + std::to_string(static_cast<int>(of)) + "\"";
+    const std::string name = std::string("\"kind\":\"") + kind + "\"";
+    const std::size_t at = marks.find(text);
+    return at != std::string::npos && marks.rfind(name, at) != std::string::npos;
+  };
+  EXPECT_TRUE(has("note", EventKind::kScript)) << marks;
+  EXPECT_TRUE(has("note", EventKind::kScored)) << marks;
+  EXPECT_TRUE(has("warning", EventKind::kWarning)) << marks;
 }
 
 TEST(LiveFeed, AnotherSessionBeginsAnew) {
@@ -220,7 +253,7 @@ TEST(LiveFeed, AnotherSessionBeginsAnew) {
   room.scene_text = synthetic::SceneText();
   first.feed().Add("SEAM.crowd.scene", Encode(room));
   EXPECT_FALSE(first.feed().begun());
-  EXPECT_EQ(first.feed().Next(&place)->rfind("event: waiting\n", 0), 0u);
+  EXPECT_EQ(first.feed().Next(&place)->rfind("retry: 500\nevent: waiting\n", 0), 0u);
 }
 
 TEST(LiveFeed, ADamagedTickNumberDoesNotStopIt) {
