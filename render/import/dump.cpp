@@ -8,6 +8,7 @@
 #include <map>
 
 #include "common/base/check.h"
+#include "common/scene/scene_limits.h"
 #include "render/import/imported.h"
 
 namespace seam {
@@ -85,6 +86,8 @@ class DumpReader {
       AddShape(Index(s, "bodies["));
     } else if (Begins(s, "joints[") && s.find("CreateJoint") != std::string::npos) {
       AddJoint(Index(s, "joints["));
+    } else if (Begins(s, "b2Joint**joints")) {
+      SetJoints(s);
     } else if (s.find('.') < std::min(s.find('='), s.find('('))) {
       SetValue(s);
     } else if (!IsFrame(s)) {
@@ -94,11 +97,19 @@ class DumpReader {
 
   /// True for the statements around the values.
   static bool IsFrame(const std::string& s) {
-    for (const char* known : {"m_world->SetGravity(", "b2Body**bodies", "b2Joint**joints",
-                              "b2Free(", "joints=", "bodies=", "b2Vec2vs["}) {
+    for (const char* known : {"m_world->SetGravity(", "b2Body**bodies", "b2Free(",
+                              "joints=", "bodies=", "b2Vec2vs["}) {
       if (Begins(s, known)) return true;
     }
-    return false;
+    return s.find("dumpingisnotsupported.") != std::string::npos;  // 2.3, of a mouse joint
+  }
+
+  /// "b2Joint**joints=(b2Joint**)b2Alloc(3*sizeof(b2Joint*))"; a mouse joint has a number alone.
+  void SetJoints(const std::string& s) {
+    const std::size_t open = s.find("b2Alloc(");
+    const long count = open == std::string::npos ? 0 : std::strtol(s.c_str() + open + 8, nullptr, 10);
+    if (count < 0 || count > 1000000) Fail("too many joints");
+    world_.joints.resize(static_cast<std::size_t>(count));
   }
 
   /// "bd.angle=1.5f" or "bd.position.Set(1.0f,2.0f)".
@@ -189,6 +200,8 @@ class DumpReader {
     body.gravity_scale = Number("bd.gravityScale", 1);
     body.fixed_rotation = Flag("bd.fixedRotation");
     body.bullet = Flag("bd.bullet");
+    body.active = Number("bd.active", Number("bd.enabled", 1)) != 0;  // 2.3, 2.4
+    body.awake = Number("bd.awake", 1) != 0;
     world_.bodies.push_back(body);
   }
 
@@ -233,6 +246,10 @@ class DumpReader {
     joint.local_b = Vector("jd.localAnchorB");
     joint.axis = Vector("jd.localAxisA", {1, 0});
     joint.reference = Number("jd.referenceAngle");
+    if (joint.kind == "motor") {
+      joint.local_a = Vector("jd.linearOffset");
+      joint.reference = Number("jd.angularOffset");
+    }
     joint.limited = Flag("jd.enableLimit");
     joint.lower = Number("jd.lowerTranslation", Number("jd.lowerAngle"));
     joint.upper = Number("jd.upperTranslation", Number("jd.upperAngle"));
@@ -262,14 +279,19 @@ class DumpReader {
     world_.joints[static_cast<std::size_t>(index)] = joint;
   }
 
-  /// A distance joint of 2.4 has limits besides its length; none when they are equal to it.
+  /// A distance joint of 2.4 has limits besides its length, and is rigid, also with a spring, when
+  /// these are equal. Without a spring it is slack between them.
   void ReadLengths(ImportedJoint* joint) const {
     joint->length = Number("jd.length");
     joint->lower = Number("jd.minLength", joint->length);
     joint->upper = Number("jd.maxLength", joint->length);
-    joint->limited = joint->lower < joint->length || joint->upper > joint->length;
-    // A spring's own defaults are no limits.
-    if (joint->upper > 1e6) joint->limited = false;
+    joint->limited = joint->lower < joint->upper;
+    if (Has("jd.minLength") && !joint->limited) joint->stiffness = 0;
+    const bool ends = joint->upper < 1e6, begins = joint->lower > double{kEdgeMin};
+    if (joint->limited && !ends && !begins) {  // its defaults are no limits
+      joint->limited = false;
+      if (joint->stiffness <= 0) joint->kind = "slack distance";
+    }
   }
 
   const std::string& file_;

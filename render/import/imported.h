@@ -31,7 +31,8 @@ struct ImportedBody {
   Eigen::Vector2d velocity{0, 0};  ///< m/s, of the centre of mass
   double spin = 0;                 ///< rad/s
   double linear_damping = 0, angular_damping = 0, gravity_scale = 1;
-  bool fixed_rotation = false, bullet = false;
+  bool fixed_rotation = false, bullet = false, active = true, awake = true;
+  double mass = 0;  ///< kg, set by hand; 0: that of its shapes
   std::vector<ImportedShape> shapes;
 };
 
@@ -48,7 +49,8 @@ struct ImportedJoint {
   double frequency = 0, damping_ratio = 0;           ///< Hz, 1
   double stiffness = 0, damping = 0;                 ///< N/m, N s/m: instead of the two above
   double length = 0, ratio = 1;                      ///< m (rope: the most), 1
-  double force = 0, torque = 0;                      ///< N, N m: a motor joint's largest
+  double force = 0, torque = 0;                      ///< N, N m: a motor joint's largest. Its
+                                                     ///< local_a is the place of b's origin
   std::array<int, 2> joints{-1, -1};                 ///< gear: the coupled joints
 };
 

@@ -138,7 +138,13 @@ void AddOutline(Points points, bool moves, std::vector<PieceOutline>* pieces) {
   points = Cornered(std::move(points));
   if (points.size() < 3) return;
   if (TwiceAreaOf(points) < 0) std::reverse(points.begin(), points.end());
-  if (IsConvex(points) && points.size() <= kPolygonPointsMax) {
+  Vector2d low = points[0], high = points[0];
+  for (const Vector2d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const bool wide = !moves && (high - low).maxCoeff() > double{kSizeMaxMax};
+  if (!wide && IsConvex(points) && points.size() <= kPolygonPointsMax) {
     AddConvex(points, pieces);
   } else if (moves) {
     AddTriangles(points, pieces);
@@ -146,6 +152,7 @@ void AddOutline(Points points, bool moves, std::vector<PieceOutline>* pieces) {
     points.push_back(points.front());
     std::reverse(points.begin(), points.end());  // a scene's chains are solid on their right
     AddChain(points, pieces);
+    if (!pieces->empty()) pieces->back().walled = wide;
   }
 }
 

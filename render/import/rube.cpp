@@ -29,8 +29,8 @@ class Fields {
   double Number(const char* key, double fallback = 0) const {
     return Has(key) ? NumberOf(At(key), key) : fallback;
   }
-  bool Flag(const char* key) const {
-    if (!Has(key)) return false;
+  bool Flag(const char* key, bool fallback = false) const {
+    if (!Has(key)) return fallback;
     if (!At(key).is_boolean()) Fail(std::string(key) + " is neither true nor false");
     return At(key).get<bool>();
   }
@@ -110,11 +110,17 @@ ImportedShape ShapeOf(const Fields& r, const std::string& file) {
     shape.radius = circle.Number("radius");
   } else if (r.Has("polygon")) {
     shape.points = Fields(r.At("polygon"), file, "polygon").Points("vertices");
+    // b2dJson reads two points as an edge.
+    if (shape.points.size() == 2) shape.kind = ImportedShape::Kind::kTwoSidedChain;
   } else if (r.Has("chain")) {
     shape.kind = ImportedShape::Kind::kTwoSidedChain;
     shape.points = Fields(r.At("chain"), file, "chain").Points("vertices");
+  } else if (r.Has("edge")) {
+    const Fields edge(r.At("edge"), file, "edge");
+    shape.kind = ImportedShape::Kind::kTwoSidedChain;
+    shape.points = {edge.Vector("vertex1"), edge.Vector("vertex2")};
   } else {
-    r.Fail("has no circle, polygon or chain");
+    r.Fail("has no circle, polygon, chain or edge");
   }
   return shape;
 }
@@ -134,6 +140,9 @@ ImportedBody BodyOf(const Fields& r, const std::string& file) {
   body.gravity_scale = r.Number("gravityScale", 1);
   body.fixed_rotation = r.Flag("fixedRotation");
   body.bullet = r.Flag("bullet");
+  body.active = r.Flag("active", true);
+  body.awake = r.Flag("awake", true);
+  body.mass = r.Number("massData-mass");
   for (const Json& fixture : r.List("fixture")) {
     body.shapes.push_back(ShapeOf(Fields(fixture, file, "a fixture of '" + body.name + "'"), file));
   }
@@ -150,7 +159,8 @@ ImportedJoint JointOf(const Fields& r) {
   joint.a = r.Integer("bodyA", -1);
   joint.b = r.Integer("bodyB", -1);
   joint.local_a = r.Vector("anchorA");
-  joint.local_b = r.Vector("anchorB");
+  // A motor joint's anchorA is its linear offset.
+  if (joint.kind != "motor") joint.local_b = r.Vector("anchorB");
   if (r.Has("localAxisA")) joint.axis = r.Vector("localAxisA");
   joint.reference = r.Number("refAngle");
   joint.collide = r.Flag("collideConnected");

@@ -71,6 +71,8 @@ class SceneWriter {
     ImportedBody& body = world_.bodies[b];
     body.name = names_.Take(body.name, "body-" + std::to_string(b));
     const bool moves = body.kind == Kind::kDynamic;
+    if (!body.active) return Drop("body '" + body.name + "': is not active");
+    if (moves && !body.awake) Drop("body '" + body.name + "': sleeps; here it begins awake");
     for (const ImportedShape& shape : body.shapes) {
       const std::string what =
           fmt::format("body '{}': {}", body.name, shape.name.empty() ? "a fixture" : shape.name);
@@ -80,6 +82,9 @@ class SceneWriter {
       }
       const std::vector<PieceOutline> pieces = PiecesOf(shape, moves);
       if (pieces.empty()) Drop(what + ": smaller than " + fmt::format("{:g} m", kSizeMin));
+      if (!moves && !pieces.empty() && pieces[0].walled) {
+        Drop(fmt::format("{}: wider than {:g} m; here a chain around it", what, kSizeMaxMax));
+      }
       for (const PieceOutline& piece : pieces) {
         Placed placed;
         placed.name = placed_[b].empty() ? body.name : names_.Take(body.name, body.name);
@@ -91,8 +96,23 @@ class SceneWriter {
         placed_[b].push_back(placed);
       }
     }
+    if (moves && body.mass > 0) SetMass(b);
     if (moves) reach_ = std::max(reach_, body.position.lpNorm<Eigen::Infinity>());
     if (placed_[b].empty()) Drop("body '" + body.name + "': has no shape that collides");
+  }
+
+  /// Gives the shapes the densities with which the body has the mass that was set by hand.
+  void SetMass(std::size_t b) {
+    const ImportedBody& body = world_.bodies[b];
+    const double mass = MassOf(b).mass;
+    if (mass <= 0 || std::fabs(body.mass - mass) <= 0.001 * mass) return;
+    const std::string what = "body '" + body.name + "': ";
+    Drop(fmt::format("{}a mass of {:.4g} kg set by hand; here by density, about the shapes' centre",
+                     what, body.mass));
+    for (Placed& placed : placed_[b]) {
+      placed.density = Clamp(placed.density * body.mass / mass, kDensity.min, kDensity.max,
+                             what + "density");
+    }
   }
 
   /// The part as the scene will have it, for its mass.
@@ -169,9 +189,9 @@ class SceneWriter {
       if (body.kind == Kind::kDynamic) WriteMotion(body);
     }
     const bool turns = body.kind == Kind::kKinematic && body.spin != 0;
-    if (body.kind == Kind::kKinematic && body.velocity.norm() > 0 && !turns) {
-      Drop("body '" + body.name +
-           "': moves on without end; a scene has paths (kind = \"kinematic\")");
+    if (body.kind == Kind::kKinematic && body.velocity.norm() > 0 && !placed_[b].empty()) {
+      Drop("body '" + body.name + "': moves on without end" + (turns ? ", here it turns alone" : "") +
+           "; a scene has paths (kind = \"kinematic\")");
     }
     if (body.kind == Kind::kStatic || placed_[b].empty()) return;
     for (std::size_t i = 1; i < placed_[b].size(); ++i) {
@@ -231,7 +251,9 @@ class SceneWriter {
 
   void WriteJoint(std::size_t index) {
     ImportedJoint& j = world_.joints[index];
-    if (j.kind.empty()) return;  // a number that the file left out
+    if (j.kind.empty()) {
+      return Drop("joint " + std::to_string(index) + ": has no values, as a dumped mouse joint");
+    }
     static const std::set<std::string> known = {"hinge", "prismatic", "wheel",  "distance", "rope",
                                                 "weld",  "motor",     "pulley", "gear"};
     const std::string label = j.name.empty() ? j.kind + "-" + std::to_string(index) : j.name;
@@ -265,10 +287,10 @@ class SceneWriter {
     const Transform2 &of_a = placed_[a][0].piece.pose, &of_b = placed_[b][0].piece.pose;
     std::string text =
         fmt::format("a = \"{}\"\nb = \"{}\"\n", placed_[a][0].name, placed_[b][0].name);
-    if (j.kind == "motor") return text;
     text += fmt::format("local_a = {}\nlocal_b = {}\n", Pair(of_a.Inverse()(j.local_a)),
                         Pair(of_b.Inverse()(j.local_b)));
-    if (j.kind == "weld" || j.kind == "hinge" || j.kind == "prismatic") {
+    if (j.kind == "weld" || j.kind == "hinge" || j.kind == "prismatic" ||
+        j.kind == "motor") {
       text += fmt::format("reference_angle = {:.9g}\n", j.reference + of_b.angle - of_a.angle);
     }
     if (j.kind == "wheel" || j.kind == "prismatic") {
@@ -297,7 +319,8 @@ class SceneWriter {
     if (j.kind == "rope" || j.kind == "weld") return text;
     if (j.limited && j.lower <= j.upper) {
       const double low = j.kind == "distance" ? std::max(j.lower, double{kEdgeMin}) : j.lower;
-      text += fmt::format("limits = [{:.9g}, {:.9g}]\n", low, std::max(low, j.upper));
+      const double most = j.kind == "distance" ? 10000 : HUGE_VAL;
+      text += fmt::format("limits = [{:.9g}, {:.9g}]\n", low, std::max(low, std::min(j.upper, most)));
     }
     if (j.motor && j.most > 0 && j.kind != "distance") {
       text += fmt::format("motor = {{speed = {:.9g}, {} = {:.9g}}}\n",

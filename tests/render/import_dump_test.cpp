@@ -111,6 +111,30 @@ struct Original {
     b2DistanceJointDef rod;
     rod.Initialize(floats, bob, floats->GetPosition(), bob->GetPosition());
     world.CreateJoint(&rod);
+
+    b2Body* pulled = Body(b2_dynamicBody, -28, 9);
+    Box(pulled, 1, 0.5f, 1);
+    b2MotorJointDef motor;
+    motor.Initialize(ground, pulled);
+    motor.linearOffset += b2Vec2(1, 2);
+    motor.angularOffset = 0.4f;
+    motor.maxForce = 100;
+    motor.maxTorque = 50;
+    world.CreateJoint(&motor);
+    // Slack between its limits, and rigid in spite of its spring.
+    for (const bool slack : {true, false}) {
+      b2Body* hangs = Body(b2_dynamicBody, slack ? -32 : -36, 8);
+      Box(hangs, 0.5f, 0.5f, 1);
+      b2DistanceJointDef def;
+      def.Initialize(ground, hangs, hangs->GetPosition() + b2Vec2(0, 2), hangs->GetPosition());
+      if (slack) {
+        def.minLength = 1;
+        def.maxLength = 3;
+      } else {
+        b2LinearStiffness(def.stiffness, def.damping, 1, 0.5f, ground, hangs);
+      }
+      world.CreateJoint(&def);
+    }
   }
 };
 
@@ -164,6 +188,46 @@ TEST(ImportDump, TheSceneMovesAsTheDumpedWorld) {
     }
     EXPECT_LT((centres[static_cast<std::size_t>(nearest)] - centre).norm(), 0.02f) << "body " << i;
     EXPECT_NEAR(world.mass(nearest), body.GetMass(), 1e-3f);
+  }
+}
+
+TEST(ImportDump, WhatASceneCannotHaveIsListed) {
+  b2World world(b2Vec2(0, -10));
+  b2BodyDef def;
+  b2Body* const ground = world.CreateBody(&def);
+  Original::Box(ground, 20, 1, 0);
+  def.type = b2_dynamicBody;
+  def.position.Set(0, 5);
+  b2Body* const box = world.CreateBody(&def);
+  Original::Box(box, 1, 1, 1);
+  def.position.Set(3, 5);
+  def.enabled = false;
+  Original::Box(world.CreateBody(&def), 1, 1, 1);
+  def.enabled = true;
+  def.type = b2_kinematicBody;
+  def.position.Set(6, 5);
+  def.linearVelocity.Set(1, 0);
+  def.angularVelocity = 1;
+  Original::Box(world.CreateBody(&def), 1, 1, 1);
+  b2DistanceJointDef slack;  // Box2D's own limits, 0 and infinity
+  slack.bodyA = ground;
+  slack.bodyB = box;
+  world.CreateJoint(&slack);
+  b2MouseJointDef mouse;
+  mouse.bodyA = ground;
+  mouse.bodyB = box;
+  mouse.target = box->GetPosition();
+  mouse.maxForce = 10;
+  world.CreateJoint(&mouse);
+
+  Imported imported = ReadDump(DumpOf(&world), "d.inl");
+  const Scene scene = ParseScene(SceneText(&imported, "d"), "d.toml");
+  EXPECT_EQ(scene.parts.size(), 3u);
+  std::string all;
+  for (const std::string& line : imported.dropped) all += line + "\n";
+  for (const char* what : {"is not active", "joint 0: has no values", "slack distance",
+                           "moves on without end, here it turns alone"}) {
+    EXPECT_NE(all.find(what), std::string::npos) << what << " in\n" << all;
   }
 }
 

@@ -95,6 +95,39 @@ TEST(Import, DroppedThingsAreListed) {
   }
 }
 
+TEST(Import, RubeStatesMassesAndEdgesAreKeptOrListed) {
+  const char* const square =
+      R"("fixture": [{"density": 1, "polygon": {"vertices": {"x": [0, 1, 1, 0], "y": [0, 0, 1, 1]}}}])";
+  const std::string text = std::string(R"({"gravity": {"x": 0, "y": -10}, "body": [
+ {"name": "ground", "type": 0, "fixture": [
+   {"edge": {"vertex1": {"x": -9, "y": 0}, "vertex2": {"x": 9, "y": 0}}},
+   {"polygon": {"vertices": {"x": [9, 20], "y": [0, 5]}}},
+   {"name": "wide", "polygon": {"vertices": {"x": [-3000, 3000, 3000, -3000],
+    "y": [-9, -9, -8, -8]}}}]},
+ {"name": "off", "type": 2, "active": false, )") +
+                           square + R"(},
+ {"name": "sleeper", "type": 2, "awake": false, )" + square +
+                           R"(},
+ {"name": "heavy", "type": 2, "massData-mass": 50, "position": {"x": 5, "y": 3}, )" +
+                           square + R"(}],
+"joint": [{"type": "motor", "name": "m", "bodyA": 0, "bodyB": 3, "anchorA": {"x": 5, "y": 7},
+  "refAngle": 0.5, "maxForce": 100, "maxTorque": 90}]})";
+  Imported world = ReadRube(text, "r.json");
+  const Scene scene = ParseScene(SceneText(&world, "r.json"), "r.toml");
+  EXPECT_NEAR(PartProperties(Named(scene, "heavy")).mass, 50, 0.01);
+  EXPECT_EQ(Named(scene, "ground").kind, ShapeKind::kChain);
+  EXPECT_EQ(Named(scene, "ground-3").points.size(), 2u);
+  EXPECT_EQ(Named(scene, "ground-5").kind, ShapeKind::kChain);
+  EXPECT_THROW(Named(scene, "off"), std::runtime_error);
+  ASSERT_EQ(scene.joints.size(), 1u);
+  EXPECT_NEAR(scene.joints[0].turn, -0.5, 1e-6);
+  std::string all;
+  for (const std::string& line : world.dropped) all += line + "\n";
+  for (const char* what : {"'off': is not active", "'sleeper': sleeps", "50 kg", "wide: wider"}) {
+    EXPECT_NE(all.find(what), std::string::npos) << what << " in\n" << all;
+  }
+}
+
 TEST(Import, RubeMistakesAreOneLine) {
   for (const char* text :
        {"{", "{\"body\": 3}", "{}", "[]", "{\"body\": [{\"type\": 7}]}",
