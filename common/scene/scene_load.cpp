@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "common/base/check.h"
+#include "common/base/files_read.h"
 #include "common/base/plain_file.h"
 #include "common/scene/expected.h"
 #include "common/scene/scene.h"
@@ -152,6 +153,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 }
 
 Scene LoadScene(const std::string& path) {
+  NoteFileRead(path);
   // One byte more than allowed, so that a huge file is refused without being read.
   return ParseScene(ReadPlainFile(path, kSceneBytesMax + 1, "no such scene file"), path);
 }

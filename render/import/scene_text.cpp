@@ -10,10 +10,10 @@
 
 #include "common/base/geometry.h"
 #include "common/base/spatial/disjoint_sets.h"
-#include "common/scene/mass.h"
 #include "common/scene/scene_limits.h"
 #include "render/import/imported.h"
 #include "render/import/outlines.h"
+#include "render/import/placed.h"
 #include "render/import/plain_names.h"
 
 namespace seam {
@@ -48,14 +48,6 @@ class SceneWriter {
   }
 
  private:
-  /// A part, and its pose in its body's frame.
-  struct Placed {
-    std::string name;
-    PieceOutline piece;
-    const ImportedShape* shape = nullptr;
-    double density = 1;
-  };
-
   void Drop(const std::string& what) { world_.dropped.push_back(what); }
 
   double Clamp(double value, double low, double high, const std::string& what) {
@@ -115,31 +107,9 @@ class SceneWriter {
     }
   }
 
-  /// The part as the scene will have it, for its mass.
-  static Part PartOf(const Placed& placed) {
-    Part part;
-    part.kind = placed.piece.kind;
-    part.size = placed.piece.size.cast<float>();
-    part.radius = static_cast<float>(placed.piece.radius);
-    for (const Vector2d& p : placed.piece.points) part.points.push_back(p.cast<float>());
-    part.material.density = static_cast<float>(placed.density);
-    return part;
-  }
-
-  /// Mass and moment of inertia of a moving body; both infinite for others.
+  /// Both infinite for a body that does not move by forces.
   MassProperties MassOf(std::size_t b) const {
-    MassProperties all;
-    for (const Placed& placed : placed_[b]) {
-      const MassProperties own = PartProperties(PartOf(placed));
-      all.mass += own.mass;
-      all.centre += own.mass * placed.piece.pose(own.centre);
-    }
-    if (all.mass > 0) all.centre /= all.mass;
-    for (const Placed& placed : placed_[b]) {
-      const MassProperties own = PartProperties(PartOf(placed));
-      all.inertia +=
-          own.inertia + own.mass * (placed.piece.pose(own.centre) - all.centre).squaredNorm();
-    }
+    MassProperties all = seam::MassOf(placed_[b]);
     if (world_.bodies[b].kind != Kind::kDynamic) all.mass = all.inertia = HUGE_VAL;
     return all;
   }

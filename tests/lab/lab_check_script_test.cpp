@@ -118,6 +118,15 @@ const Mistake kMistakes[] = {
     {"function on_tick(t)\n  if t > 9 then os.exit() end\nend\n", 2, "'os' is defined nowhere"},
     {"function on_tick(t)\n  if t > 9 then while true do t = t + 1 end end\nend\n", 2,
      "this loop never ends"},
+    {"function on_tick(t)\n  if t > 9 then\n    repeat local x = 1 until false\n  end\nend\n", 3,
+     "this loop never ends"},
+    {"local w = world\nfunction on_tick(t)\n  if t > 9 then w.remove_prat('gate') end\nend\n", 3,
+     "world has no 'remove_prat' (did you mean 'remove_part'?)"},
+    {"function on_tick(t)\n  if t > 9 then world[\"remove_prat\"]('gate') end\nend\n", 2,
+     "world has no 'remove_prat' (did you mean 'remove_part'?)"},
+    {"local G <const> = 'gaet'\nfunction on_tick(t)\n  if t > 9 then world.remove_part(G) end\n"
+     "end\n",
+     3, "there is no part 'gaet' (did you mean 'gate'?)"},
     {"function on_trigger(t, p, e)\n  local i = 0\n  while i < 1 do i = i * 2 end\nend\n", 3,
      "more than 200000 instructions in a tick"},
     {"function on_leave(p)\n  local all = {}\n  for i = 1, 90000 do all[i] = {i} end\nend\n", 1,
@@ -177,7 +186,13 @@ TEST(LabCheckScript, FindsNothingInGoodScripts) {
       "    local p = world.part(name)\n    if p.y < -5 then goto done end\n"
       "    local x, y = helper(p.x, math.max(p.y, 0))\n  end\n  ::done::\n"
       "  if world.seat('ann') == nil then on_idle() end\nend\n"
-      "function on_idle() end\n"};
+      "function on_idle() end\n",
+      // Locals that are several things, and a loop that something ends.
+      "local w, n = world, 'gaet'\nlocal part = 'gaet'\nlocal G = 'gaet'\n"
+      "function on_tick(t)\n  part = 'gate'\n  if t > 9 then w.remove_part(part) end\n"
+      "  for _, G in ipairs({'gate'}) do if t > 9 then world.remove_part(G) end end\n"
+      "  repeat n = n .. 'x' if #n > 9 then break end until false\n"
+      "  repeat n = n .. 'x' until false or #n > 9\nend\n"};
   for (const char* code : good) EXPECT_EQ(Found(code), std::vector<std::string>{}) << code;
 }
 

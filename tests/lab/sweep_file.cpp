@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/base/check.h"
+#include "common/base/files_read.h"
 #include "common/base/find_scene.h"
 #include "common/base/plain_file.h"
 #include "common/scene/toml/scene_reader.h"
@@ -28,7 +29,10 @@ constexpr ScenesKey kScenesKeys[] = {{"tick_hz", "solver.tick_hz"},
                                      {"buffer_m", "buffer"},
                                      {"input_delay", "input_delay"}};
 
-std::string ReadText(const std::string& path) { return ReadPlainFile(path, kSceneBytesMax + 1); }
+std::string ReadText(const std::string& path) {
+  NoteFileRead(path);
+  return ReadPlainFile(path, kSceneBytesMax + 1);
+}
 
 std::vector<std::string> Texts(const SceneReader& r, const char* key, const char* fallback) {
   std::vector<std::string> texts = r.Texts(key);

@@ -231,6 +231,13 @@ TEST(ImportDump, WhatASceneCannotHaveIsListed) {
   }
 }
 
+TEST(ImportDump, AMouseJointOfBox2d23IsListed) {
+  const std::string dump =
+      "b2Joint** joints = (b2Joint**)b2Alloc(0 * sizeof(b2Joint*));\n{\n  b2BodyDef bd;\n"
+      "  bodies[0] = m_world->CreateBody(&bd);\n}\n{\nMouse joint dumping is not supported.\n}\n";
+  EXPECT_EQ(ReadDump(dump, "d.inl").dropped.size(), 1u);
+}
+
 TEST(ImportDump, MistakesAreNamedByLine) {
   for (const char* text : {"hello", "b2Vec2 g(1, x);", "bodies[3] = m_world->CreateBody(&bd);",
                            "{\n  b2BodyDef bd;\n  bd.angle = oops;\n"

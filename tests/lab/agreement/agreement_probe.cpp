@@ -1,5 +1,6 @@
 #include "tests/lab/agreement/agreement.h"
 #include "tests/lab/experiment/probes.h"
+#include "tests/lab/session.h"
 
 namespace seam {
 namespace {
@@ -25,6 +26,7 @@ Values MeasureAgreement(const ProbeRun& run) {
   AgreementWatch watch(cluster);
   cluster.each_instant = [&watch] { watch.Look(); };
   cluster.Run();
+  RequireScripts(cluster.server());
   if (watch.compared() == 0) throw OperatorError("no two peers simulate the same body");
   const double share =
       static_cast<double>(watch.differed()) / static_cast<double>(watch.compared());

@@ -6,6 +6,7 @@
 #include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "tests/lab/attack/cheat.h"
+#include "tests/lab/session.h"
 #include "tests/support/soak/fault_runner.h"
 
 namespace seam {
@@ -61,6 +62,7 @@ AttackOutcome RunAttack(ClusterConfig config, const std::string& attack,
     if (acted && cheat.lies() > 0 && outcome.acted_tick < 0) outcome.acted_tick = looked;
   };
   cluster.Run();
+  RequireScripts(cluster.server());
   const Server& server = cluster.server();
   outcome.lies = cheat.lies();
   outcome.first_tick = cheat.first_tick();

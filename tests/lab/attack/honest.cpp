@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/trust/auditor.h"
+#include "tests/lab/session.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {
@@ -35,6 +36,7 @@ HonestOutcome RunHonest(ClusterConfig config, bool shown) {
     }
   };
   cluster.Run();
+  RequireScripts(cluster.server());
   const Plausible& plausible = ServerTestAccess::PlausibleOf(cluster.server());
   const Plausible::Counts& counts = plausible.counts();
   outcome.drift = plausible.greatest_drift();

@@ -32,9 +32,14 @@ class LuaWords {
   /// Returns the index of the `end` or `until` of the block whose keyword (function, do, then of an
   /// if, repeat) is at `begin`; size() if there is none.
   std::size_t EndOf(std::size_t begin) const;
+  /// Writes t["name"] as t.name, and puts what a local is in its place, where it is a name or text
+  /// alone and the only local of its name, and nothing else is assigned to it.
+  void Resolve();
 
  private:
   void Read(const std::string& code, int line);
+  bool IsDeclaration(std::size_t index) const;
+  bool IsConstant(std::size_t index) const;
 
   std::vector<LuaWord> words_;
   const LuaWord none_;

@@ -36,7 +36,9 @@ const std::map<std::string, std::string>& Signatures() {
 class CallCheck {
  public:
   CallCheck(const ScriptNames& names, const ScriptSource& script, std::vector<Finding>* findings)
-      : names_(names), script_(script), words_(script.code, script.line), findings_(findings) {}
+      : names_(names), script_(script), words_(script.code, script.line), findings_(findings) {
+    words_.Resolve();
+  }
 
   /// world.name(...), string.name and the like.
   void Run() {
@@ -156,7 +158,7 @@ class CallCheck {
 
   const ScriptNames& names_;
   const ScriptSource& script_;
-  const LuaWords words_;
+  LuaWords words_;
   std::vector<Finding>* findings_;
 };
 

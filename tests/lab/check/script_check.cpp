@@ -25,7 +25,8 @@ end
 
 /// Adds the names of parts and joints that a script makes, as far as its text has them.
 void AddMade(const ScriptSource& script, ScriptNames* names) {
-  const LuaWords words(script.code, script.line);
+  LuaWords words(script.code, script.line);
+  words.Resolve();
   const auto add = [&](std::size_t at) {
     if (!words.IsText(at)) {
       names->any_part = true;

@@ -186,16 +186,32 @@ class WordCheck {
     for (std::size_t i = 0; i < words_.size(); ++i) {
       const bool always = words_.Is(i, "while") && words_.Is(i + 2, "do") &&
                           (words_.Is(i + 1, "true") || words_.at(i + 1).kind == Kind::kNumber);
-      if (!always) continue;
-      const std::size_t end = words_.EndOf(i + 2);
-      bool ends = false;
-      for (std::size_t k = i; k < end; ++k) {
-        const std::string& text = words_.at(k).text;
-        ends = ends || words_.Is(k, "break") || words_.Is(k, "return") || words_.Is(k, "goto") ||
-               (words_.IsName(k) && (text == "error" || text == "yield"));
-      }
-      if (!ends) Add(words_.at(i).line, "this loop never ends");
+      const std::size_t end = always ? words_.EndOf(i + 2) : EndOfEndlessRepeat(i);
+      if (end > i && !Leaves(i, end)) Add(words_.at(i).line, "this loop never ends");
     }
+  }
+
+  /// Returns the place of the "until" of the "repeat" at `i`, if its condition is false or nil
+  /// alone; else `i`.
+  std::size_t EndOfEndlessRepeat(std::size_t i) const {
+    if (!words_.Is(i, "repeat")) return i;
+    const std::size_t until = words_.EndOf(i);
+    if (!words_.Is(until + 1, "false") && !words_.Is(until + 1, "nil")) return i;
+    static const std::set<std::string> kGoOn = {"or", "and", "==", "~=", "..",
+                                                "<",  ">",   "<=", ">="};
+    return until + 2 < words_.size() && kGoOn.count(words_.at(until + 2).text) != 0 ? i : until;
+  }
+
+  /// True if a word may leave the loop between the two places.
+  bool Leaves(std::size_t begin, std::size_t end) const {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::string& text = words_.at(k).text;
+      if (words_.Is(k, "break") || words_.Is(k, "return") || words_.Is(k, "goto") ||
+          (words_.IsName(k) && (text == "error" || text == "yield"))) {
+        return true;
+      }
+    }
+    return false;
   }
 
   const ScriptNames& names_;

@@ -1,4 +1,5 @@
 #include "tests/lab/experiment/probes.h"
+#include "tests/lab/session.h"
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {
@@ -17,6 +18,7 @@ Values MeasureDamage(const ProbeRun& run) {
   config.keep = false;
   Cluster cluster(config);
   cluster.Run();
+  RequireScripts(cluster.server());
   const AuthoritySource* const source = ServerTestAccess::RuleSourceOf(cluster.server());
   if (source == nullptr) throw OperatorError("nothing in this scene can be hurt");
   const AuthoritySource::ReportCounts& counts = source->counts();

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "common/base/check.h"
+#include "common/scene/scene.h"
 #include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/experiment/jobs.h"
 #include "tests/lab/experiment/probes.h"
@@ -106,6 +108,18 @@ TEST(ResultTable, KeepsTheFileOfAnotherTable) {
     EXPECT_EQ(files.Read("t.csv"), header);
   }
   EXPECT_THROW(ResultTable(files / "no/t.csv", "name,size", "value", kKeys, false), OperatorError);
+}
+
+TEST(ResultTable, KeepsAFileThatIsReadEvenWithForce) {
+  const LabWorkspace files;
+  files.Write("s.toml", "duration = 3\n[[player]]\nname = \"ann\"\n");
+  const std::string before = files.Read("s.toml");
+  LoadScene(files / "s.toml");
+  std::filesystem::create_hard_link(files / "s.toml", files / "link");
+  for (const char* name : {"s.toml", "link"}) {
+    EXPECT_THROW(ResultTable(files / name, "name,size", "value", kKeys, true), OperatorError);
+    EXPECT_EQ(files.Read("s.toml"), before) << name;
+  }
 }
 
 TEST(ResultTable, RefusesTwoRowsOfOneKey) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/base/check.h"
+#include "common/base/files_read.h"
 #include "common/base/plain_file.h"
 #include "tests/lab/experiment/csv_table.h"
 
@@ -42,6 +43,7 @@ ResultTable::ResultTable(const std::string& path, const std::string& key_columns
       lock_((RequirePlainFile(path), path)),
       lines_(keys.size()) {
   const bool there = access(path.c_str(), F_OK) == 0;
+  if (WasFileRead(path)) throw OperatorError(path + ": is read, it cannot be written");
   Load(there && !force ? ReadPlainFile(path, kTableBytesMax) : "", CsvFields(key_columns).size(),
        keys);
   Rewrite();

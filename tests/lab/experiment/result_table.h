@@ -15,8 +15,8 @@ class ResultTable {
   /// Takes over the rows that an earlier run left in `path`; drops a last line without its end.
   /// `key_columns` and `value_columns` are names with commas between, `keys` the texts of all rows'
   /// key columns as CSV. Throws OperatorError when two keys are equal, when the file has other
-  /// columns or rows, unless `force` (then it begins anew), when it cannot be written, or when
-  /// another process writes it.
+  /// columns or rows, unless `force` (then it begins anew), when it cannot be written, when this
+  /// program has read it as a scene or the like, or when another process writes it.
   ResultTable(const std::string& path, const std::string& key_columns,
               const std::string& value_columns, const std::vector<std::string>& keys, bool force);
   ~ResultTable();

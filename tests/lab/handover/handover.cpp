@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/measure/percentile.h"
+#include "tests/lab/session.h"
 #include "tests/support/path/opened_net.h"
 #include "tests/support/soak/server_test_access.h"
 
@@ -210,6 +211,7 @@ HandOvers MeasureHandOvers(ClusterConfig config) {
   cluster.each_instant = [&watch] { watch.Look(); };
   const std::int64_t first = cluster.server().tick();
   cluster.RunToTick(static_cast<std::int64_t>(seconds * hz));
+  RequireScripts(cluster.server());
   const Arrivals end = count;
   HandOvers out;
   out.clients = cluster.client_count();

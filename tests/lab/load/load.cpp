@@ -4,6 +4,8 @@
 #include <map>
 #include <vector>
 
+#include "tests/lab/session.h"
+
 namespace seam {
 namespace {
 
@@ -76,6 +78,7 @@ SessionLoad MeasureLoad(ClusterConfig config) {
       if (client.running()) held.AddTouches(*client.replica(), client.peer());
     }
   }
+  RequireScripts(cluster.server());
   SessionLoad load;
   load.players = static_cast<int>(cluster.scene().players.size());
   load.bodies = cluster.server().replica().world().body_count();

@@ -109,7 +109,10 @@ int RunResume(const ResumeCommand& command) {
         command.log.c_str(), command.tick, number(last), number(difference.first),
         number(difference.differing), number(difference.compared));
   }
-  return 0;
+  for (const std::string& warning : room.server().TakeWarnings()) {
+    std::fprintf(stderr, "seam-lab: %s\n", warning.c_str());
+  }
+  return room.server().script_stopped() ? 1 : 0;
 }
 
 }  // namespace seam
