@@ -106,8 +106,8 @@ class DumpReader {
 
   /// True for the statements around the values.
   static bool IsFrame(const std::string& s) {
-    for (const char* known : {"m_world->SetGravity(", "b2Body**bodies", "b2Free(",
-                              "joints=", "bodies=", "b2Vec2vs["}) {
+    for (const char* known :
+         {"m_world->SetGravity(", "b2Body**bodies", "b2Free(", "joints=", "bodies=", "b2Vec2vs["}) {
       if (Begins(s, known)) return true;
     }
     return false;
@@ -116,7 +116,8 @@ class DumpReader {
   /// "b2Joint**joints=(b2Joint**)b2Alloc(3*sizeof(b2Joint*))"; a mouse joint has a number alone.
   void SetJoints(const std::string& s) {
     const std::size_t open = s.find("b2Alloc(");
-    const long count = open == std::string::npos ? 0 : std::strtol(s.c_str() + open + 8, nullptr, 10);
+    const long count =
+        open == std::string::npos ? 0 : std::strtol(s.c_str() + open + 8, nullptr, 10);
     if (count < 0 || count > 1000000) Fail("too many joints");
     world_.joints.resize(static_cast<std::size_t>(count));
   }
@@ -296,7 +297,7 @@ class DumpReader {
     joint->upper = Number("jd.maxLength", joint->length);
     joint->limited = joint->lower < joint->upper;
     if (Has("jd.minLength") && !joint->limited) joint->stiffness = 0;
-    const bool ends = joint->upper < 1e6, begins = joint->lower > double{kEdgeMin};
+    const bool ends = joint->upper<1e6, begins = joint->lower> double{kEdgeMin};
     if (joint->limited && !ends && !begins) {  // its defaults are no limits
       joint->limited = false;
       if (joint->stiffness <= 0) joint->kind = "slack distance";

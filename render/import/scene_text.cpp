@@ -102,8 +102,8 @@ class SceneWriter {
     Drop(fmt::format("{}a mass of {:.4g} kg set by hand; here by density, about the shapes' centre",
                      what, body.mass));
     for (Placed& placed : placed_[b]) {
-      placed.density = Clamp(placed.density * body.mass / mass, kDensity.min, kDensity.max,
-                             what + "density");
+      placed.density =
+          Clamp(placed.density * body.mass / mass, kDensity.min, kDensity.max, what + "density");
     }
   }
 
@@ -160,8 +160,8 @@ class SceneWriter {
     }
     const bool turns = body.kind == Kind::kKinematic && body.spin != 0;
     if (body.kind == Kind::kKinematic && body.velocity.norm() > 0 && !placed_[b].empty()) {
-      Drop("body '" + body.name + "': moves on without end" + (turns ? ", here it turns alone" : "") +
-           "; a scene has paths (kind = \"kinematic\")");
+      Drop("body '" + body.name + "': moves on without end" +
+           (turns ? ", here it turns alone" : "") + "; a scene has paths (kind = \"kinematic\")");
     }
     if (body.kind == Kind::kStatic || placed_[b].empty()) return;
     for (std::size_t i = 1; i < placed_[b].size(); ++i) {
@@ -259,8 +259,7 @@ class SceneWriter {
         fmt::format("a = \"{}\"\nb = \"{}\"\n", placed_[a][0].name, placed_[b][0].name);
     text += fmt::format("local_a = {}\nlocal_b = {}\n", Pair(of_a.Inverse()(j.local_a)),
                         Pair(of_b.Inverse()(j.local_b)));
-    if (j.kind == "weld" || j.kind == "hinge" || j.kind == "prismatic" ||
-        j.kind == "motor") {
+    if (j.kind == "weld" || j.kind == "hinge" || j.kind == "prismatic" || j.kind == "motor") {
       text += fmt::format("reference_angle = {:.9g}\n", j.reference + of_b.angle - of_a.angle);
     }
     if (j.kind == "wheel" || j.kind == "prismatic") {
@@ -290,7 +289,8 @@ class SceneWriter {
     if (j.limited && j.lower <= j.upper) {
       const double low = j.kind == "distance" ? std::max(j.lower, double{kEdgeMin}) : j.lower;
       const double most = j.kind == "distance" ? 10000 : HUGE_VAL;
-      text += fmt::format("limits = [{:.9g}, {:.9g}]\n", low, std::max(low, std::min(j.upper, most)));
+      text +=
+          fmt::format("limits = [{:.9g}, {:.9g}]\n", low, std::max(low, std::min(j.upper, most)));
     }
     if (j.motor && j.most > 0 && j.kind != "distance") {
       text += fmt::format("motor = {{speed = {:.9g}, {} = {:.9g}}}\n",

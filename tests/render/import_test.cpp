@@ -106,7 +106,8 @@ TEST(Import, RubeStatesMassesAndEdgesAreKeptOrListed) {
     "y": [-9, -9, -8, -8]}}}]},
  {"name": "off", "type": 2, "active": false, )") +
                            square + R"(},
- {"name": "sleeper", "type": 2, "awake": false, )" + square +
+ {"name": "sleeper", "type": 2, "awake": false, )" +
+                           square +
                            R"(},
  {"name": "heavy", "type": 2, "massData-mass": 50, "position": {"x": 5, "y": 3}, )" +
                            square + R"(}],
