@@ -1,5 +1,6 @@
 #include "render/draw/draw_hud.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/canvas/palette.h"
@@ -9,33 +10,105 @@
 namespace seam {
 namespace {
 
-/// Draws a small box painted like a body.
-void Swatch(DrawList& list, float x, float y, const BodyLook& look) {
-  const float scale = list.font().scale();
-  const Rect box{x + 0.5f, std::round(y - 10 * scale) + 0.5f, 16 * scale, 11 * scale};
-  const std::vector<Vec2> corners{
-      {box.x, box.y}, {box.right(), box.y}, {box.right(), box.bottom()}, {box.x, box.bottom()}};
-  list.Fill(corners, look.fill);
-  if (look.hatched) {
-    const float s = 0.70710678f;
-    list.Hatch(corners, {box.x, box.y}, {s, s}, 6 * scale, Faded(look.edge, 0.55f));
+/// Writes the legend from left to right, or measures it.
+class LegendLine {
+ public:
+  /// `draws` false: x() moves, and nothing else happens.
+  LegendLine(DrawList& list, const Rect& area, bool draws)
+      : list_(list),
+        scale_(list.font().scale()),
+        base_(area.y + area.height / 2 + 4 * scale_),
+        x_(area.x),
+        draws_(draws) {}
+
+  float x() const { return x_; }
+  void Gap() {
+    if (draws_) list_.FillRect({std::round(x_), base_ - 11 * scale_, 1, 14 * scale_}, kFrame);
+    x_ += 16 * scale_;
   }
-  list.Stroke(corners, true, {1.2f * scale, look.edge, 0});
+  void Text(const std::string& text) { x_ += Write(text) + 16 * scale_; }
+  /// A small box painted like a body, and what that is.
+  void Body(const BodyLook& look, const std::string& text) {
+    if (draws_) Swatch(look);
+    x_ += 22 * scale_;
+    Text(text);
+  }
+  void Oracle(const std::string& text) {
+    if (draws_) list_.StrokeRect(Box(), {1.3f * scale_, kInk, 5 * scale_});
+    x_ += 22 * scale_;
+    Text(text);
+  }
+  void Impact(const std::string& text) {
+    const Vec2 at{x_ + 7 * scale_, base_ - 4 * scale_};
+    if (draws_) DrawSpark(list_, at, 4 * scale_, 4 * scale_, {1.4f * scale_, kSpark, 0});
+    x_ += 20 * scale_;
+    Text(text);
+  }
+  /// The scale of the heat colours: 1 mm to 1 m.
+  void Heat(const std::string& from) {
+    constexpr int kSteps = 30;
+    x_ += Write(from) + 6 * scale_;
+    for (int i = 0; i < kSteps; ++i, x_ += 3 * scale_) {
+      const float decades = 3 * static_cast<float>(i) / (kSteps - 1);
+      const Rect step{std::round(x_), std::round(base_ - 10 * scale_), std::ceil(3 * scale_),
+                      11 * scale_};
+      if (draws_) list_.FillRect(step, HeatColour(1e-3f * std::pow(10.0f, decades)));
+    }
+    x_ += 6 * scale_;
+    Text("1 m");
+  }
+
+ private:
+  float Write(const std::string& text) {
+    if (!draws_) return list_.font().Width(TextStyle::kSmall, text);
+    return list_.Text(x_, base_, TextStyle::kSmall, text, kInk);
+  }
+  Rect Box() const {
+    return {x_ + 0.5f, std::round(base_ - 10 * scale_) + 0.5f, 16 * scale_, 11 * scale_};
+  }
+  void Swatch(const BodyLook& look) {
+    const Rect box = Box();
+    const std::vector<Vec2> corners{
+        {box.x, box.y}, {box.right(), box.y}, {box.right(), box.bottom()}, {box.x, box.bottom()}};
+    list_.Fill(corners, look.fill);
+    if (look.hatched) {
+      const float s = 0.70710678f;
+      list_.Hatch(corners, {box.x, box.y}, {s, s}, 6 * scale_, Faded(look.edge, 0.55f));
+    }
+    list_.Stroke(corners, true, {1.2f * scale_, look.edge, 0});
+  }
+
+  DrawList& list_;
+  const float scale_, base_;
+  float x_;
+  const bool draws_;
+};
+
+/// Writes the colours of the first `names` peers.
+void WriteNames(LegendLine& line, const Playback& playback, std::size_t names) {
+  const std::vector<int> peers = playback.peers();
+  for (std::size_t i = 0; i < names; ++i) {
+    line.Body(LookOf(ColourOf(playback, peers[i]), kRoleAuthority), playback.PeerName(peers[i]));
+  }
+  if (names < peers.size()) line.Text("… +" + std::to_string(peers.size() - names));
 }
 
-/// Draws the scale of the heat colours: 1 mm to 1 m. Returns the x of its end.
-float HeatBar(DrawList& list, float x, float base, const char* from) {
-  const float scale = list.font().scale();
-  constexpr int kSteps = 30;
-  x += list.Text(x, base, TextStyle::kSmall, from, kInk) + 6 * scale;
-  for (int i = 0; i < kSteps; ++i) {
-    const float decades = 3 * static_cast<float>(i) / (kSteps - 1);
-    list.FillRect({std::round(x), std::round(base - 10 * scale), std::ceil(3 * scale), 11 * scale},
-                  HeatColour(1e-3f * std::pow(10.0f, decades)));
-    x += 3 * scale;
+/// Writes what patterns mean, in many words or in few.
+void WritePatterns(LegendLine& line, const Playback& playback, const WorldLook& look, bool impacts,
+                   bool many) {
+  if (look.heat || look.pale) {
+    line.Gap();
+    line.Heat(look.pale ? "apart 1 mm" : "error 1 mm");
+  } else if (!playback.policy().IsOracle()) {
+    line.Gap();
+    line.Body(LookOf(PeerColour(0), kRoleAuthority),
+              many ? "simulated with authority" : "authority");
+    line.Body(LookOf(PeerColour(0), kRoleSecondary), many ? "secondary copy" : "copy");
+    line.Body(LookOf(PeerColour(0), kRoleRemote), many ? "remote, displayed" : "remote");
   }
-  x += 6 * scale;
-  return x + list.Text(x, base, TextStyle::kSmall, "1 m", kInk);
+  if (playback.has_oracle() || impacts) line.Gap();
+  if (playback.has_oracle()) line.Oracle(many ? "oracle: where it should be" : "oracle");
+  if (impacts) line.Impact("impact");
 }
 
 /// Returns the text, cut with an ellipsis if it is wider than `width`.
@@ -47,6 +120,15 @@ std::string Fitting(const DrawList& list, TextStyle style, std::string text, flo
     } while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80);
   }
   return text + "…";
+}
+
+/// Cuts the upper texts to the panel's width.
+CornerTexts FittingCorners(const DrawList& list, const Rect& panel, CornerTexts corners) {
+  const float scale = list.font().scale(), room = panel.width - 20 * scale;
+  const float mark = corners.swatch.a > 0 ? 22 * scale : 0;
+  corners.upper_left = Fitting(list, TextStyle::kStrong, corners.upper_left, room - mark);
+  corners.upper_right = Fitting(list, TextStyle::kStrong, corners.upper_right, room);
+  return corners;
 }
 
 }  // namespace
@@ -73,48 +155,32 @@ void DrawFigures(DrawList& list, const Rect& area, const std::vector<Figure>& fi
 
 void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, const WorldLook& look,
                 bool impacts) {
-  const float scale = list.font().scale();
-  const float base = area.y + area.height / 2 + 4 * scale;
-  float x = area.x;
-  const auto entry = [&](const BodyLook& body, const std::string& text) {
-    Swatch(list, x, base, body);
-    x += 22 * scale;
-    x += list.Text(x, base, TextStyle::kSmall, text, kInk) + 16 * scale;
+  // Patterns cannot be guessed; names stand at the bodies too. So names make room, down to three,
+  // then words of the patterns, then all names.
+  const std::size_t most = std::min<std::size_t>(playback.peers().size(), 6);
+  const float end = area.right() + 16 * list.font().scale();  // the space behind the last entry
+  const auto fits = [&](std::size_t names, bool many) {
+    LegendLine line(list, area, false);
+    WriteNames(line, playback, names);
+    WritePatterns(line, playback, look, impacts, many);
+    return line.x() <= end;
   };
-  const auto gap = [&] {
-    list.FillRect({std::round(x), base - 11 * scale, 1, 14 * scale}, kFrame);
-    x += 16 * scale;
-  };
-  const std::vector<int> peers = playback.peers();
-  for (std::size_t i = 0; i < peers.size() && i < 6; ++i)
-    entry(LookOf(ColourOf(playback, peers[i]), kRoleAuthority), playback.PeerName(peers[i]));
-  if (peers.size() > 6) x += list.Text(x, base, TextStyle::kSmall, "…", kInk) + 16 * scale;
-  if (look.heat || look.pale) {
-    gap();
-    x = HeatBar(list, x, base, look.pale ? "apart 1 mm" : "error 1 mm") + 16 * scale;
-  } else if (!playback.policy().IsOracle()) {
-    gap();
-    entry(LookOf(PeerColour(0), kRoleAuthority), "simulated with authority");
-    entry(LookOf(PeerColour(0), kRoleSecondary), "secondary copy");
-    entry(LookOf(PeerColour(0), kRoleRemote), "remote, displayed");
+  std::size_t names = most;
+  bool many = true;
+  while (names > std::min<std::size_t>(most, 3) && !fits(names, many)) --names;
+  if (!fits(names, many)) {
+    names = most;
+    many = false;
+    while (names > 0 && !fits(names, many)) --names;
   }
-  if (playback.has_oracle() || impacts) gap();
-  if (playback.has_oracle()) {
-    const Rect box{x + 0.5f, std::round(base - 10 * scale) + 0.5f, 16 * scale, 11 * scale};
-    list.StrokeRect(box, {1.3f * scale, kInk, 5 * scale});
-    x += 22 * scale;
-    x += list.Text(x, base, TextStyle::kSmall, "oracle: where it should be", kInk) + 16 * scale;
-  }
-  if (impacts) {
-    DrawSpark(list, {x + 7 * scale, base - 4 * scale}, 4 * scale, 4 * scale,
-              {1.4f * scale, kSpark, 0});
-    x += 20 * scale;
-    list.Text(x, base, TextStyle::kSmall, "impact", kInk);
-  }
+  LegendLine line(list, area, true);
+  WriteNames(line, playback, names);
+  WritePatterns(line, playback, look, impacts, many);
 }
 
-std::vector<Rect> CornerAreas(const DrawList& list, const Rect& panel, const CornerTexts& corners) {
+std::vector<Rect> CornerAreas(const DrawList& list, const Rect& panel, const CornerTexts& all) {
   const float scale = list.font().scale();
+  const CornerTexts corners = FittingCorners(list, panel, all);
   const auto width = [&](TextStyle style, const std::string& text) {
     return list.font().Width(style, text) + 10 * scale;
   };
@@ -127,6 +193,7 @@ std::vector<Rect> CornerAreas(const DrawList& list, const Rect& panel, const Cor
     const bool beside = areas[0].width + right + 15 * scale <= panel.width;
     areas[1] = {panel.right() - 5 * scale - right, beside ? top : areas[0].bottom(), right,
                 18 * scale};
+    if (areas[1].bottom() > panel.bottom() && !beside) areas[1] = {};
   }
   const float note = width(TextStyle::kSmall, corners.lower_left);
   if (!corners.lower_left.empty() && note <= panel.width - 180 * scale)  // the scale bar
@@ -134,8 +201,9 @@ std::vector<Rect> CornerAreas(const DrawList& list, const Rect& panel, const Cor
   return areas;
 }
 
-void DrawCorners(DrawList& list, const Rect& panel, const CornerTexts& corners) {
+void DrawCorners(DrawList& list, const Rect& panel, const CornerTexts& all) {
   const float scale = list.font().scale(), inset = 5 * scale;
+  const CornerTexts corners = FittingCorners(list, panel, all);
   const std::vector<Rect> areas = CornerAreas(list, panel, corners);
   const float base = panel.y + 17 * scale;
   for (const Rect& area : areas)

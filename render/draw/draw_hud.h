@@ -20,7 +20,8 @@ void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
 /// Draws the figures on the right of the same area, the first outermost.
 void DrawFigures(DrawList& list, const Rect& area, const std::vector<Figure>& figures);
 
-/// Draws the legend of the colours and patterns that the playback has. `look`: the layers.
+/// Draws the legend of the colours and patterns that the playback has, as many names of peers as
+/// there is room for. `look`: the layers.
 void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, const WorldLook& look,
                 bool impacts);
 

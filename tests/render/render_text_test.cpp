@@ -102,6 +102,47 @@ int PixelsOf(const Image& image, Colour colour, int y0) {
   return count;
 }
 
+TEST(Legend, StaysInItsAreaAndExplainsThePatternsWhateverTheNames) {
+  Recording recording = synthetic::MakeRecording(6);
+  Scene scene = synthetic::MakeScene();
+  const auto views = recording.views.at(1);
+  for (int peer = 3; peer <= 9; ++peer) recording.views[peer] = views;
+  for (std::size_t i = 0; i < scene.players.size(); ++i) {
+    scene.players[i].name = std::string(20, static_cast<char>('a' + i));
+  }
+  const Playback playback(std::move(recording), std::move(scene), synthetic::MakeOracle());
+  EXPECT_EQ(playback.peers().size(), 10u);
+  for (const float width : {520.0f, 640.0f, 900.0f, 1240.0f, 2500.0f}) {
+    const Rect area{20, 10, width, 26};
+    DrawList list(TestFont());
+    list.Begin(static_cast<int>(width) + 900, 50);
+    DrawLegend(list, area, playback, {}, true);
+    float right = 0;
+    int sparks = 0;
+    for (const auto& vertex : list.vertices()) {
+      right = std::max(right, vertex.x);
+      sparks += vertex.colour == kSpark ? 1 : 0;
+    }
+    EXPECT_LE(right, area.right() + 1) << width;
+    EXPECT_GT(sparks, 0) << width << ": the mark of an impact";
+  }
+}
+
+TEST(CornerTexts, StayInANarrowPanel) {
+  DrawList list(TestFont());
+  list.Begin(800, 400);
+  const CornerTexts texts{"12.34 s  view of red-of-the-long-name", "error 0.2 mm", kInk, "a note"};
+  for (const float width : {60.0f, 120.0f, 200.0f, 300.0f}) {
+    for (const Rect& area : CornerAreas(list, {10, 0, width, 200}, texts)) {
+      EXPECT_LE(area.right(), 10 + width) << width;
+    }
+    for (const Rect& area :
+         CornerAreas(list, {10, 0, width, 24}, {"12.34 s  view", "error", {}, ""})) {
+      EXPECT_LE(area.bottom(), 24) << width << ": in a flat one";
+    }
+  }
+}
+
 TEST(Sheet, HasALegendBelowItsMoments) {
   const Playback playback = MakePlayback();
   const Page page = MakePage(playback, 1);
