@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/record/damage.h"
 #include "render/canvas/palette.h"
 #include "render/draw/draw_difference.h"
 #include "render/draw/draw_hud.h"
@@ -185,7 +186,20 @@ void DrawNowAround(DrawList& list, const Page& page, const Areas& areas, double 
 
 constexpr double kInsetBefore_s = 0.5, kInsetAfter_s = 1;  ///< about the contact
 
+/// Returns a part of a subtitle: what a recording lacks; "" if it is whole.
+std::string DamageOfRun(const Playback& playback, const std::string& of) {
+  const std::string note = DamageNote(playback.recording());
+  return note.empty() ? "" : "damage" + of + ": " + note + "  ·  ";
+}
+
 }  // namespace
+
+std::string DamageText(const std::vector<Playback>& playbacks) {
+  std::string text;
+  for (const Playback& run : playbacks)
+    text += DamageOfRun(run, playbacks.size() > 1 ? " of " + run.Label() : "");
+  return text;
+}
 
 void SetCamera(const CameraWish& wish, const std::vector<Playback>& playbacks, Page* page) {
   std::vector<CameraView> views;
@@ -214,7 +228,7 @@ Viewport ViewportOf(const Page& page, const Panel& panel, const Rect& area, doub
 Page MakePage(const Playback& playback, int peer) {
   Page page;
   page.title = TitleOf(playback);
-  page.subtitle = RunDescription(playback);
+  page.subtitle = DamageOfRun(playback, "") + RunDescription(playback);
   page.to_s = page.strip_to_s = playback.last_s();
   const std::vector<int> peers = playback.peers();
   const std::vector<int> shown = peer == kViewAll ? peers : std::vector<int>{playback.PeerOr(peer)};
@@ -236,8 +250,8 @@ Page MakeComparison(const std::vector<Playback>& playbacks, int peer) {
   const Playback& first = playbacks.front();
   page.title = TitleOf(first);
   const Room& room = first.recording().room;
-  page.subtitle = std::to_string(playbacks.size()) + " runs in step, view of " +
-                  first.PeerName(first.PeerOr(peer));
+  page.subtitle = DamageText(playbacks) + std::to_string(playbacks.size()) +
+                  " runs in step, view of " + first.PeerName(first.PeerOr(peer));
   if (!room.impair.empty()) page.subtitle += "  ·  network " + room.impair;
   page.from_s = first.first_s();
   page.to_s = first.last_s();
@@ -262,7 +276,7 @@ Page MakeDifference(const std::vector<Playback>& playbacks, int peer) {
   panel.caption = page.panels[1].caption + " over " + panel.caption + " (pale)";
   panel.swatch.a = 0;
   page.panels.resize(1);
-  page.subtitle = "difference of two runs, view of " +
+  page.subtitle = DamageText(playbacks) + "difference of two runs, view of " +
                   playbacks.front().PeerName(playbacks.front().PeerOr(peer));
   const std::string& network = playbacks.front().recording().room.impair;
   if (!network.empty()) page.subtitle += "  ·  network " + network;

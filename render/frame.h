@@ -50,6 +50,9 @@ struct Page {
 /// Peer number of `--view all`.
 constexpr int kViewAll = -1;
 
+/// Returns what damaged recordings lack, to stand before a subtitle; "" if all are whole.
+std::string DamageText(const std::vector<Playback>& playbacks);
+
 /// Makes a page of one recording: one peer's view, or all peers' side by side.
 Page MakePage(const Playback& playback, int peer);
 

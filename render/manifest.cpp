@@ -7,11 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/base/json_text.h"
 #include "common/codec/version_line.h"
+#include "common/record/damage.h"
 #include "common/record/segments/log_segments.h"
 #include "render/panel_note.h"
 #include "render/playback/peer_report.h"
@@ -94,7 +96,16 @@ void WriteManifest(const RenderOptions& options, const Page& page,
     text += (&log == &options.logs.front() ? "" : ", ") + std::string("{\"name\": ") +
             JsonText(NameOf(log)) + ", \"hash\": " + JsonText(HashOf(log)) + "}";
   }
-  text += "],\n  \"panels\": [";
+  text += "],\n  \"damage\": [";
+  std::string damage;
+  const Recording* last = nullptr;  // panels of one recording stand together
+  for (const Panel& panel : page.panels) {
+    if (std::exchange(last, &panel.playback->recording()) == &panel.playback->recording()) continue;
+    for (const std::string& line : DamageLines(*last)) {
+      damage += (damage.empty() ? "" : ", ") + JsonText(panel.playback->Label() + ": " + line);
+    }
+  }
+  text += damage + "],\n  \"panels\": [";
   for (const Panel& panel : page.panels) {
     text += (&panel == &page.panels.front() ? "" : ", ") + JsonText(panel.caption);
   }

@@ -151,8 +151,8 @@ void DrawStrobe(DrawList& list, const std::vector<Playback>& playbacks, const St
   const Playback& last = playbacks.back();
   const Playback& first = playbacks.front();
   const Room& room = last.recording().room;
-  std::string subtitle = "exposures every " + FormatTime(plan.step_s) + " from " +
-                         FormatTime(plan.from_s) + " to " + FormatTime(plan.to_s) +
+  std::string subtitle = DamageText(playbacks) + "exposures every " + FormatTime(plan.step_s) +
+                         " from " + FormatTime(plan.from_s) + " to " + FormatTime(plan.to_s) +
                          ", older ones fainter";
   if (!room.impair.empty()) subtitle += "  ·  network " + room.impair;
   const std::string title = first.scene().title.empty() ? room.scene_name : first.scene().title;

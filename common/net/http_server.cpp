@@ -45,32 +45,6 @@ struct Connection {
   std::size_t sent = 0;
 };
 
-/// Reads the available bytes. False when the connection is closed, broken or over the limit.
-bool ReadRequest(Connection* connection) {
-  char bytes[1024];
-  for (;;) {
-    const ssize_t got = recv(connection->fd, bytes, sizeof bytes, MSG_DONTWAIT);
-    if (got < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
-    if (got == 0) return false;
-    if (connection->streams) continue;  // nothing more is asked
-    connection->request.append(bytes, static_cast<std::size_t>(got));
-    if (connection->request.size() > HttpServer::kRequestBytesMax) return false;
-  }
-}
-
-/// Sends as much of the answer as the socket takes; false when sending fails.
-bool SendAnswer(Connection* connection, std::int64_t now_us) {
-  while (connection->sent < connection->answer->size()) {
-    const char* data = connection->answer->data() + connection->sent;
-    const std::size_t left = connection->answer->size() - connection->sent;
-    const ssize_t sent = send(connection->fd, data, left, MSG_DONTWAIT | MSG_NOSIGNAL);
-    if (sent < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
-    connection->sent += static_cast<std::size_t>(sent);
-    if (connection->streams) connection->since_us = now_us;
-  }
-  return true;
-}
-
 /// Returns a header's value; "" if it is absent. `head`: the lines of a request.
 std::string HeaderOf(const std::string& head, const std::string& name) {
   std::string lower = head;
@@ -90,6 +64,33 @@ bool IsWhole(const std::string& request) {
   if (end == std::string::npos) return false;
   const std::string length = HeaderOf(request.substr(0, end + 2), "content-length");
   return request.size() - end - 4 >= std::strtoul(length.c_str(), nullptr, 10);
+}
+
+/// Reads the available bytes. False when the connection is closed, broken or over the limit.
+bool ReadRequest(Connection* connection) {
+  char bytes[1024];
+  for (;;) {
+    const ssize_t got = recv(connection->fd, bytes, sizeof bytes, MSG_DONTWAIT);
+    if (got < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+    if (got == 0)
+      return !connection->streams && IsWhole(connection->request);  // nothing more comes
+    if (connection->streams) continue;  // nothing more is asked
+    connection->request.append(bytes, static_cast<std::size_t>(got));
+    if (connection->request.size() > HttpServer::kRequestBytesMax) return false;
+  }
+}
+
+/// Sends as much of the answer as the socket takes; false when sending fails.
+bool SendAnswer(Connection* connection, std::int64_t now_us) {
+  while (connection->sent < connection->answer->size()) {
+    const char* data = connection->answer->data() + connection->sent;
+    const std::size_t left = connection->answer->size() - connection->sent;
+    const ssize_t sent = send(connection->fd, data, left, MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (sent < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+    connection->sent += static_cast<std::size_t>(sent);
+    if (connection->streams) connection->since_us = now_us;
+  }
+  return true;
 }
 
 /// Parses a whole request; false if it is none.
@@ -160,9 +161,12 @@ struct HttpServer::Impl {
     return poll(&waiting, 1, 0) > 0;
   }
 
+  /// True while there is room for another connection.
+  bool HasRoom() const { return connections.size() - Streams() < kConnectionsMax; }
+
   void Accept(std::int64_t now_us) {
     for (const int door : doors) {
-      while (connections.size() - Streams() < kConnectionsMax && Pending(door)) {
+      while (HasRoom() && Pending(door)) {
         Connection connection;
         connection.fd = accept4(door, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
         if (connection.fd < 0) return;
@@ -251,7 +255,10 @@ void HttpServer::Poll(std::int64_t now_us, const Handle& handle, const Next& nex
 
 void HttpServer::Wait(std::int64_t timeout_us, int other_fd) const {
   std::vector<pollfd> waiting;
-  for (const int door : impl_->doors) waiting.push_back({door, POLLIN, 0});
+  // Who waits at a door that lets nobody in does not wake us.
+  for (const int door : impl_->doors) {
+    if (impl_->HasRoom()) waiting.push_back({door, POLLIN, 0});
+  }
   if (other_fd >= 0) waiting.push_back({other_fd, POLLIN, 0});
   for (const Connection& connection : impl_->connections) {
     const bool sends = connection.answer != nullptr && connection.sent < connection.answer->size();

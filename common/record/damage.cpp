@@ -58,6 +58,13 @@ std::vector<std::string> DamageLines(const Recording& recording) {
   return lines;
 }
 
+std::string DamageNote(const Recording& recording) {
+  const std::vector<std::string> lines = DamageLines(recording);
+  if (lines.empty()) return "";
+  const std::string first = lines[0].substr(0, lines[0].find(" ("));
+  return lines.size() == 1 ? first : first + " and " + std::to_string(lines.size() - 1) + " more";
+}
+
 void ReportDamage(const char* program, const std::string& path, const Recording& recording) {
   static std::set<std::pair<std::string, std::int64_t>> reported;
   g_damage_found = g_damage_found || IsDamaged(recording);

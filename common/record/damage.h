@@ -17,6 +17,10 @@ bool IsDamaged(const Recording& recording);
 /// and one with DamageOf; empty for an intact log.
 std::vector<std::string> DamageLines(const Recording& recording);
 
+/// Returns the same in a few words, for a picture: "ticks 120 to 121 are damaged and 2 more"; ""
+/// for an intact log.
+std::string DamageNote(const Recording& recording);
+
 /// Prints these lines to stderr as warnings of `program`, once for each `path` and session, and
 /// remembers that there was damage. For main threads.
 void ReportDamage(const char* program, const std::string& path, const Recording& recording);

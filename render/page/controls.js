@@ -217,6 +217,9 @@ function titles(page) {
   const labels = page.runs.map((one) => `${one.name}: ${one.label}`).join('; ');
   const network = run.network ? ` · network ${run.network}` : '';
   $('subtitle').textContent = `${labels}${network} · ${run.hz} ticks/s`;
+  const damage = page.runs.flatMap((one) => one.damage.map((line) => `${one.name}: ${line}`));
+  $('damage').textContent = `Damaged, so figures may be wrong: ${damage.join('; ')}.`;
+  $('damage').hidden = damage.length === 0;
 }
 
 function openPage(head, bytes) {

@@ -8,6 +8,7 @@
 
 #include "common/base/json_text.h"
 #include "common/base/version.h"
+#include "common/record/damage.h"
 #include "common/record/loss_timeline.h"
 #include "render/canvas/palette.h"
 #include "render/page/assets.h"
@@ -129,17 +130,22 @@ std::string RunJson(const PageRun& run, Sections* sections) {
     views.push_back(ViewJson(playback, peer, &worlds, stutter, path, sections));
   for (const PageEvent& event : run.live != nullptr ? *run.live->events : EventsOf(playback))
     events.push_back(EventJson(event));
+  std::vector<std::string> damage;
+  for (const std::string& line : DamageLines(recording)) {
+    if (run.live == nullptr) damage.push_back(JsonText(line));
+  }
   const Room& room = recording.room;
   const std::string drawn = worlds.Json();
   const PageBytes world_section(drawn.begin(), drawn.end());
   return fmt::format(
       R"({{"name":{},"label":{},"scene":{},"title":{},"network":{},"hz":{},"first":{},"last":{},)"
-      R"("truth":{},"world":{},"bricks":{},"views":{},"events":{},"colours":{},"losses":{}}})",
+      R"("truth":{},"world":{},"bricks":{},"views":{},"events":{},"colours":{},"losses":{},)"
+      R"("damage":{}}})",
       JsonText(run.name), JsonText(playback.Label()), JsonText(room.scene_name),
       JsonText(playback.scene().title), JsonText(room.impair), playback.tick_hz(),
       recording.first_tick, recording.last_tick, truth, sections->Add(world_section),
       sections->Add(EncodeBricks(playback)), JsonList(views), JsonList(events),
-      ColoursJson(playback), run.live != nullptr ? "[]" : LossesJson(run));
+      ColoursJson(playback), run.live != nullptr ? "[]" : LossesJson(run), JsonList(damage));
 }
 
 /// Returns the colours of pictures, so that a page and a picture of a run look alike. Heat: from

@@ -9,7 +9,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace seam {
 namespace http_server_test {
@@ -37,6 +40,7 @@ class Line {
       heard_.append(bytes, static_cast<std::size_t>(n));
     return heard_;
   }
+  void HalfClose() { EXPECT_EQ(shutdown(fd_, SHUT_WR), 0); }
   void Close() {
     if (fd_ >= 0) close(fd_);
     fd_ = -1;
@@ -112,6 +116,32 @@ TEST_F(HttpServers, AStreamGoesOnAndASlowReaderHoldsUpNobody) {
   pieces_ += 100;
   Poll(50);
   EXPECT_LE(taken_ - before, 100u) << "only the quick one is left";
+}
+
+TEST_F(HttpServers, SilentConnectionsDoNotKeepItAwake) {
+  std::vector<std::unique_ptr<Line>> lines;
+  for (std::size_t i = 0; i < HttpServer::kConnectionsMax + 2; ++i) {
+    lines.push_back(std::make_unique<Line>(server_.port()));
+  }
+  Poll(2);
+  const auto begin = std::chrono::steady_clock::now();
+  server_.Wait(50000);
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+  EXPECT_GT(waited.count(), 0.04) << "two wait at the door, and are not let in";
+  lines.front()->Close();
+  Poll(2);
+  lines.back()->Say("GET /x HTTP/1.1\r\nHost: h\r\n\r\n");
+  lines[1]->Close();
+  Poll(10);
+  EXPECT_NE(lines.back()->Hear().find("GET|/x|"), std::string::npos);
+}
+
+TEST_F(HttpServers, AHalfClosedRequestIsAnswered) {
+  Line line(server_.port());
+  line.Say("GET /x HTTP/1.1\r\nHost: h\r\n\r\n");
+  line.HalfClose();
+  Poll(10);
+  EXPECT_NE(line.Hear().find("GET|/x|"), std::string::npos);
 }
 
 TEST_F(HttpServers, TooManyStreamsAreRefusedAndPagesAreStillAnswered) {

@@ -7,6 +7,7 @@
 #include "common/scene/assembly.h"
 #include "render/draw/draw_hud.h"
 #include "render/draw/text_places.h"
+#include "render/page/document.h"
 #include "tests/support/render_fixture.h"
 
 namespace seam {
@@ -141,6 +142,23 @@ TEST(CornerTexts, StayInANarrowPanel) {
       EXPECT_LE(area.bottom(), 24) << width << ": in a flat one";
     }
   }
+}
+
+TEST(Damage, IsSaidInPicturesAndPages) {
+  Recording recording = synthetic::MakeRecording(6);
+  recording.damage.push_back({12, 14, false, false, false, {"SEAM.main.view.0"}});
+  const std::string says = "ticks 12 to 14 are damaged";
+  std::vector<Playback> playbacks;
+  playbacks.emplace_back(std::move(recording), synthetic::MakeScene(), synthetic::MakeOracle());
+  playbacks.push_back(MakePlayback());
+  EXPECT_EQ(MakePage(playbacks[0], 1).subtitle.rfind("damage: " + says + "  ·  mode ", 0), 0u)
+      << MakePage(playbacks[0], 1).subtitle;
+  EXPECT_EQ(MakePage(playbacks[1], 1).subtitle.find("damage"), std::string::npos);
+  EXPECT_NE(MakeComparison(playbacks, 1).subtitle.find(": " + says), std::string::npos);
+  const PageBytes data = PageData({{"a", &playbacks[0]}, {"b", &playbacks[1]}});
+  const std::string text(data.begin(), data.end());
+  EXPECT_NE(text.find("\"damage\":[\"" + says + " (SEAM.main.view.0)\"]"), std::string::npos);
+  EXPECT_NE(text.find("\"damage\":[]"), std::string::npos);
 }
 
 TEST(Sheet, HasALegendBelowItsMoments) {
