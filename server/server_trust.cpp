@@ -113,15 +113,15 @@ void Server::FollowDoubts(std::int64_t now_us, const Session& session) {
   NoteDoubt(now_us, session.peer, session.player, gravest);
 }
 
-/// A client cannot make the silence of another; its own it can, so that it excuses only so often,
-/// and nothing small. Gains within a client's own states come from no silence.
+/// A client cannot make the silence of another, which makes its copies differ; its own it can, so
+/// that it excuses only so often, and nothing small. No silence makes gains in its own states.
 bool Server::Excused(std::int64_t now_us, int player, DoubtKind kind) {
   if (kind == DoubtKind::kGain) return false;
   const std::vector<int> returned = sessions_.Returned(now_us, kReturnUs);
   const auto own = std::count(returned.begin(), returned.end(), player);
   const bool others = static_cast<std::ptrdiff_t>(returned.size()) > own;
-  const bool small = kind == DoubtKind::kSmall;
-  return others || (own > 0 && !small && ladder_.Excuse(player, replica_.tick()));
+  if (others && kind != DoubtKind::kLeftOut) return true;
+  return own > 0 && kind != DoubtKind::kSmall && ladder_.Excuse(player, replica_.tick());
 }
 
 void Server::NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& doubt) {

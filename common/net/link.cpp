@@ -183,10 +183,7 @@ struct Link::Impl {
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
-    if (number > acknowledged) {
-      acknowledged = number;
-      known_until_us = record.sent_us;
-    }
+    if (number > acknowledged) acknowledged = number, known_until_us = record.sent_us;
     rate.NoteArrived(now_us, record.bytes);
     if (sample && !quiet) {
       SampleRtt(now_us - record.sent_us);

@@ -191,7 +191,7 @@ TEST(ImportDump, TheSceneMovesAsTheDumpedWorld) {
   }
 }
 
-TEST(ImportDump, WhatASceneCannotHaveIsListed) {
+TEST(ImportDump, AMissingCounterpartIsListed) {
   b2World world(b2Vec2(0, -10));
   b2BodyDef def;
   b2Body* const ground = world.CreateBody(&def);

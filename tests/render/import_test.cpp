@@ -96,8 +96,8 @@ TEST(Import, DroppedThingsAreListed) {
 }
 
 TEST(Import, RubeStatesMassesAndEdgesAreKeptOrListed) {
-  const char* const square =
-      R"("fixture": [{"density": 1, "polygon": {"vertices": {"x": [0, 1, 1, 0], "y": [0, 0, 1, 1]}}}])";
+  const char* const square = R"("fixture": [
+   {"density": 1, "polygon": {"vertices": {"x": [0, 1, 1, 0], "y": [0, 0, 1, 1]}}}])";
   const std::string text = std::string(R"({"gravity": {"x": 0, "y": -10}, "body": [
  {"name": "ground", "type": 0, "fixture": [
    {"edge": {"vertex1": {"x": -9, "y": 0}, "vertex2": {"x": 9, "y": 0}}},

@@ -112,7 +112,7 @@ TEST(ResultTable, KeepsTheFileOfAnotherTable) {
 
 TEST(ResultTable, KeepsAFileThatIsReadEvenWithForce) {
   const LabWorkspace files;
-  files.Write("s.toml", "duration = 3\n[[player]]\nname = \"ann\"\n");
+  files.Write("s.toml", "[[part]]\nname = \"a\"\nbox = [1, 1]\n");
   const std::string before = files.Read("s.toml");
   LoadScene(files / "s.toml");
   std::filesystem::create_hard_link(files / "s.toml", files / "link");
