@@ -297,8 +297,8 @@ class DumpReader {
     joint->upper = Number("jd.maxLength", joint->length);
     joint->limited = joint->lower < joint->upper;
     if (Has("jd.minLength") && !joint->limited) joint->stiffness = 0;
-    const bool ends = joint->upper<1e6, begins = joint->lower> double{kEdgeMin};
-    if (joint->limited && !ends && !begins) {  // its defaults are no limits
+    const bool unlimited = joint->upper >= 1e6 && joint->lower <= double{kEdgeMin};  // by default
+    if (joint->limited && unlimited) {
       joint->limited = false;
       if (joint->stiffness <= 0) joint->kind = "slack distance";
     }

@@ -14,9 +14,7 @@ namespace {
 
 /// No client is thought to be later than this, s: what it does with others' bodies is not audited
 /// meanwhile.
-constexpr double kLagMostS = 1;
-/// A lag that was worse a while ago counts less by a tick each so many ticks.
-constexpr std::int64_t kForgetEvery = 6;
+constexpr float kLagMostS = 1;
 
 /// Side of a cell, and the greatest extent and way within kLagMostS of bodies that are only looked
 /// at in the cells of others, m.
@@ -78,7 +76,8 @@ void Surroundings::Forget() {
 }
 
 std::int64_t Surroundings::LagMost() const {
-  return static_cast<std::int64_t>(kLagMostS * replica_.world().scene().solver.tick_hz);
+  const int tick_hz = replica_.world().scene().solver.tick_hz;
+  return static_cast<std::int64_t>(kLagMostS * static_cast<float>(tick_hz));
 }
 
 void Surroundings::Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tick, int body,
@@ -94,8 +93,7 @@ void Surroundings::Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tic
   const Box place(Vec2(min + off), Vec2(max + off));
   look.place.extend(place);
   look.velocity.extend(state.velocity);
-  const auto seconds = static_cast<float>(kLagMostS);
-  trail.reach.extend(Swept(place, Box(state.velocity), seconds));
+  trail.reach.extend(Swept(place, Box(state.velocity), kLagMostS));
 }
 
 void Surroundings::NoteTold(const States& states) {
@@ -113,10 +111,9 @@ void Surroundings::NoteTold(const States& states) {
 
 void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
   const World& world = replica_.world();
-  if (world.tick() % kForgetEvery == 0) {
-    for (std::int64_t& lag : lag_) lag = std::max<std::int64_t>(0, lag - 1);
-  }
   if (world.tick() % kEvery != 0) return;
+  // A lag that was worse a while ago counts less and less.
+  for (std::int64_t& lag : lag_) lag = std::max<std::int64_t>(0, lag - 1);
   const std::int64_t oldest = world.tick() / kEvery - static_cast<std::int64_t>(kLooks);
   for (Trail& trail : trails_) {
     trail.reach.setEmpty();
@@ -124,7 +121,7 @@ void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
       for (Look& look : *looks) {
         if (look.number <= oldest) look = Look();
         if (look.number < 0) continue;
-        trail.reach.extend(Swept(look.place, look.velocity, static_cast<float>(kLagMostS)));
+        trail.reach.extend(Swept(look.place, look.velocity, kLagMostS));
       }
     }
   }
@@ -133,14 +130,14 @@ void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
     EachIdOf(world.composition(), m, [&](PartId id) {
       const int body = world.BodyOfId(id);
       const auto [min, max] = world.Bounds(body);
-      const float way = world.Read(body).velocity.norm() * static_cast<float>(kLagMostS);
+      const float way = world.Read(body).velocity.norm() * kLagMostS;
       const float reach = way + 2 * kSmall + kZoneSlack;
       cells.Add(min - Vec2(reach, reach), max + Vec2(reach, reach));
     });
   }
   for (int body = 0; !mechanisms.empty() && body < world.body_count(); ++body) {
     const BodyState state = world.Read(body);
-    const bool fast = state.velocity.norm() * static_cast<float>(kLagMostS) > kSmall;
+    const bool fast = state.velocity.norm() * kLagMostS > kSmall;
     const bool large = large_[static_cast<std::size_t>(body)] != 0;
     if (!fast && !large && !cells.Has(state.position)) continue;
     Note(&Trail::had, world.tick(), body, state);

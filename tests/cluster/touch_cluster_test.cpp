@@ -7,34 +7,13 @@
 #include <vector>
 
 #include "client/embed/cluster.h"
+#include "tests/cluster/contacts/two_walls.h"
 
 namespace seam {
 namespace touch_cluster_test {
 
 /// A ball bounces between four walls, over the seam of two players' regions; nobody drives.
-const char* const kWalls = R"(
-duration = 20
-gravity = [0, 0]
-[[player]]
-name = "ann"
-region = [[-200, -50], [-0.01, 100]]
-[[player]]
-name = "bob"
-region = [[0, -50], [200, 100]]
-[[part]]
-name = "west"
-box = [1, 20]
-position = [-8, 0]
-anchored = true
-restitution = 1
-friction = 0
-[[part]]
-name = "east"
-box = [1, 20]
-position = [8, 0]
-anchored = true
-restitution = 1
-friction = 0
+const std::string kWalls = TwoWalls(20) + R"(
 [[part]]
 name = "south"
 box = [20, 1]

@@ -7,35 +7,14 @@
 #include <vector>
 
 #include "client/embed/cluster.h"
+#include "tests/cluster/contacts/two_walls.h"
 
 namespace seam {
 namespace trigger_cluster_test {
 
 /// A ball between two walls crosses the seam of two players' regions, and enters the area before
 /// the far wall less than a round trip later.
-const char* const kWalls = R"(
-duration = 12
-gravity = [0, 0]
-[[player]]
-name = "ann"
-region = [[-200, -50], [-0.01, 100]]
-[[player]]
-name = "bob"
-region = [[0, -50], [200, 100]]
-[[part]]
-name = "west"
-box = [1, 20]
-position = [-8, 0]
-anchored = true
-restitution = 1
-friction = 0
-[[part]]
-name = "east"
-box = [1, 20]
-position = [8, 0]
-anchored = true
-restitution = 1
-friction = 0
+const std::string kWalls = TwoWalls(12) + R"(
 [[part]]
 name = "ball"
 circle = 0.5
