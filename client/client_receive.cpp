@@ -134,7 +134,8 @@ void Client::OnPong(std::int64_t now_us, const Pong& pong) {
   rest_agrees_ = rest.Hash() == static_cast<std::uint64_t>(pong.rest);
   const RestBlock at{pong.rest_blocks, pong.rest_block};
   const auto theirs = static_cast<std::uint32_t>(pong.rest_own);
-  if (at.blocks == 0 || !rest_.Lost(now_us, at, rest.HashOf(at, peer_), theirs)) return;
+  const std::int64_t sent_us = link_->SentUntilUs(now_us);
+  if (at.blocks == 0 || !rest_.Lost(now_us, sent_us, at, rest.HashOf(at, peer_), theirs)) return;
   for (Rest& own : rest.Again(at, peer_)) {
     own.utime = now_us;
     if (!released_) link_->SendReliable(Encode(own));

@@ -268,6 +268,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     const bool hung = replica_.world().topology().hanging().has_value();
     chronicle_->NoteEdit(now_us, edit);
     if (auditor_ != nullptr) auditor_->NoteEdit(edit);
+    filter_.NoteEdit(edit);
     replica_.ApplyNextEdit();
     broadcast_.NoteAllUnsettled();
     bounds_.NoteApplied(edit);
@@ -291,6 +292,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     if (session != nullptr && session->lapsed) peer = -1;
     if (session != nullptr && !MayHold(session->player)) situation.untrusted.Add(session->peer);
     situation.load.push_back(session != nullptr ? session->LoadAt(now_us) : -1.0f);
+    situation.sent_us.push_back(session != nullptr ? session->link.SentUntilUs(now_us) : now_us);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_->WaitingMechanisms();

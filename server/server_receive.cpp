@@ -141,7 +141,7 @@ void Server::LookAtRest(std::int64_t now_us, Session& session, const Ping& ping,
   pong->rest_own = static_cast<std::int32_t>(rest.HashOf(at, session.peer));
   if (broadcast_.RestIsPendingFor(session.peer, at)) {
     session.rest.Skip(at);
-  } else if (session.rest.Lost(now_us, at, rest.HashOf(at, -1),
+  } else if (session.rest.Lost(now_us, session.link.SentUntilUs(now_us), at, rest.HashOf(at, -1),
                                static_cast<std::uint32_t>(ping.rest_part))) {
     ++stats_.connections.rests;
     for (Rest& again : replica_.rest().Again(at, -1)) {

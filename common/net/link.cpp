@@ -18,8 +18,7 @@ namespace {
 
 /// Most unreliable messages queued for a Flush.
 constexpr std::size_t kUnreliableQueueMax = 1024;
-/// Datagrams with contents remembered until their ack: 600 ms at 1700 a second. A later ack is
-/// ignored, and the reliable messages are resent.
+/// Datagrams remembered until their ack: 600 ms at 1700 a second. A later ack is ignored.
 constexpr std::size_t kSentRecords = 1024;
 /// Silence after which a datagram with acks only is sent, us; the second in a quiet room.
 constexpr std::int64_t kIdleUs = 100'000;
@@ -344,6 +343,7 @@ std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 const LineRate& Link::rate() const { return impl_->rate; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }
 std::int64_t Link::rejected() const { return impl_->rejected; }
+std::int64_t Link::SentUntilUs(std::int64_t now_us) { return impl_->reliable.SentUntilUs(now_us); }
 bool Link::reliable_pending() const { return !impl_->reliable.empty(); }
 std::size_t Link::waiting() const { return impl_->reliable.size(); }
 

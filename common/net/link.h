@@ -100,6 +100,9 @@ class Link {
   const LineRate& rate() const;
   std::int64_t loss_ppm() const;  ///< share missing of the last 256 incoming sequence numbers
   std::int64_t rejected() const;  ///< datagrams for which Receive returned false
+  /// Returns the time of the last call before which all reliable messages queued have been sent
+  /// once, us; on a thin line they wait for their turn. Call it at each tick.
+  std::int64_t SentUntilUs(std::int64_t now_us);
   bool reliable_pending() const;  ///< true if a reliable message is not acknowledged yet
   std::size_t waiting() const;    ///< reliable messages not yet acknowledged, at most 4096
 

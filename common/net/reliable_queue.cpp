@@ -52,6 +52,17 @@ void ReliableQueue::MarkAcked(std::int64_t id) {
   FillWindow();
 }
 
+std::int64_t ReliableQueue::SentUntilUs(std::int64_t now_us) {
+  const std::int64_t unsent = next_id_ - static_cast<std::int64_t>(messages_.size() - sent_);
+  if (unsent == next_id_) {
+    marks_.clear();
+    return sent_until_us_ = now_us;
+  }
+  if (marks_.empty() || marks_.back().id < next_id_) marks_.push_back({now_us, next_id_});
+  for (; marks_.front().id <= unsent; marks_.pop_front()) sent_until_us_ = marks_.front().us;
+  return sent_until_us_;
+}
+
 void ReliableQueue::SetRetransmissionTimeout(std::int64_t late_us) {
   if (late_us < late_us_) due_us_ = 0;  // a resend may be due earlier now
   late_us_ = late_us;

@@ -32,6 +32,9 @@ class ReliableQueue {
 
   bool empty() const { return messages_.empty(); }
   std::size_t size() const { return messages_.size(); }
+  /// Returns the time of the last call before which everything queued has been sent once, us. Call
+  /// it at each tick.
+  std::int64_t SentUntilUs(std::int64_t now_us);
 
  private:
   struct Message {
@@ -49,7 +52,13 @@ class ReliableQueue {
   /// Charges a speculative duplicate to the rate limit.
   void ChargeDuplicate(std::int64_t now_us, const Message& message);
 
+  struct Mark {
+    std::int64_t us, id;  // the first message that was queued later
+  };
+
   std::deque<Message> messages_;
+  std::deque<Mark> marks_;  // of calls of SentUntilUs, one for each tick with a message
+  std::int64_t sent_until_us_ = 0;
   std::size_t window_ = 0;        // number of leading messages in the window
   std::size_t sent_ = 0;          // number of leading messages that were sent
   std::size_t window_bytes_ = 0;  // their bytes

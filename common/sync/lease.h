@@ -27,10 +27,10 @@ static_assert(kSilentUs < kDriverSilentUs && kDriverSilentUs < kLeaseUs,
 static_assert(kLeaseUs < kPatienceUs,
               "the server would take a mechanism back while its client still holds it: two "
               "authorities over one body");
-/// The server's patience with a holder asked to release, us. Normally the answer takes a round
-/// trip; on the network "terrible" (200 ms, 20 % lost each way) about one answer in ten million
-/// takes longer than this. Shorter drops honest clients there; longer lets a client keep a
-/// mechanism by withholding its answer.
+/// The server's patience with a holder that was sent the question to release, us. Normally the
+/// answer takes a round trip; on the network "terrible" (200 ms, 20 % lost each way) about one
+/// answer in ten million takes longer than this. Shorter drops honest clients there; longer lets a
+/// client keep a mechanism by withholding its answer.
 constexpr std::int64_t kReleasePatienceUs = 5000000;
 /// A holder that has not answered a release for this long, us, or for four round trips, is
 /// confirmed as holder: otherwise the other peers would believe that the mechanism has no holder
@@ -38,6 +38,10 @@ constexpr std::int64_t kReleasePatienceUs = 5000000;
 /// withdraws on paths that are only slow; longer leaves the other peers without its states.
 constexpr std::int64_t kWithdrawUs = 1000000;
 constexpr int kWithdrawRoundTrips = 4;
+/// Time after which a question counts that could not be sent, us. On a thin line it waits for its
+/// turn, and its holder has done nothing wrong. Shorter drops honest clients there; longer lets a
+/// client keep a mechanism by acknowledging nothing.
+constexpr std::int64_t kTellPatienceUs = 10000000;
 /// Time until it is asked again, us.
 constexpr std::int64_t kAskAgainUs = 250000;
 /// Time that a request stands at least before its holder is dropped, us.

@@ -66,10 +66,15 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const PlannerI
   untrusted_ = situation.untrusted;
   replica_.SetSilentHolders(silent_);
   round_trip_us_.clear();
+  sent_us_.clear();
   for (std::size_t p = 0; p < situation.one_way_s.size(); ++p) {
     const auto peer = static_cast<std::size_t>(std::max(0, situation.peer_of_player[p]));
-    if (round_trip_us_.size() <= peer) round_trip_us_.resize(peer + 1, 0);
+    if (round_trip_us_.size() <= peer) {
+      round_trip_us_.resize(peer + 1, 0);
+      sent_us_.resize(peer + 1, now_us);
+    }
     round_trip_us_[peer] = static_cast<std::int64_t>(2e6f * situation.one_way_s[p]);
+    if (p < situation.sent_us.size()) sent_us_[peer] = situation.sent_us[p];
   }
   if (plan_due_ || replica_.tick() % std::max(1, config_.tick_hz / kPlansPerSecond) == 0) {
     plan_due_ = false;
@@ -134,8 +139,9 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   Memory& memory = memory_[m];
   AuthorityRecord record = table().at(m);
   // One authority at a time: the server takes over only once the holder has released it.
+  NoteTold(now_us, m);
   if (memory.hand_over == HandOver::kRevoking) {
-    if (memory.withdrawn || now_us - memory.revoked_us <= PatienceUs(m)) return true;
+    if (memory.withdrawn || now_us - memory.asked_us <= PatienceUs(m)) return true;
     Withdraw(m);
     memory.ask_us = now_us + kAskAgainUs;
     return true;
@@ -164,9 +170,12 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   if (record.authority != 0 && authority != record.authority) {
     if (now_us < memory.ask_us) return true;
     if (memory.withdrawn && silent_.Has(record.authority)) return true;
-    if (!memory.withdrawn) memory.unanswered_us = now_us;
+    const bool sent = memory.told_us >= 0 || now_us - memory.asked_us > kTellPatienceUs;
+    if (memory.withdrawn && !sent) return true;
+    if (!memory.withdrawn) memory.unanswered_us = -1;
     memory.hand_over = HandOver::kRevoking;
-    memory.revoked_us = now_us;
+    memory.asked_us = now_us;
+    memory.told_us = -1;
     memory.revoked_id = table().id(m);
     grants_.push_back(Told(now_us, replica_.tick(), memory.revoked_id, WithoutHolder(record)));
     return true;

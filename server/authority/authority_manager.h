@@ -29,6 +29,9 @@ class AuthorityManager {
   struct PlannerInputs {
     std::vector<int> peer_of_player;         ///< by player; -1: no client is ready to drive it
     std::vector<float> one_way_s;            ///< s, by player, from the server; empty: all 0
+    /// By player: what was queued until then is sent to its peer, us (Link::SentUntilUs). Empty:
+    /// now.
+    std::vector<std::int64_t> sent_us;
     PeerSet silent;                          ///< peers not heard from for kSilentUs
     PeerSet untrusted;                       ///< peers that may have no authority
     std::vector<std::vector<int>> together;  ///< see AuthorityView
@@ -129,9 +132,10 @@ class AuthorityManager {
   /// State of a mechanism besides its record in the table.
   struct Memory {
     HandOver hand_over = HandOver::kNone;
-    std::int64_t revoked_us = 0;           // when the holder was asked to release it
+    std::int64_t asked_us = 0;  // when the holder was asked to release it
+    std::int64_t told_us = -1;  // when that was sent; -1: it waits for its turn
     PartId revoked_id = 0;                 // the mechanism's id at that time
-    std::int64_t unanswered_us = 0;        // first question that is still unanswered
+    std::int64_t unanswered_us = -1;       // as told_us, of the first question not answered yet
     bool withdrawn = false;                // the question was withdrawn; the next one stands
     std::int64_t ask_us = 0;               // after a withdrawal: not asked again earlier
     std::int32_t held_from = -1;           // first epoch of uninterrupted holding; -1: current one
@@ -176,7 +180,9 @@ class AuthorityManager {
   /// Returns peers that may lack authority over bodies they are about to touch.
   PeerSet UncertainPeers(const AuthorityView& view) const;
   std::vector<Grants> TakeBack(std::int64_t now_us, const std::vector<int>& mechanisms);
-  /// True if the holder was asked to release the mechanism long ago and has not answered.
+  /// Looks whether the question has been sent.
+  void NoteTold(std::int64_t now_us, int m);
+  /// True if the holder was sent the question long ago and has not answered.
   bool IsOverdue(std::int64_t now_us, int m) const;
   /// Withdraws an unanswered question: the holder keeps the mechanism in a new epoch.
   void Withdraw(int m);
@@ -225,7 +231,7 @@ class AuthorityManager {
   bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
   PeerSet silent_, untrusted_;               // in the last Update
-  std::vector<std::int64_t> round_trip_us_;  // by peer, in the last Update
+  std::vector<std::int64_t> round_trip_us_, sent_us_;  // by peer, in the last Update
   bool plan_due_ = true;
   /// The server has simulated every body since the room began. A copy that began later lacks the
   /// memory of stages, such as a character's step: its differences prove nothing.

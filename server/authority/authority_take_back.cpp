@@ -9,9 +9,18 @@ namespace seam {
 bool AuthorityManager::IsOverdue(std::int64_t now_us, int m) const {
   const Memory& memory = memory_[m];
   if (memory.hand_over != HandOver::kRevoking) return false;
-  const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
-                       now_us - memory.revoked_us <= kAnswerPatienceUs;
-  return !answers;
+  if (memory.told_us < 0) return now_us - memory.asked_us > kTellPatienceUs;
+  return now_us - memory.unanswered_us > kReleasePatienceUs &&
+         now_us - memory.told_us > kAnswerPatienceUs;
+}
+
+void AuthorityManager::NoteTold(std::int64_t now_us, int m) {
+  Memory& memory = memory_[m];
+  const auto holder = static_cast<std::size_t>(table().at(m).authority);
+  const std::int64_t sent_us = holder < sent_us_.size() ? sent_us_[holder] : now_us;
+  if (memory.told_us >= 0 || sent_us <= memory.asked_us) return;
+  memory.told_us = now_us;
+  if (memory.unanswered_us < 0) memory.unanswered_us = now_us;
 }
 
 PeerSet AuthorityManager::OverdueHolders(std::int64_t now_us) const {

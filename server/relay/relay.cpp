@@ -172,7 +172,8 @@ void Relay::LookAtRest(std::int64_t now_us, Watcher& watcher, const Ping& ping, 
   pong->rest_block = ping.rest_block;
   pong->rest_own = static_cast<std::int32_t>(rest.HashOf(at, client_.peer()));
   const auto theirs = static_cast<std::uint32_t>(ping.rest_part);
-  if (!watcher.rest.Lost(now_us, at, rest.HashOf(at, -1), theirs)) return;
+  if (!watcher.rest.Lost(now_us, watcher.link.SentUntilUs(now_us), at, rest.HashOf(at, -1), theirs))
+    return;
   for (Rest& again : rest.Again(at, -1)) {
     again.utime = now_us;
     watchers_.SendTo(watcher, Encode(again));

@@ -115,5 +115,29 @@ TEST(ThinLine, ALongSceneIsJoinedHoweverLongItTakes) {
   EXPECT_EQ(cluster.recording().bus_gaps, 0);
 }
 
+/// Everything that falls comes to rest in the same seconds: the reliable queues of such lines are
+/// seconds long, questions to holders among the rest.
+TEST(ThinLine, NoHolderIsDroppedForAQuestionThatWaitsForItsTurn) {
+  for (const int kb : {40, 64}) {
+    SCOPED_TRACE(kb);
+    ClusterConfig config;
+    config.scene = "swarm";
+    config.players = 8;
+    config.impair = "delay=33ms,rate=" + std::to_string(kb) + "kb";
+    config.drive = Drive::kBot;
+    config.publish = Publish::kNone;
+    config.duration_s = 14;
+    Cluster cluster(config);
+    cluster.Run();
+    for (const ClientAccount& account : cluster.server().accounts()) {
+      EXPECT_EQ(account.sessions, 1);
+    }
+    for (int i = 0; i < cluster.client_count(); ++i) {
+      EXPECT_TRUE(cluster.client(i)->running());
+      EXPECT_EQ(cluster.client(i)->rejoins(), 0);
+    }
+  }
+}
+
 }  // namespace thin_line_test
 }  // namespace seam

@@ -110,7 +110,8 @@ TEST_F(AuthorityManagerTest, AnOverdueHolderIsNamedAndLosesItTwoEpochsLater) {
   Update();
   situation_.peer_of_player = {-1, kBob};
   Update();
-  const std::int64_t told_us = 1;
+  const std::int64_t told_us = 2;
+  Update(told_us);
   EXPECT_EQ(manager_.OverdueHolders(told_us + kReleasePatienceUs), PeerSet());
   PeerSet ann;
   ann.Add(kAnn);
@@ -165,6 +166,25 @@ TEST_F(AuthorityManagerTest, ASilentHolderIsNotAskedAgainBeforeItIsHeard) {
   EXPECT_EQ(again[0].authority.at(0), 0);
 }
 
+TEST_F(AuthorityManagerTest, AHolderIsNotOverdueWhileTheQuestionWaitsForItsTurn) {
+  Update();
+  situation_.peer_of_player = {kAnn, kBob};
+  situation_.untrusted.Add(kAnn);
+  situation_.sent_us = {0, 0};
+  PeerSet ann;
+  ann.Add(kAnn);
+  constexpr std::int64_t kSentUs = 8'000'000, kEndUs = 12'000'000;
+  std::vector<std::int32_t> asked;
+  for (std::int64_t now_us = 1; now_us < kEndUs; now_us += 20'000) {
+    situation_.sent_us[0] = now_us < kSentUs ? 0 : kSentUs;
+    for (const Grants& told : Update(now_us)) asked.push_back(told.epoch.at(0));
+    EXPECT_EQ(manager_.OverdueHolders(now_us), PeerSet()) << now_us;
+  }
+  EXPECT_EQ(asked, (std::vector<std::int32_t>{2, 3, 4})) << "asked again once the first was sent";
+  EXPECT_EQ(manager_.OverdueHolders(kSentUs + kTellPatienceUs), PeerSet());
+  EXPECT_EQ(manager_.OverdueHolders(kSentUs + kTellPatienceUs + 100'000), ann) << "nor for ever";
+}
+
 TEST_F(AuthorityManagerTest, ALongPathHasFourRoundTripsToAnswer) {
   Update();
   situation_.peer_of_player = {-1, kBob};
@@ -186,7 +206,7 @@ TEST_F(AuthorityManagerTest, WithdrawalsDoNotLengthenThePatience) {
     EXPECT_EQ(manager_.OverdueHolders(now_us), PeerSet()) << now_us;
   }
   EXPECT_EQ(Ball().epoch, 3) << "it was withdrawn once";
-  EXPECT_EQ(manager_.OverdueHolders(kReleasePatienceUs + 20000), ann);
+  EXPECT_EQ(manager_.OverdueHolders(kReleasePatienceUs + 40000), ann);
 }
 
 TEST_F(AuthorityManagerTest, AnEndedLeaseCoversOnlyTheHoldersOwnMechanismAndEpoch) {

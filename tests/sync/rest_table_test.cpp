@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "common/base/bytes.h"
@@ -101,25 +102,36 @@ TEST(RestBlocks, EachBodyIsInOneBlockAndHasItsTurn) {
 TEST(RestBlocks, APersistentDifferenceIsALossAndAChangingOneIsInFlight) {
   const RestBlock first{2, 0}, second{2, 1};
   RestBlocks blocks;
-  EXPECT_FALSE(blocks.Lost(0, first, 1, 2));
-  EXPECT_FALSE(blocks.Lost(0, second, 5, 5));
-  EXPECT_FALSE(blocks.Lost(900000, first, 1, 2)) << "too soon";
-  EXPECT_TRUE(blocks.Lost(1000000, first, 1, 2));
-  EXPECT_FALSE(blocks.Lost(1100000, first, 1, 2)) << "it is under way";
-  EXPECT_TRUE(blocks.Lost(2000000, first, 1, 2));
-  EXPECT_FALSE(blocks.Lost(2100000, second, 5, 6)) << "each block for itself";
+  EXPECT_FALSE(blocks.Lost(0, 0, first, 1, 2));
+  EXPECT_FALSE(blocks.Lost(0, 0, second, 5, 5));
+  EXPECT_FALSE(blocks.Lost(900000, 900000, first, 1, 2)) << "too soon";
+  EXPECT_TRUE(blocks.Lost(1000000, 1000000, first, 1, 2));
+  EXPECT_FALSE(blocks.Lost(1100000, 1100000, first, 1, 2)) << "it is under way";
+  EXPECT_TRUE(blocks.Lost(2000000, 2000000, first, 1, 2));
+  EXPECT_FALSE(blocks.Lost(2100000, 2100000, second, 5, 6)) << "each block for itself";
   // Agreement, or a skipped block, restarts the count.
-  EXPECT_FALSE(blocks.Lost(2900000, first, 2, 2));
-  EXPECT_FALSE(blocks.Lost(3000000, first, 1, 2));
+  EXPECT_FALSE(blocks.Lost(2900000, 2900000, first, 2, 2));
+  EXPECT_FALSE(blocks.Lost(3000000, 3000000, first, 1, 2));
   blocks.Skip(first);
-  EXPECT_FALSE(blocks.Lost(4000000, first, 1, 2));
+  EXPECT_FALSE(blocks.Lost(4000000, 4000000, first, 1, 2));
   // A block that changes at each check may have a loss, too.
   bool lost = false;
   for (std::uint64_t i = 1; i < 80 && !lost; ++i) {
-    lost = blocks.Lost(4000000 + static_cast<std::int64_t>(i) * 100000, first, 10 + i, 2);
+    const std::int64_t now_us = 4000000 + static_cast<std::int64_t>(i) * 100000;
+    lost = blocks.Lost(now_us, now_us, first, 10 + i, 2);
     EXPECT_FALSE(lost && i < 30);
   }
   EXPECT_TRUE(lost);
+}
+
+TEST(RestBlocks, WhatWaitsForItsTurnOnAThinLineIsNotSentAgain) {
+  const RestBlock only{1, 0};
+  RestBlocks blocks;
+  for (int tenth = 0; tenth < 90; ++tenth) {
+    const std::int64_t now_us = 100000 * tenth;
+    EXPECT_FALSE(blocks.Lost(now_us, std::min<std::int64_t>(now_us, 900000), only, 1, 2)) << tenth;
+  }
+  EXPECT_TRUE(blocks.Lost(9000000, 1000000, only, 1, 2)) << "all of the first second is sent";
 }
 
 }  // namespace rest_table_test

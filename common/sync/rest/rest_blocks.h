@@ -39,8 +39,10 @@ struct RestBlock {
 class RestBlocks {
  public:
   /// Compares our hash with `theirs` from a ping. Returns true if commitments of this block were
-  /// lost and have to be sent again.
-  bool Lost(std::int64_t now_us, const RestBlock& at, std::uint64_t ours, std::uint64_t theirs) {
+  /// lost and have to be sent again. `sent_us`: what we queued until then is sent
+  /// (Link::SentUntilUs); a younger difference may wait for its turn.
+  bool Lost(std::int64_t now_us, std::int64_t sent_us, const RestBlock& at, std::uint64_t ours,
+            std::uint64_t theirs) {
     Difference& known = At(at);
     if (ours == theirs) {
       known = Difference{};
@@ -48,8 +50,8 @@ class RestBlocks {
     }
     if (known.any_us < 0) known.any_us = now_us;
     if (ours != known.ours || theirs != known.theirs) known = {ours, theirs, now_us, known.any_us};
-    const bool lost = now_us - known.since_us >= kLostAfterUs ||
-                      now_us - known.any_us >= kPatienceMovingUs + at.blocks * kTurnUs;
+    const bool lost = sent_us - known.since_us >= kLostAfterUs ||
+                      sent_us - known.any_us >= kPatienceMovingUs + at.blocks * kTurnUs;
     if (lost) known.since_us = known.any_us = now_us;
     return lost;
   }
