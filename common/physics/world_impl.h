@@ -7,6 +7,7 @@
 #include <cfloat>
 #include <map>
 #include <optional>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -78,11 +79,24 @@ struct World::Impl {
     if (!exact->needed()) exact.reset();
   }
 
-  /// Makes the stages anew if the scene needs more of them than there are.
-  void FindStages() {
+  /// Makes the stages that the scene needs as it is now. Returns their memory; a stage that was
+  /// needed before keeps its own.
+  std::vector<float> FindStages() {
     std::vector<std::unique_ptr<Stage>> needed =
         MakeStages({scene, composition, built, tick, activities, topology});
-    if (needed.size() <= stages.size()) return;
+    const auto alike = [](const std::unique_ptr<Stage>& a, const std::unique_ptr<Stage>& b) {
+      const Stage &one = *a, &other = *b;
+      return typeid(one) == typeid(other);
+    };
+    std::vector<float> memories;
+    for (const auto& stage : needed) {
+      const auto before = std::find_if(stages.begin(), stages.end(),
+                                       [&](const auto& had) { return alike(had, stage); });
+      (before == stages.end() ? stage : *before)->Save(&memories);
+    }
+    if (std::equal(needed.begin(), needed.end(), stages.begin(), stages.end(), alike)) {
+      return memories;
+    }
     stages = std::move(needed);
     std::vector<Stage*> listening;
     for (const auto& stage : stages) {
@@ -90,6 +104,7 @@ struct World::Impl {
     }
     hub.reset();
     if (!listening.empty()) hub = std::make_unique<ContactHub>(meter, std::move(listening));
+    return memories;
   }
 
   void Listen() {

@@ -287,9 +287,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     snapshot.joints = kept.joints;
     snapshot.speeds = kept.speeds;
     snapshot.touching = kept.touching;
-    const std::size_t stages = w.stages.size();
-    w.FindStages();
-    if (w.stages.size() == stages) snapshot.stages = kept.stages;
+    snapshot.stages = w.FindStages();
     w.memory.composition = 0;  // it belongs to other bodies or joints
     w.Rebuild(snapshot, &activities);
     const EditWake::Edited edited{*w.world, w.scene, before.composition, w.composition, w.built};

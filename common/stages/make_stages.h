@@ -23,8 +23,8 @@ std::unique_ptr<Stage> MakeWaterStage(const StageWorld& world);
 /// player wakes a sleeping body.
 std::unique_ptr<Stage> MakePropellerStage(const StageWorld& world);
 
-/// Returns true if the scene has breakable glue.
-bool HasBreakableGlue(const Scene& scene);
+/// Returns true if a load can break the joint.
+bool IsBreakableGlue(const Joint& joint);
 
 /// Breaks overloaded glue. Forces are means over a tick: an impulse of J N s counts as J times the
 /// scene's ticks per second. Contacts and joints act on single parts. All other forces (gravity,

@@ -3,6 +3,7 @@
 #include "common/physics/stage.h"
 #include "common/scene/bricks.h"
 #include "common/scene/character.h"
+#include "common/scene/connectors.h"
 #include "common/scene/forces.h"
 #include "common/scene/grouping.h"
 #include "common/scene/joint_kinds.h"
@@ -15,7 +16,8 @@ namespace seam {
 
 bool ProposesEdits(const Scene& scene) {
   const auto grips = [](const Character& c) { return c.active && c.grip; };
-  return HasBreakableGlue(scene) || HasConnectors(scene) || scene.grouping->after > 0 ||
+  return std::any_of(scene.joints.begin(), scene.joints.end(), IsBreakableGlue) ||
+         HasConnectors(scene) || scene.grouping->after > 0 ||
          std::any_of(scene.characters.begin(), scene.characters.end(), grips);
 }
 
@@ -23,13 +25,17 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   const auto any = [](const auto& all, const auto& uses) {
     return std::any_of(all.begin(), all.end(), uses);
   };
+  // What is gone needs none: a saved room does not say what it was.
+  const auto any_left = [&](const auto& all, const auto& uses) {
+    return any(all, [&](const auto& one) { return !one.gone && uses(one); });
+  };
   // One stage for each feature that the scene uses, and no others.
   std::vector<std::unique_ptr<Stage>> stages;
-  if (any(world.scene.joints,
-          [](const Joint& j) { return HoldOf(j.kind) == JointHold::kImposed; })) {
+  if (any_left(world.scene.joints,
+               [](const Joint& j) { return HoldOf(j.kind) == JointHold::kImposed; })) {
     stages.push_back(MakeKinematicStage(world));
   }
-  if (any(world.scene.parts, [](const Part& p) { return p.conveyor->speed != 0; })) {
+  if (any_left(world.scene.parts, [](const Part& p) { return p.conveyor->speed != 0; })) {
     stages.push_back(MakeConveyorStage(world));
   }
   const auto is_screw = [](const Thrust& t) { return t.screw.diameter > 0; };
@@ -40,8 +46,10 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (screws && !world.scene.waters.empty()) {
     stages.push_back(MakePropellerStage(world));
   }
-  const bool joins = HasConnectors(world.scene);
-  if (joins || HasBreakableGlue(world.scene)) stages.push_back(MakeGlueStage(world));
+  const bool joins =
+      any_left(world.scene.parts, [](const Part& p) { return !p.connectors->empty(); });
+  if (joins || any_left(world.scene.joints, IsBreakableGlue))
+    stages.push_back(MakeGlueStage(world));
   if (joins) stages.push_back(MakeJoinStage(world));
   if (world.scene.grouping->after > 0) stages.push_back(MakeGroupStage(world));
   if (HasActiveCharacter(world.scene)) stages.push_back(MakeCharacterStage(world));

@@ -10,6 +10,7 @@
 #include "common/record/room_log.h"
 #include "common/record/segments/log_segments.h"
 #include "server/saved/snapshot_file.h"
+#include "server/saved/trial_load.h"
 
 namespace seam {
 namespace {
@@ -68,7 +69,11 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
     Status status = ReadSnapshot(file.path, &snapshot);
     if (status.ok()) {
       resumed.saved = SavedRoom::Read(snapshot.room, &status);
-      if (!status.ok()) status = Status::Error(file.path + ": " + status.why());
+      if (resumed.saved != nullptr) status = CanLoad(*resumed.saved);
+      if (!status.ok()) {
+        resumed.saved = nullptr;
+        status = Status::Error(file.path + ": " + status.why());
+      }
     }
     if (status.ok()) {
       resumed.saved_tick = snapshot.tick;

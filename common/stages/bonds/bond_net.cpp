@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/spatial/disjoint_sets.h"
+#include "common/stages/make_stages.h"
 
 namespace seam {
 namespace {
@@ -15,8 +16,6 @@ int PlaceOf(const std::vector<PartId>& parts, PartId part) {
   const auto at = std::lower_bound(parts.begin(), parts.end(), part);
   return at != parts.end() && *at == part ? static_cast<int>(at - parts.begin()) : -1;
 }
-
-bool CanBreak(const Joint& joint) { return joint.kind == JointKind::kGlue && joint.strength > 0; }
 
 /// Returns the Laplacian of the network times `shifts`: the spring forces.
 std::vector<double> SpringForces(const BondNet& net, const std::vector<double>& shifts) {
@@ -81,7 +80,7 @@ BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<in
     if (joint.gone || !IsRigid(joint, scene.solver)) continue;
     const int a = PlaceOf(net.parts, joint.a), b = PlaceOf(net.parts, joint.b);
     if (a < 0 || b < 0) continue;
-    if (CanBreak(joint)) {
+    if (IsBreakableGlue(joint)) {
       bonds.push_back({a, b, j, static_cast<double>(joint.strength)});
     } else {
       nodes.Unite(a, b);

@@ -286,10 +286,8 @@ void GlueStage::ProposeEdits(std::vector<Edit>* edits) {
 
 }  // namespace
 
-bool HasBreakableGlue(const Scene& scene) {
-  return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
-    return joint.kind == JointKind::kGlue && joint.strength > 0;
-  });
+bool IsBreakableGlue(const Joint& joint) {
+  return joint.kind == JointKind::kGlue && joint.strength > 0;
 }
 
 std::unique_ptr<Stage> MakeGlueStage(const StageWorld& world) {

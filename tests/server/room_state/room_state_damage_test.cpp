@@ -44,12 +44,6 @@ TEST(RoomStateDamage, FlippedBitsAreRefused) {
   }
 }
 
-/// Makes the hash of changed bytes right again, as somebody would who means harm.
-void Sign(Bytes* bytes) {
-  const std::uint64_t hash = Fnv1a(bytes->data() + 24, bytes->size() - 24);
-  std::memcpy(bytes->data() + 16, &hash, sizeof hash);
-}
-
 /// Bytes that are changed and signed may be accepted, if all that they say is possible; then the
 /// room runs. Nothing crashes.
 void Attack(const Bytes& good, int times, std::uint64_t seed) {
@@ -66,7 +60,7 @@ void Attack(const Bytes& good, int times, std::uint64_t seed) {
       if (how >= 2) bad[at] ^= static_cast<std::uint8_t>(1u << random.Next() % 8);
     }
     if (random.Chance(0.1)) bad.resize(24 + random.Next() % (bad.size() - 24));
-    Sign(&bad);
+    SignSavedRoom(&bad);
     LoneRoom loaded(bad, "buffer");
     if (loaded.server == nullptr) {
       ++refused;

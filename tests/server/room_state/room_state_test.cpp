@@ -51,6 +51,50 @@ TEST(RoomState, ARoomIsSavedAgainAfterItWasLoaded) {
   ExpectSameCourse(&second, 100);
 }
 
+/// The world of such a room has, or had, a stage for what is gone by now; its saved state does not
+/// say what that was.
+TEST(RoomState, FeaturesThatAScriptMadeAndRemovedAreNotMissed) {
+  const char* const kMade[] = {
+      R"(world.weld("near", "far", 300))",
+      R"(world.add_part{name = "belt", box = {2, 0.2}, position = {-60, 4}, anchored = true,
+                        conveyor = 2})",
+      R"(world.add_part{name = "hooked", box = {0.5, 0.5}, position = {-60, 4},
+                        inlets = {{0.25, 0, 0}}})"};
+  const char* const kRemoved[] = {R"(world.unweld("near", "far"))", R"(world.remove_part("near"))",
+                                  R"(world.remove_part("belt"))", R"(world.remove_part("hooked"))"};
+  const std::pair<int, int> pairs[] = {{0, 0}, {0, 1}, {1, 2}, {2, 3}};
+  for (const auto& [made, removed] : pairs) {
+    const std::string how = std::string(kMade[made]) + ", " + kRemoved[removed];
+    SCOPED_TRACE(how);
+    LoneRoom room(ParseScene(Arena().text + R"(
+[[part]]
+name = "near"
+box = [0.5, 0.5]
+position = [-60, 0.26]
+[[part]]
+name = "far"
+box = [0.5, 0.5]
+position = [-59.4, 0.26]
+[[script]]
+name = "maker"
+code = """
+function on_tick()
+  if world.tick() == 20 then )" + kMade[made] +
+                                 R"( end
+  if world.tick() == 60 then )" + kRemoved[removed] +
+                                 R"( end
+end
+"""
+)",
+                             "made.toml"));
+    for (const std::int64_t tick : {40, 90}) {
+      room.StepTo(tick);
+      EXPECT_FALSE(room.server->script_stopped());
+      ExpectSameCourse(&room, 30);
+    }
+  }
+}
+
 TEST(RoomState, ARoomWithTheLongestSceneIsSavedAndLoaded) {
   std::string text = Arena().text + "\n#";
   text.append(kSceneTextBytesMax - text.size(), 'x');

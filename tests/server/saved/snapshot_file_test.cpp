@@ -8,6 +8,7 @@
 
 #include "common/base/check.h"
 #include "server/saved/resumed_room.h"
+#include "server/saved/trial_load.h"
 #include "tests/support/arena.h"
 #include "tests/support/file_bytes.h"
 #include "tests/support/lone_room.h"
@@ -86,6 +87,31 @@ TEST(SnapshotFile, ADamagedOrNewerOneGivesWayToTheOneBefore) {
     WriteBytes(before, {1, 2, 3});
     EXPECT_THROW(ReadResumedRoom(folder.path(), "main"), OperatorError);
   }
+}
+
+/// Whole by its checksums, and no room all the same.
+TEST(SnapshotFile, OneThatDoesNotLoadGivesWayToTheOneBefore) {
+  Workspace folder;
+  KeepArena(folder, 120);
+  const std::string path = ListSnapshots(folder.path(), "main")[0].path;
+  RoomSnapshot snapshot;
+  ASSERT_TRUE(ReadSnapshot(path, &snapshot).ok());
+  const Bytes good = snapshot.room;
+  bool loads = true;
+  for (std::size_t at = 8; loads && at < 400; at += 4) {
+    snapshot.room = good;
+    for (std::size_t i = 0; i < 4; ++i) snapshot.room[good.size() - at + i] = 0xff;
+    SignSavedRoom(&snapshot.room);
+    Status status = Status::Ok();
+    const std::unique_ptr<const SavedRoom> saved = SavedRoom::Read(snapshot.room, &status);
+    loads = saved == nullptr || CanLoad(*saved).ok();
+  }
+  ASSERT_FALSE(loads);
+  ASSERT_TRUE(WriteSnapshot(folder.path(), "main", snapshot).ok());
+  const ResumedRoom resumed = ReadResumedRoom(folder.path(), "main");
+  EXPECT_EQ(resumed.saved_tick, 60);
+  ASSERT_EQ(resumed.notes.size(), 1u);
+  EXPECT_NE(resumed.notes[0].find("the one before is used"), std::string::npos);
 }
 
 TEST(SnapshotFile, ALogThatIsGoneOrShorterIsBegunAnew) {

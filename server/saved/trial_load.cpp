@@ -1,0 +1,35 @@
+#include "server/saved/trial_load.h"
+
+#include "common/net/memory.h"
+#include "common/sync/method.h"
+#include "server/server.h"
+
+namespace seam {
+namespace {
+
+class Unheard : public Recorder {
+ public:
+  void Publish(const std::string&, std::int64_t, ByteView) override {}
+  bool listening() const override { return false; }
+};
+
+}  // namespace
+
+Status CanLoad(const SavedRoom& saved) {
+  const Room& room = saved.room();
+  ServerConfig config;
+  config.sync = MakeSyncConfig(MethodNames{room.mode, room.reconcile, room.predict});
+  config.sync.input_delay_ticks = room.input_delay_ticks;
+  config.sync.tick_hz = room.tick_hz;
+  config.sync.send_hz = room.send_hz;
+  config.sync.seed = config.seed = room.seed;
+  config.publish = Publish::kNone;
+  MemoryNetwork network;
+  const std::unique_ptr<Net> net = network.Attach({1, 1});
+  Unheard unheard;
+  SeededEntropy entropy(1);
+  Server server(saved, config, *net, unheard, entropy);
+  return server.Resume(saved, 1000000);
+}
+
+}  // namespace seam
