@@ -102,7 +102,9 @@ void AuthoritySource::NoteReport(int peer, const TouchReport& report) {
     return;
   }
   for (std::size_t i = 0; i < report.a.size(); ++i) {
-    if (!MayReport(peer, report, i)) {
+    if (IsGone(report.a[i]) || IsGone(report.b[i])) {
+      ++stats_.dropped_stale;
+    } else if (!MayReport(peer, report, i)) {
       ++stats_.dropped_right;
     } else if (DoubtedPart(report.a[i]) || DoubtedPart(report.b[i]) ||
                !MayTouch(replica_.world(), trail_, {report.a[i], report.b[i]}, report.tick)) {
@@ -113,21 +115,23 @@ void AuthoritySource::NoteReport(int peer, const TouchReport& report) {
   }
 }
 
+bool AuthoritySource::IsGone(PartId part) const {
+  const std::vector<int>& assembly = replica_.world().composition().assembly_of_part;
+  const auto index = static_cast<std::size_t>(part);
+  return index >= assembly.size() || assembly[index] < 0;
+}
+
 bool AuthoritySource::DoubtedPart(PartId part) const {
   const World& world = replica_.world();
   const int assembly = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
-  if (assembly < 0) return false;
   const Assembly& its = world.composition().assemblies[static_cast<std::size_t>(assembly)];
   return !its.anchored && Doubted(world.BodyOfId(its.id));
 }
 
 bool AuthoritySource::MayReport(int peer, const TouchReport& report, std::size_t i) const {
   const World& world = replica_.world();
-  const auto parts = static_cast<std::int32_t>(world.scene().parts.size());
-  if (report.b[i] >= parts) return false;  // a < b
   for (const PartId part : {report.a[i], report.b[i]}) {
     const int assembly = world.composition().assembly_of_part[static_cast<std::size_t>(part)];
-    if (assembly < 0) return false;  // it is gone
     const Assembly& its = world.composition().assemblies[static_cast<std::size_t>(assembly)];
     if (!its.anchored) return MayTell(peer, world.BodyOfId(its.id), report.epoch[i]);
   }

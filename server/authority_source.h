@@ -81,6 +81,8 @@ class AuthoritySource : public RuleSource {
     int peer = 0;
   };
   bool MayReport(int peer, const TouchReport& report, std::size_t i) const;
+  /// True if no assembly of the room has the part, or there never was one.
+  bool IsGone(PartId part) const;
   bool DoubtedPart(PartId part) const;
   bool MayTell(int peer, int body, std::int32_t epoch) const;
   void NoteTouch(int peer, const NewTouch& touch);

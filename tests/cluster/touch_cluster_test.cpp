@@ -91,5 +91,57 @@ TEST(Touch, EachIsToldOnceWhereClientsReportIt) {
   EXPECT_LE(slow.size(), right.size());
 }
 
+/// Its holder, late by the network, tells of the touch after the script has removed the crate.
+TEST(Touch, AReportOfAPartThatIsGoneIsDropped) {
+  std::string text = R"(
+[[player]]
+name = "ann"
+vehicle = "ball"
+script = [[0.0, {drive = 1}], [4.0, {drive = -1}], [8.0, {drive = 1}]]
+[[part]]
+name = "ground"
+chain = [[-300, 60], [-300, 0], [600, 0], [600, 60]]
+[[part]]
+name = "ball"
+circle = 0.5
+position = [-20, 0.5]
+owner = "ann"
+[[thrust]]
+name = "push"
+part = "ball"
+force = [20, 0]
+player = "ann"
+axis = "drive"
+[[part]]
+name = "crate"
+box = [0.6, 0.6]
+position = [-12, 0.3]
+repeat = {count = 40, step = [0.7, 0]}
+[[script]]
+name = "eat"
+code = """
+function on_touch(a, b)
+  if a == "ball" and b ~= "ground" then pcall(world.remove_part, b) end
+end
+"""
+)";
+  std::int64_t stale = 0;
+  for (const int seed : {1, 2, 3, 4}) {
+    ClusterConfig config;
+    config.scene = "eaten";
+    config.scene_text = text;
+    config.reconcile = "fade";
+    config.impair = "3g";
+    config.seed = seed;
+    config.drive = Drive::kBot;
+    config.duration_s = 12;
+    Cluster cluster(config);
+    cluster.Run();
+    EXPECT_TRUE(cluster.client(0)->running());
+    stale += cluster.server().stats().dropped_stale;
+  }
+  EXPECT_GT(stale, 0) << "the test would show nothing";
+}
+
 }  // namespace touch_cluster_test
 }  // namespace seam
