@@ -44,6 +44,7 @@ class StateFilter {
   /// See Plausible::MayBreak.
   bool MayBreak(const Joint& joint) { return plausible_.MayBreak(joint); }
   /// See Plausible.
+  void NoteEdit(const Edit& edit) { plausible_.NoteEdit(edit); }
   const Plausible& plausible() const { return plausible_; }
 
  private:

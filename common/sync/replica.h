@@ -126,6 +126,9 @@ class Replica {
   /// of that time, or if this copy rests on a guess: on dead reckoning, or on a world that a late
   /// input could no longer change. The next state heard of the body ends that.
   const BodyState* ComparablePast(int body, std::int64_t tick, int revision) const;
+  /// True if edits alone keep a peer's state from being compared: that peer lacked one, or an input
+  /// of the time before one came too late to be acted on here.
+  bool EditHidesPast(int body, std::int64_t tick, int revision) const;
   /// True if this peer's own world broke the joint within a quarter of a second of the tick.
   bool FeltBreak(int joint, std::int64_t tick) const;
   /// Server only; see Roles::SetSilentHolders.

@@ -108,9 +108,14 @@ const BodyState* Replica::SettledPast(int body, std::int64_t tick) const {
 
 const BodyState* Replica::ComparablePast(int body, std::int64_t tick, int revision) const {
   const BodyTrack& track = memory_.track(body);
-  const std::int64_t sure = std::max(track.dynamic_since, replay_.missed());
-  if (track.heard_tick <= sure || replay_.LacksEdit(revision, tick)) return nullptr;
+  if (track.heard_tick <= track.dynamic_since || EditHidesPast(body, tick, revision)) {
+    return nullptr;
+  }
   return SettledPast(body, tick);
+}
+
+bool Replica::EditHidesPast(int body, std::int64_t tick, int revision) const {
+  return memory_.track(body).heard_tick <= replay_.missed() || replay_.LacksEdit(revision, tick);
 }
 
 std::optional<std::uint64_t> Replica::PastHash(std::int64_t tick) const {

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/scene/mechanism_ids.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/state_arithmetic.h"
+#include "server/rules/impact_check.h"
 
 namespace seam {
 namespace {
@@ -27,6 +29,8 @@ constexpr float kWayMaxS = 0.5f, kUnseenWayMaxS = 2;
 /// Time after an edit in which differences that are not gross say nothing, s: as long as every send
 /// has the states of what an edit has changed.
 constexpr float kSettlesS = 1;
+/// Distance at which an edit may reach a body in that time though nothing near it is fast, m.
+constexpr float kEditReach = 10;
 /// Velocity that a collision may add though no body near was told to be as fast, m/s.
 constexpr float kCollisionVelocity = 5;
 
@@ -51,6 +55,7 @@ Plausible::Plausible(const Scene& scene, const Replica& replica)
       strikers_(replica.world(), [this](int body) { return SpeedOfLate(body); }),
       drift_(replica),
       note_begun_(replica.table(), [this](const BodyRemap& change) { NoteBegun(change); }) {
+  parts_ = replica.world().scene().parts.size();
   for (int body = 0; body < memory_.size(); ++body) NoteBegun(body);
 }
 
@@ -64,6 +69,14 @@ void Plausible::NoteBegun(const BodyRemap& change) {
   for (int body = 0; body < memory_.size(); ++body) {
     if (!change.bodies[static_cast<std::size_t>(body)].same) NoteBegun(body);
   }
+  Box inserted;
+  float speed = 0;
+  const std::size_t parts = replica_.world().scene().parts.size();
+  for (std::size_t p = parts_; p < parts; ++p) {
+    AddMechanism(static_cast<PartId>(p), &inserted, &speed);
+  }
+  parts_ = parts;
+  if (!inserted.isEmpty()) NoteChanged(inserted, speed);
 }
 
 void Plausible::NoteSpeed(int body, std::int64_t tick, float speed) {
@@ -115,9 +128,6 @@ void Plausible::NoteDoubt(int body, std::int64_t tick, const BodyState& told,
 
 bool Plausible::Judge(int body, std::int64_t tick, int revision, const BodyState& state,
                       bool whole) {
-  if (std::exchange(revision_, replica_.revision()) != replica_.revision()) {
-    edited_ = replica_.tick();
-  }
   const BodyState* const copy = replica_.ComparablePast(body, tick, revision);
   bool believed = false;
   ++counts_.judged;
@@ -126,10 +136,10 @@ bool Plausible::Judge(int body, std::int64_t tick, int revision, const BodyState
     BodyState off = Minus(state, *copy);
     off.angle = WrapAngle(off.angle);
     if (!whole) off.velocity = Vec2(0, 0), off.spin = 0;
-    if (whole && !Settles()) drift_.Add(body, tick, *copy, off);
+    if (whole && !Settles(body)) drift_.Add(body, tick, *copy, off);
     believed = JudgeByCopy(body, tick, state, off);
   } else {
-    believed = JudgeByWay(body, tick, state, whole);
+    believed = JudgeByWay(body, tick, revision, state, whole);
   }
   Memory& memory = memory_[body];
   memory.judged = std::max(memory.judged, tick);
@@ -138,8 +148,56 @@ bool Plausible::Judge(int body, std::int64_t tick, int revision, const BodyState
   return believed;
 }
 
-/// A holder that has not applied the newest edit yet, or has just gone back for it, differs.
-bool Plausible::Settles() const { return Seconds(replica_.tick() - edited_) < kSettlesS; }
+/// A holder that has not applied an edit yet, or has just gone back for it, differs.
+bool Plausible::Settles(int body) const {
+  return Seconds(replica_.tick() - memory_[body].edited) < kSettlesS;
+}
+
+void Plausible::NoteEdit(const Edit& edit) {
+  const World& world = replica_.world();
+  parts_ = world.scene().parts.size();
+  Box box;
+  float speed = 0;
+  for (const PartId part : world.topology().PartsOf(edit)) AddMechanism(part, &box, &speed);
+  const SeatEdit* const seat = edit.As<SeatEdit>();
+  if (seat != nullptr && static_cast<std::size_t>(seat->seat) < world.scene().seats.size()) {
+    AddMechanism(world.scene().seats[static_cast<std::size_t>(seat->seat)].part, &box, &speed);
+  }
+  if (const BlastEdit* const blast = edit.As<BlastEdit>()) {
+    const Vec2 reach = Vec2::Constant(blast->radius);
+    box.extend(Box(blast->centre - reach, blast->centre + reach));
+  }
+  if (!box.isEmpty()) NoteChanged(box, speed);
+}
+
+/// Adds where the part's mechanism is: an edit of one end reaches the other at once.
+void Plausible::AddMechanism(PartId part, Box* box, float* speed) const {
+  const World& world = replica_.world();
+  const Composition& made = world.composition();
+  const auto index = static_cast<std::size_t>(part);
+  const int its = index < made.assembly_of_part.size() ? made.assembly_of_part[index] : -1;
+  if (its < 0) return;
+  const Assembly& assembly = made.assemblies[static_cast<std::size_t>(its)];
+  const Vec2 extent = Vec2::Constant(ExtentOf(world, assembly));
+  const Vec2 place = world.ReadAssembly(its).position;
+  box->extend(Box(place - extent, place + extent));
+  const int body = world.BodyOfId(assembly.id);
+  if (body < 0) return;
+  EachIdOf(made, world.mechanism(body), [&](PartId id) {
+    const int other = world.BodyOfId(id);
+    box->extend(world.Read(other).position);
+    *speed = std::max(*speed, SpeedOfLate(other));
+  });
+}
+
+void Plausible::NoteChanged(const Box& box, float speed) {
+  const World& world = replica_.world();
+  for (int body = 0; body < memory_.size(); ++body) {
+    const float reach = kEditReach + kSettlesS * (speed + SpeedOfLate(body));
+    if (box.exteriorDistance(world.Read(body).position) > reach) continue;
+    memory_[body].edited = world.tick();
+  }
+}
 
 bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off) {
   Memory& memory = memory_[body];
@@ -148,7 +206,7 @@ bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state,
     if (drift_.Lies(body)) NoteDoubt(body, tick, state, Minus(state, off), false);
     return true;
   }
-  if (Settles() && way <= kGross && kick <= kGrossVelocity) return true;
+  if (Settles(body) && way <= kGross && kick <= kGrossVelocity) return true;
   const float forgotten = std::min(
       1.0f, Seconds(std::max<std::int64_t>(0, replica_.tick() - memory.forgotten)) / kForgetS);
   memory.forgotten = replica_.tick();
@@ -164,13 +222,15 @@ bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state,
 /// between: it ends on the segment between the two velocities times the time. The told velocity
 /// counts as far as drives and collisions explain it. A body that was silent for long is where the
 /// server last had it, or has moved on from there as far as lost messages explain.
-bool Plausible::JudgeByWay(int body, std::int64_t tick, const BodyState& state, bool whole) {
+bool Plausible::JudgeByWay(int body, std::int64_t tick, int revision, const BodyState& state,
+                           bool whole) {
   const World& world = replica_.world();
   const Memory& memory = memory_[body];
   Accepted last = accepted_[body];
   if (last.tick < memory.began) last.tick = memory.began, last.state = memory.first;
-  const bool copied =
-      world.activity(body) == Activity::kSimulated && replica_.CopiesAgree(world.mechanism(body));
+  const bool copied = world.activity(body) == Activity::kSimulated &&
+                      replica_.CopiesAgree(world.mechanism(body)) &&
+                      !replica_.EditHidesPast(body, tick, revision);
   const float longest = copied ? kWayMaxS : kUnseenWayMaxS;
   const bool known = last.tick >= 0 && Seconds(tick - last.tick) <= longest && tick >= last.tick;
   const BodyState from = known ? last.state : world.Read(body);

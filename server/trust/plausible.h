@@ -8,6 +8,7 @@
 /// and velocities. Differences that are too small for that are summed with their directions
 /// (Drift).
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -41,6 +42,9 @@ class Plausible {
   /// True if the state of a body is believed. Notes a doubt if it differs. `whole`: velocity and
   /// spin were told too.
   bool Judge(int body, std::int64_t tick, int revision, const BodyState& state, bool whole = true);
+  /// Call before each edit is applied. For kSettlesS, differences of the bodies that it may have
+  /// reached say nothing unless they are gross.
+  void NoteEdit(const Edit& edit);
   /// True if the place is within reach of the last accepted one at `times` the speed limit.
   bool Reachable(int body, std::int64_t tick, const Vec2& position, float times) const;
   /// True if the told speeds of the bodies about a glued joint explain that it broke: for joints
@@ -67,6 +71,7 @@ class Plausible {
   static constexpr float kForgetS = 4;
 
  private:
+  using Box = Eigen::AlignedBox2f;
   /// Of one body.
   struct Memory {
     std::int64_t judged = -1;     // tick of the newest judged state
@@ -75,16 +80,20 @@ class Plausible {
     char probation = 0;
     std::int64_t began = 0;  // tick at which the body began: of the edit that made it
     BodyState first;         // its state then
+    std::int64_t edited = -1000;  // tick of the last edit that may have reached it
     float fast = 0;          // greatest accepted speed of late, m/s
     std::int64_t fast_tick = 0;
   };
 
   bool JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off);
-  bool JudgeByWay(int body, std::int64_t tick, const BodyState& state, bool whole);
+  bool JudgeByWay(int body, std::int64_t tick, int revision, const BodyState& state, bool whole);
   void NoteDoubt(int body, std::int64_t tick, const BodyState& told, const BodyState& expected,
                  bool refused);
   float Seconds(std::int64_t ticks) const;
-  bool Settles() const;
+  bool Settles(int body) const;
+  /// Notes that an edit has changed something in the box, which moves at `speed`, m/s, or less.
+  void NoteChanged(const Box& box, float speed);
+  void AddMechanism(PartId part, Box* box, float* speed) const;
   void NoteBegun(int body);
   void NoteBegun(const BodyRemap& change);
   void NoteSpeed(int body, std::int64_t tick, float speed);
@@ -96,8 +105,7 @@ class Plausible {
   BodyColumn<Memory> memory_;
   std::vector<Doubt> doubts_;
   Counts counts_;
-  int revision_ = 0;             // edits as of the last judgement
-  std::int64_t edited_ = -1000;  // tick at which it was first seen
+  std::size_t parts_ = 0;  // of the scene before the edit
   Strikers strikers_;
   Drift drift_;
   EditHook note_begun_;
