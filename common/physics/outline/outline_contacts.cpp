@@ -14,8 +14,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Edges of one shape that feature ids tell apart.
-constexpr std::size_t kEdgesMax = 16;
+/// Edges of one shape that feature ids tell apart: a power of two. Of more, some share an id, and
+/// may start the solver with each other's impulses.
+constexpr std::size_t kEdgeIds = 16;
 /// A point this far beyond the end of an edge is still on it, m.
 constexpr float kEdgeSlack = b2_linearSlop;
 
@@ -84,6 +85,35 @@ b2EdgeShape EngineEdge(const OutlineEdge& edge, const b2Fixture& fixture) {
                     frame.In(edge.to + Neighbour(along, edge.after, -kNeighbourRise)));
   shape.m_radius = fixture.GetShape()->m_radius;
   return shape;
+}
+
+/// A disc around a shape, in some body's frame.
+struct Round {
+  b2Vec2 middle;
+  float radius;  // m
+};
+
+Round RoundOf(const b2Fixture& fixture, const b2Transform& own, const b2Transform& there) {
+  const b2Shape* shape = fixture.GetShape();
+  if (shape->GetType() == b2Shape::e_circle) {
+    const auto* circle = static_cast<const b2CircleShape*>(shape);
+    return {b2MulT(own, b2Mul(there, circle->m_p)), circle->m_radius};
+  }
+  const b2PolygonShape& polygon = PolygonOf(fixture);
+  float reach = 0;
+  for (int32 i = 0; i < polygon.m_count; ++i) {
+    reach = std::max(reach, b2DistanceSquared(polygon.m_vertices[i], polygon.m_centroid));
+  }
+  return {b2MulT(own, b2Mul(there, polygon.m_centroid)), std::sqrt(reach) + polygon.m_radius};
+}
+
+/// Returns true if the edge is too far from the disc for a contact.
+bool IsFar(const b2EdgeShape& edge, const Round& round) {
+  const b2Vec2 along = edge.m_vertex2 - edge.m_vertex1;
+  const float share = b2Dot(round.middle - edge.m_vertex1, along) / b2Dot(along, along);
+  const b2Vec2 nearest = edge.m_vertex1 + b2Clamp(share, 0.0f, 1.0f) * along;
+  const float reach = round.radius + edge.m_radius + kEdgeSlack;
+  return b2DistanceSquared(round.middle, nearest) > reach * reach;
 }
 
 /// Returns true if the middle of `other` is within the polygon: it has sunk in.
@@ -211,9 +241,11 @@ bool OutlineContacts::Best(const Shape& shape, const b2Fixture& own, const Shape
   const b2Transform& here = const_cast<b2Fixture&>(own).GetBody()->GetTransform();
   const b2Transform& there = const_cast<b2Fixture&>(other).GetBody()->GetTransform();
   const bool circle = other.GetType() == b2Shape::e_circle;
+  const Round round = RoundOf(other, here, there);
   float least = -FLT_MAX;
-  for (std::size_t i = 0; i < std::min(shape.edges.size(), kEdgesMax); ++i) {
+  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
     const b2EdgeShape& edge = shape.edges[i];
+    if (IsFar(edge, round)) continue;
     b2Manifold manifold;
     if (circle) {
       b2CollideEdgeAndCircle(&manifold, &edge, here, static_cast<b2CircleShape*>(ShapeIn(other)),
@@ -231,7 +263,7 @@ bool OutlineContacts::Best(const Shape& shape, const b2Fixture& own, const Shape
     float overlap = FLT_MAX;
     for (int32 k = 0; k < manifold.pointCount; ++k) {
       overlap = std::min(overlap, in_world.separations[k]);
-      manifold.points[k].id.cf.indexA |= static_cast<uint8>(i << 4);
+      manifold.points[k].id.cf.indexA |= static_cast<uint8>(i % kEdgeIds << 4);
     }
     if (overlap <= least) continue;
     least = overlap;
