@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/physics/outline/engine_outline.h"
+#include "common/base/geometry.h"
 #include "common/physics/outline/line_outline.h"
 #include "common/physics/outline/solid_outline.h"
 #include "common/physics/world_shapes.h"
@@ -13,20 +13,45 @@
 namespace seam {
 namespace {
 
+using Eigen::Vector2d;
+
 /// Edges of one shape that feature ids tell apart: a power of two. Of more, some share an id, and
 /// may start the solver with each other's impulses.
 constexpr std::size_t kEdgeIds = 16;
 /// A point this far beyond the end of an edge is still on it, m.
 constexpr float kEdgeSlack = b2_linearSlop;
 
+bool IsSolid(const b2Fixture* fixture) {
+  return fixture->GetType() == b2Shape::e_polygon && !fixture->IsSensor();
+}
+
 bool IsSegment(const b2Fixture* fixture) {
   return fixture->GetType() == b2Shape::e_edge && !fixture->IsSensor();
 }
 
+const b2PolygonShape& PolygonOf(const b2Fixture& fixture) {
+  return *static_cast<const b2PolygonShape*>(fixture.GetShape());
+}
+
 b2Shape* ShapeIn(const b2Fixture& fixture) { return const_cast<b2Fixture&>(fixture).GetShape(); }
 
+/// A body's pose in double precision: shapes far from the origin meet to a millimetre.
+struct Pose {
+  Vector2d shift{0, 0};
+  double sine = 0, cosine = 1;
+
+  Vector2d Turned(const Vector2d& v) const {
+    return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
+  }
+  Vector2d TurnedBack(const Vector2d& v) const {
+    return {cosine * v.x() + sine * v.y(), cosine * v.y() - sine * v.x()};
+  }
+  Vector2d Out(const b2Vec2& local) const { return shift + Turned(FromB2(local).cast<double>()); }
+  b2Vec2 In(const Vector2d& point) const { return ToB2(TurnedBack(point - shift).cast<float>()); }
+};
+
 /// Anchored shapes are compared in the world, those of any other body in its own frame.
-FramePose FrameOf(const b2Fixture& fixture) {
+Pose FrameOf(const b2Fixture& fixture) {
   const b2Body* body = const_cast<b2Fixture&>(fixture).GetBody();
   if (body->GetType() != b2_staticBody) return {};
   const b2Transform& pose = body->GetTransform();
@@ -34,10 +59,43 @@ FramePose FrameOf(const b2Fixture& fixture) {
           static_cast<double>(pose.q.c)};
 }
 
+SolidPolygon SolidOf(const b2Fixture& fixture) {
+  const b2PolygonShape& polygon = PolygonOf(fixture);
+  const Pose frame = FrameOf(fixture);
+  SolidPolygon solid;
+  solid.group = fixture.GetFilterData().groupIndex;
+  for (int32 i = 0; i < polygon.m_count; ++i) {
+    solid.points.push_back(frame.Out(polygon.m_vertices[i]));
+  }
+  return solid;
+}
+
 OutlineLine LineOf(const b2Fixture& fixture) {
   const auto& edge = *static_cast<const b2EdgeShape*>(fixture.GetShape());
-  const FramePose frame = FrameOf(fixture);
+  const Pose frame = FrameOf(fixture);
   return {frame.Out(edge.m_vertex1), frame.Out(edge.m_vertex2), fixture.GetFilterData().groupIndex};
+}
+
+/// Returns the direction of a neighbour of an edge with direction `along`. The engine lets a
+/// contact lean over an end by up to 6 degrees if the outline does not rise there. So a neighbour
+/// that goes on nearly straight is said to rise a little: by `rise`, to the left or right.
+Vector2d Neighbour(const Vector2d& along, const Vector2d& next, double rise) {
+  constexpr double kStraight = 0.1;  // sine: as much as the engine lets it lean
+  const bool straight = std::fabs(Cross(along, next)) < kStraight && along.dot(next) > 0;
+  return straight ? Vector2d(along + rise * Vector2d(-along.y(), along.x())) : next;
+}
+
+/// Returns the edge in the body's frame, with the shape's rim.
+b2EdgeShape EngineEdge(const OutlineEdge& edge, const b2Fixture& fixture) {
+  constexpr double kNeighbourRise = 1e-3;
+  const Pose frame = FrameOf(fixture);
+  const Vector2d along = (edge.to - edge.from).normalized();
+  b2EdgeShape shape;
+  shape.SetOneSided(frame.In(edge.from - Neighbour(along, edge.before, kNeighbourRise)),
+                    frame.In(edge.from), frame.In(edge.to),
+                    frame.In(edge.to + Neighbour(along, edge.after, -kNeighbourRise)));
+  shape.m_radius = fixture.GetShape()->m_radius;
+  return shape;
 }
 
 /// A disc around a shape, in some body's frame.
@@ -117,9 +175,6 @@ void OutlineContacts::Find(const Scene& scene, const Composition& composition,
                            const BuiltScene& built) {
   first_.assign(scene.parts.size(), -1);
   shapes_.clear();
-  jointed_ = std::any_of(built.joints.begin(), built.joints.end(), [](b2Joint* joint) {
-    return joint != nullptr && IndexOf(joint->GetBodyA()) >= 0 && IndexOf(joint->GetBodyB()) >= 0;
-  });
   // Anchored shapes with a skin are moved in, and have gaps between them.
   const double skin = static_cast<double>(scene.solver.skin);
   const double moved_in = skin > 0 ? 2 * (static_cast<double>(b2_polygonRadius) - skin) : 0;
@@ -155,7 +210,7 @@ void OutlineContacts::FindGroup(const std::vector<b2Body*>& bodies, double gap) 
     return std::make_pair(PartOf(x), PieceOf(x)) < std::make_pair(PartOf(y), PieceOf(y));
   });
   std::vector<SolidPolygon> solids;
-  for (const b2Fixture* f : fixtures) solids.push_back(SolidOf(*f, FrameOf(*f)));
+  for (const b2Fixture* f : fixtures) solids.push_back(SolidOf(*f));
   const std::vector<SolidOutline> outlines = OutlinesOf(solids, gap);
   for (std::size_t i = 0; i < fixtures.size();) {
     const std::size_t part = PartOf(fixtures[i]);
@@ -172,7 +227,7 @@ void OutlineContacts::FindGroup(const std::vector<b2Body*>& bodies, double gap) 
       Shape& shape = shapes_.back();
       shape.alone = outlines[i].alone;
       for (const OutlineEdge& edge : outlines[i].edges) {
-        shape.edges.push_back(EngineEdge(edge, *fixtures[i], FrameOf(*fixtures[i])));
+        shape.edges.push_back(EngineEdge(edge, *fixtures[i]));
       }
     }
   }
@@ -189,7 +244,7 @@ void OutlineContacts::FindSegments(const std::vector<const b2Fixture*>& segments
     Shape& shape = shapes_.emplace_back();
     shape.alone = false;
     for (const OutlineEdge& edge : outlines[i].edges) {
-      shape.edges.push_back(EngineEdge(edge, *segments[i], FrameOf(*segments[i])));
+      shape.edges.push_back(EngineEdge(edge, *segments[i]));
     }
   }
 }
@@ -259,9 +314,7 @@ bool OutlineContacts::Best(const Shape& shape, const b2Fixture& own, const Shape
 
 void OutlineContacts::Correct(b2Contact* contact, const b2Manifold& old) const {
   const b2Fixture *const a = contact->GetFixtureA(), *const b = contact->GetFixtureB();
-  Shape jointed_a, jointed_b;
-  const Shape* const shape_a = FindJointed(*contact, *a, *b, &jointed_a) ? &jointed_a : ShapeOf(a);
-  const Shape* const shape_b = FindJointed(*contact, *b, *a, &jointed_b) ? &jointed_b : ShapeOf(b);
+  const Shape *const shape_a = ShapeOf(a), *const shape_b = ShapeOf(b);
   if (shape_a == nullptr && shape_b == nullptr) return;
   const auto has_sides = [](const b2Fixture* f) {
     return f->GetType() == b2Shape::e_polygon || f->GetType() == b2Shape::e_circle;

@@ -21,9 +21,8 @@ class OutlineContacts {
   /// result holds until bodies or shapes change; it does not depend on poses of moving bodies.
   void Find(const Scene& scene, const Composition& composition, const BuiltScene& built);
 
-  /// False if every shape stands alone, and no moving bodies are jointed: then there is nothing to
-  /// correct.
-  bool any() const { return !shapes_.empty() || jointed_; }
+  /// False if every shape stands alone: then there is nothing to correct.
+  bool any() const { return !shapes_.empty(); }
 
   /// Call it in the engine's PreSolve: replaces the contact's points. If the outlines do not touch,
   /// disables the contact until the engine's next look.
@@ -38,10 +37,6 @@ class OutlineContacts {
   const Shape* ShapeOf(const b2Fixture* fixture) const;
   void FindGroup(const std::vector<b2Body*>& bodies, double gap);
   void FindSegments(const std::vector<const b2Fixture*>& segments, double gap);
-  /// Finds the outline of a shape of a moving body together with the bodies jointed to it, where
-  /// the other shape of the contact touches several of them; false: it does not.
-  static bool FindJointed(const b2Contact& contact, const b2Fixture& own, const b2Fixture& other,
-                          Shape* shape);
   static bool Best(const Shape& shape, const b2Fixture& own, const Shape* other_shape,
                    const b2Fixture& other, b2Manifold* best);
   static bool Reachable(const Shape& shape, const b2Manifold& manifold, const b2Transform& own,
@@ -49,7 +44,6 @@ class OutlineContacts {
 
   std::vector<int> first_;     // by part: index of its first piece in shapes_; -1: all stand alone
   std::vector<Shape> shapes_;  // pieces of a part follow each other
-  bool jointed_ = false;       // moving bodies
 };
 
 }  // namespace seam

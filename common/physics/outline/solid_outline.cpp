@@ -224,23 +224,6 @@ bool IsWhole(const std::vector<Piece>& pieces, std::size_t sides) {
 
 }  // namespace
 
-namespace {
-
-SolidOutline OutlineOf(const Linker& linker, const std::vector<Piece>& pieces, std::size_t polygon,
-                       std::size_t sides) {
-  SolidOutline outline;
-  outline.alone = IsWhole(pieces, sides);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    bool joined = false;
-    outline.edges.push_back(linker.EdgeOf(polygon, i, &joined));
-    outline.alone = outline.alone && !joined;
-  }
-  if (outline.alone) outline.edges.clear();
-  return outline;
-}
-
-}  // namespace
-
 std::vector<SolidOutline> OutlinesOf(const std::vector<SolidPolygon>& polygons, double gap) {
   std::vector<SolidOutline> outlines(polygons.size());
   if (polygons.size() < 2) return outlines;
@@ -252,22 +235,16 @@ std::vector<SolidOutline> OutlinesOf(const std::vector<SolidPolygon>& polygons, 
   const Linker linker(polygons, near, pieces, gap);
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     if (near[p].empty()) continue;
-    outlines[p] = OutlineOf(linker, pieces[p], p, polygons[p].points.size());
+    SolidOutline& outline = outlines[p];
+    outline.alone = IsWhole(pieces[p], polygons[p].points.size());
+    for (std::size_t i = 0; i < pieces[p].size(); ++i) {
+      bool joined = false;
+      outline.edges.push_back(linker.EdgeOf(p, i, &joined));
+      outline.alone = outline.alone && !joined;
+    }
+    if (outline.alone) outline.edges.clear();
   }
   return outlines;
-}
-
-SolidOutline FirstOutline(const std::vector<SolidPolygon>& polygons, double gap) {
-  if (polygons.size() < 2) return {};
-  std::vector<std::vector<int>> near(polygons.size());
-  std::vector<std::vector<Piece>> pieces(polygons.size());
-  for (std::size_t p = 0; p < polygons.size(); ++p) {
-    for (std::size_t other = 0; other < polygons.size(); ++other) {
-      if (other != p) near[p].push_back(static_cast<int>(other));
-    }
-    pieces[p] = PiecesOf(polygons, p, near[p], gap);
-  }
-  return OutlineOf(Linker(polygons, near, pieces, gap), pieces[0], 0, polygons[0].points.size());
 }
 
 }  // namespace seam

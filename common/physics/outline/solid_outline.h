@@ -36,7 +36,4 @@ struct SolidOutline {
 /// not seen: the engine's rims are wider.
 std::vector<SolidOutline> OutlinesOf(const std::vector<SolidPolygon>& polygons, double gap);
 
-/// Returns the outline of the first polygon alone. For a few polygons that are near each other.
-SolidOutline FirstOutline(const std::vector<SolidPolygon>& polygons, double gap);
-
 }  // namespace seam
