@@ -9,7 +9,7 @@
 #include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/base/geometry.h"
-#include "common/physics/anchored_bodies.h"
+#include "common/physics/anchored/anchored_bodies.h"
 #include "common/physics/world_impl.h"
 
 // Replaces the engine's timer. The engine reads the clock six times for each island, for a profile

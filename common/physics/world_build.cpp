@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
-#include "common/physics/anchored_bodies.h"
+#include "common/physics/anchored/anchored_bodies.h"
 #include "common/physics/faces.h"
 #include "common/physics/world_couplings.h"
 #include "common/physics/world_shapes.h"
@@ -134,9 +134,9 @@ class Builder {
   void AddAnchored(int assembly) {
     const auto a = static_cast<std::size_t>(assembly);
     const Assembly& of = composition_.assemblies[a];
-    shared_.Count(of);
     if (!memory_.share[a]) {
       built_.bodies[a] = AddBody(scene_, of, nullptr, true, world_, &built_.merged, nullptr);
+      if (memory_.dense[a]) shared_.MarkDense(built_.bodies[a]);
       return;
     }
     built_.bodies[a] = AddToShared(scene_, of, memory_.shared[a], &shared_, &built_.merged);
@@ -242,7 +242,8 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
               std::count_if(composition.assemblies.begin(), composition.assemblies.end(), moves)),
           memory);
   if (memory->share_revision != memory->revision) {
-    memory->share = ShareBodies(scene, composition);
+    memory->dense = DenseAnchored(scene, composition);
+    memory->share = ShareBodies(scene, composition, memory->dense);
     memory->shared = SharedFaces(scene, composition, memory->share);
     memory->share_revision = memory->revision;
   }

@@ -1,7 +1,7 @@
 #pragma once
 /// Puts a scene into a Box2D world: one body per assembly, in the order of their ids (anchored
-/// assemblies share a few bodies if there are many), then the joints in the scene's order. The same
-/// scene gives the same bodies in the same order everywhere.
+/// assemblies share a few bodies where there are many), then the joints in the scene's order. The
+/// same scene gives the same bodies in the same order everywhere.
 
 #include <box2d/box2d.h>
 
@@ -48,7 +48,8 @@ struct BuildMemory {
   std::vector<b2MassData> mass;           ///< by moving body; empty: not known yet
   std::vector<PartMotion> motion;         ///< likewise
   int revision = 0;                       ///< number of edits that the scene has had
-  int share_revision = -1;                ///< revision of `share` and `shared`
+  int share_revision = -1;                ///< revision of `dense`, `share` and `shared`
+  std::vector<bool> dense;                ///< by assembly: see DenseAnchored
   std::vector<bool> share;                ///< by assembly: see ShareBodies
   std::vector<std::vector<Face>> shared;  ///< by assembly: see SharedFaces
   /// A Box2D world that is never stepped, for the bodies that take no part in steps. They are

@@ -290,7 +290,8 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     snapshot.stages = w.FindStages();
     w.memory.composition = 0;  // it belongs to other bodies or joints
     w.Rebuild(snapshot, &activities);
-    const EditWake::Edited edited{*w.world, w.scene, before.composition, w.composition, w.built};
+    const EditWake::Edited edited{*w.world,      w.scene, before.composition,
+                                  w.composition, w.built, w.activities};
     for (const int body : wake.Bodies(edited, w.AllHeld())) SetAwake(body, true);
     w.impacts.clear();
   }

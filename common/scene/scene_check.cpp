@@ -1,6 +1,6 @@
 #include "common/base/check.h"
 #include "common/scene/assembly.h"
-#include "common/scene/crowding.h"
+#include "common/scene/crowding/crowding.h"
 #include "common/scene/forces.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/mass.h"

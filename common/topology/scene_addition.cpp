@@ -1,7 +1,7 @@
 /// Adds a piece of a scene while the room runs, with the same reader and the same checks.
 
 #include "common/base/check.h"
-#include "common/scene/crowding.h"
+#include "common/scene/crowding/crowding.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"

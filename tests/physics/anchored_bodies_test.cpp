@@ -1,6 +1,6 @@
 /// Many anchored parts share few bodies, and act as if each had its own.
 
-#include "common/physics/anchored_bodies.h"
+#include "common/physics/anchored/anchored_bodies.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,12 @@
 namespace seam {
 namespace anchored_bodies_test {
 
+constexpr int kDense = static_cast<int>(kDenseFrom);
+
 int CountShared(const Scene& scene) {
-  const std::vector<bool> share = ShareBodies(scene, Compose(scene));
+  const Composition composition = Compose(scene);
+  const std::vector<bool> share =
+      ShareBodies(scene, composition, DenseAnchored(scene, composition));
   return static_cast<int>(std::count(share.begin(), share.end(), true));
 }
 
@@ -30,8 +34,8 @@ std::string Tiles(int count, double angle = 0) {
 }
 
 TEST(AnchoredBodies, OnlyManyPartsWithoutJointsShareABody) {
-  EXPECT_EQ(CountShared(ParseScene(Tiles(kShareFrom - 1), "a.toml")), 0);
-  EXPECT_EQ(CountShared(ParseScene(Tiles(kShareFrom), "a.toml")), kShareFrom);
+  EXPECT_EQ(CountShared(ParseScene(Tiles(kDense - 1), "a.toml")), 0);
+  EXPECT_EQ(CountShared(ParseScene(Tiles(kDense), "a.toml")), kDense);
   const std::string door =
       "[[part]]\nname = \"door\"\nbox = [0.2, 2]\nposition = [0, 1.2]\n"
       "[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\na = \"tile.3\"\nb = \"door\"\n"
@@ -62,7 +66,7 @@ BodyState Slid(int tiles, double angle) {
 
 TEST(AnchoredBodies, ASlopeOfTilesIsTheSameOfOwnAndOfSharedBodies) {
   for (const double angle : {0.0, 0.35, -0.2}) {
-    const BodyState own = Slid(kShareFrom - 2, angle), shared = Slid(kShareFrom, angle);
+    const BodyState own = Slid(kDense - 2, angle), shared = Slid(kDense, angle);
     // Rounded edges make another blow of each seam: a hundredth of the way.
     EXPECT_LT((own.position - shared.position).norm(), 0.1f) << angle;
     EXPECT_NEAR(own.angle, shared.angle, 2e-2f) << angle;
@@ -83,7 +87,7 @@ TEST(AnchoredBodies, AMechanismOnTilesIsTheSameOnOwnAndOnSharedBodies) {
     Live(world.get(), 240);
     return world->Read(0);
   };
-  const BodyState own = driven(kShareFrom - 2), shared = driven(kShareFrom);
+  const BodyState own = driven(kDense - 2), shared = driven(kDense);
   EXPECT_GT(own.position.x(), -3) << "it drives";
   EXPECT_LT((own.position - shared.position).norm(), 0.02f);
 }
@@ -157,8 +161,8 @@ TEST(AnchoredBodies, AFreedOneFallsAndTheOthersStay) {
 
 TEST(AnchoredBodies, AWeldedWallComesDownWhenItIsNoLongerAnchored) {
   const std::string wall =
-      "[[part]]\nname = \"ledge\"\nbox = [1, 1]\nposition = [0, 20]\nanchored = true\n"
-      "[[part]]\nname = \"slab\"\nbox = [1, 1]\nposition = [1, 20]\n"
+      "[[part]]\nname = \"ledge\"\nbox = [1, 14]\nposition = [0, 7]\nanchored = true\n"
+      "[[part]]\nname = \"slab\"\nbox = [1, 1]\nposition = [1, 13]\n"
       "[[joint]]\nname = \"weld\"\nkind = \"weld\"\na = \"ledge\"\nb = \"slab\"\n";
   auto world = SmallWorld(Tiles(40) + wall);
   EXPECT_EQ(CountShared(world->scene()), 41);
@@ -166,7 +170,7 @@ TEST(AnchoredBodies, AWeldedWallComesDownWhenItIsNoLongerAnchored) {
   world->Apply({Edit(BreakEdit{0}, EditCause::kOutside)});
   ASSERT_EQ(world->body_count(), 1);
   Live(world.get(), 60);
-  EXPECT_LT(world->Read(0).position.y(), 18);
+  EXPECT_LT(world->Read(0).position.y(), 11);
 }
 
 /// Twenty welded rows of forty boxes with 0.3 m between them, turned about the origin; twenty balls

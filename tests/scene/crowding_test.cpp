@@ -1,7 +1,7 @@
 /// Scenes with too many overlapping parts in one place are refused by place and number; others are
 /// not.
 
-#include "common/scene/crowding.h"
+#include "common/scene/crowding/crowding.h"
 
 #include <gtest/gtest.h>
 

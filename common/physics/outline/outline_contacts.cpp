@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/geometry.h"
+#include "common/physics/outline/line_outline.h"
 #include "common/physics/outline/solid_outline.h"
 #include "common/physics/world_shapes.h"
 
@@ -14,13 +15,18 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Edges of one shape that feature ids tell apart.
-constexpr std::size_t kEdgesMax = 16;
+/// Edges of one shape that feature ids tell apart: a power of two. Of more, some share an id, and
+/// may start the solver with each other's impulses.
+constexpr std::size_t kEdgeIds = 16;
 /// A point this far beyond the end of an edge is still on it, m.
 constexpr float kEdgeSlack = b2_linearSlop;
 
 bool IsSolid(const b2Fixture* fixture) {
   return fixture->GetType() == b2Shape::e_polygon && !fixture->IsSensor();
+}
+
+bool IsSegment(const b2Fixture* fixture) {
+  return fixture->GetType() == b2Shape::e_edge && !fixture->IsSensor();
 }
 
 const b2PolygonShape& PolygonOf(const b2Fixture& fixture) {
@@ -64,6 +70,12 @@ SolidPolygon SolidOf(const b2Fixture& fixture) {
   return solid;
 }
 
+OutlineLine LineOf(const b2Fixture& fixture) {
+  const auto& edge = *static_cast<const b2EdgeShape*>(fixture.GetShape());
+  const Pose frame = FrameOf(fixture);
+  return {frame.Out(edge.m_vertex1), frame.Out(edge.m_vertex2), fixture.GetFilterData().groupIndex};
+}
+
 /// Returns the direction of a neighbour of an edge with direction `along`. The engine lets a
 /// contact lean over an end by up to 6 degrees if the outline does not rise there. So a neighbour
 /// that goes on nearly straight is said to rise a little: by `rise`, to the left or right.
@@ -73,7 +85,7 @@ Vector2d Neighbour(const Vector2d& along, const Vector2d& next, double rise) {
   return straight ? Vector2d(along + rise * Vector2d(-along.y(), along.x())) : next;
 }
 
-/// Returns the edge in the body's frame, with the polygon's rim.
+/// Returns the edge in the body's frame, with the shape's rim.
 b2EdgeShape EngineEdge(const OutlineEdge& edge, const b2Fixture& fixture) {
   constexpr double kNeighbourRise = 1e-3;
   const Pose frame = FrameOf(fixture);
@@ -86,12 +98,47 @@ b2EdgeShape EngineEdge(const OutlineEdge& edge, const b2Fixture& fixture) {
   return shape;
 }
 
+/// A disc around a shape, in some body's frame.
+struct Round {
+  b2Vec2 middle;
+  float radius;  // m
+};
+
+Round RoundOf(const b2Fixture& fixture, const b2Transform& own, const b2Transform& there) {
+  const b2Shape* shape = fixture.GetShape();
+  if (shape->GetType() == b2Shape::e_circle) {
+    const auto* circle = static_cast<const b2CircleShape*>(shape);
+    return {b2MulT(own, b2Mul(there, circle->m_p)), circle->m_radius};
+  }
+  const b2PolygonShape& polygon = PolygonOf(fixture);
+  float reach = 0;
+  for (int32 i = 0; i < polygon.m_count; ++i) {
+    reach = std::max(reach, b2DistanceSquared(polygon.m_vertices[i], polygon.m_centroid));
+  }
+  return {b2MulT(own, b2Mul(there, polygon.m_centroid)), std::sqrt(reach) + polygon.m_radius};
+}
+
+/// Returns true if the edge is too far from the disc for a contact.
+bool IsFar(const b2EdgeShape& edge, const Round& round) {
+  const b2Vec2 along = edge.m_vertex2 - edge.m_vertex1;
+  const float share = b2Dot(round.middle - edge.m_vertex1, along) / b2Dot(along, along);
+  const b2Vec2 nearest = edge.m_vertex1 + b2Clamp(share, 0.0f, 1.0f) * along;
+  const float reach = round.radius + edge.m_radius + kEdgeSlack;
+  return b2DistanceSquared(round.middle, nearest) > reach * reach;
+}
+
+b2Vec2 MiddleOf(const b2Shape& shape) {
+  if (shape.GetType() == b2Shape::e_circle) return static_cast<const b2CircleShape&>(shape).m_p;
+  if (shape.GetType() == b2Shape::e_polygon) {
+    return static_cast<const b2PolygonShape&>(shape).m_centroid;
+  }
+  const auto& edge = static_cast<const b2EdgeShape&>(shape);
+  return 0.5f * (edge.m_vertex1 + edge.m_vertex2);
+}
+
 /// Returns true if the middle of `other` is within the polygon: it has sunk in.
 bool IsSunkIn(const b2Fixture& polygon, const b2Fixture& other) {
-  const b2Shape* shape = other.GetShape();
-  const b2Vec2 local = shape->GetType() == b2Shape::e_circle
-                           ? static_cast<const b2CircleShape*>(shape)->m_p
-                           : PolygonOf(other).m_centroid;
+  const b2Vec2 local = MiddleOf(*other.GetShape());
   const b2Vec2 middle = b2Mul(const_cast<b2Fixture&>(other).GetBody()->GetTransform(), local);
   return polygon.TestPoint(middle);
 }
@@ -147,11 +194,17 @@ void OutlineContacts::Find(const Scene& scene, const Composition& composition,
 
 void OutlineContacts::FindGroup(const std::vector<b2Body*>& bodies, double gap) {
   std::vector<const b2Fixture*> fixtures;
+  std::vector<const b2Fixture*> segments;
   for (b2Body* body : bodies) {
     for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext()) {
-      if (IsSolid(f) && PartOf(f) < first_.size()) fixtures.push_back(f);
+      if (PartOf(f) >= first_.size()) continue;
+      if (IsSolid(f)) fixtures.push_back(f);
+      if (IsSegment(f)) segments.push_back(f);
     }
   }
+  std::sort(segments.begin(), segments.end(),
+            [](const b2Fixture* x, const b2Fixture* y) { return PartOf(x) < PartOf(y); });
+  FindSegments(segments, gap);
   if (fixtures.size() < 2) return;
   std::sort(fixtures.begin(), fixtures.end(), [](const b2Fixture* x, const b2Fixture* y) {
     return std::make_pair(PartOf(x), PieceOf(x)) < std::make_pair(PartOf(y), PieceOf(y));
@@ -180,9 +233,26 @@ void OutlineContacts::FindGroup(const std::vector<b2Body*>& bodies, double gap) 
   }
 }
 
+void OutlineContacts::FindSegments(const std::vector<const b2Fixture*>& segments, double gap) {
+  if (segments.size() < 2) return;
+  std::vector<OutlineLine> lines;
+  for (const b2Fixture* f : segments) lines.push_back(LineOf(*f));
+  const std::vector<SolidOutline> outlines = LineOutlinesOf(lines, gap);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (outlines[i].alone) continue;
+    first_[PartOf(segments[i])] = static_cast<int>(shapes_.size());
+    Shape& shape = shapes_.emplace_back();
+    shape.alone = false;
+    for (const OutlineEdge& edge : outlines[i].edges) {
+      shape.edges.push_back(EngineEdge(edge, *segments[i]));
+    }
+  }
+}
+
 const OutlineContacts::Shape* OutlineContacts::ShapeOf(const b2Fixture* fixture) const {
   const std::size_t part = PartOf(fixture);
-  if (part >= first_.size() || first_[part] < 0 || !IsSolid(fixture)) return nullptr;
+  if (part >= first_.size() || first_[part] < 0) return nullptr;
+  if (!IsSolid(fixture) && !IsSegment(fixture)) return nullptr;
   const Shape& shape = shapes_[static_cast<std::size_t>(first_[part]) + PieceOf(fixture)];
   return shape.alone ? nullptr : &shape;
 }
@@ -211,9 +281,11 @@ bool OutlineContacts::Best(const Shape& shape, const b2Fixture& own, const Shape
   const b2Transform& here = const_cast<b2Fixture&>(own).GetBody()->GetTransform();
   const b2Transform& there = const_cast<b2Fixture&>(other).GetBody()->GetTransform();
   const bool circle = other.GetType() == b2Shape::e_circle;
+  const Round round = RoundOf(other, here, there);
   float least = -FLT_MAX;
-  for (std::size_t i = 0; i < std::min(shape.edges.size(), kEdgesMax); ++i) {
+  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
     const b2EdgeShape& edge = shape.edges[i];
+    if (IsFar(edge, round)) continue;
     b2Manifold manifold;
     if (circle) {
       b2CollideEdgeAndCircle(&manifold, &edge, here, static_cast<b2CircleShape*>(ShapeIn(other)),
@@ -231,7 +303,7 @@ bool OutlineContacts::Best(const Shape& shape, const b2Fixture& own, const Shape
     float overlap = FLT_MAX;
     for (int32 k = 0; k < manifold.pointCount; ++k) {
       overlap = std::min(overlap, in_world.separations[k]);
-      manifold.points[k].id.cf.indexA |= static_cast<uint8>(i << 4);
+      manifold.points[k].id.cf.indexA |= static_cast<uint8>(i % kEdgeIds << 4);
     }
     if (overlap <= least) continue;
     least = overlap;
@@ -244,14 +316,18 @@ void OutlineContacts::Correct(b2Contact* contact, const b2Manifold& old) const {
   const b2Fixture *const a = contact->GetFixtureA(), *const b = contact->GetFixtureB();
   const Shape *const shape_a = ShapeOf(a), *const shape_b = ShapeOf(b);
   if (shape_a == nullptr && shape_b == nullptr) return;
-  const auto knows = [](const b2Fixture* f) {
+  const auto has_sides = [](const b2Fixture* f) {
     return f->GetType() == b2Shape::e_polygon || f->GetType() == b2Shape::e_circle;
   };
-  if (!knows(a) || !knows(b)) return;  // chains and segments have no inner sides
+  // The engine lets a chain's segments know their next ones; lone segments have none.
+  const auto knows = [&](const b2Fixture* f, const Shape* shape) {
+    return has_sides(f) || (IsSegment(f) && shape != nullptr);
+  };
+  if (!knows(a, shape_a) || !knows(b, shape_b)) return;
   b2Manifold* const manifold = contact->GetManifold();
   b2Manifold best;
-  bool found = shape_a != nullptr && Best(*shape_a, *a, shape_b, *b, &best);
-  if (!found && shape_b != nullptr) {
+  bool found = shape_a != nullptr && has_sides(b) && Best(*shape_a, *a, shape_b, *b, &best);
+  if (!found && shape_b != nullptr && has_sides(a)) {
     found = Best(*shape_b, *b, shape_a, *a, &best);
     if (found) Swap(&best);
   }

@@ -1,9 +1,9 @@
 #pragma once
 /// Contacts of shapes that are part of something larger: tiles of a floor, planks of a deck. The
 /// engine lets two polygons collide by any of their sides, inner ones included: a box that lands
-/// between two tiles is stopped by the wall between them. Here such a contact is found again, by
-/// the sides of the outline alone and with the next sides known (as in a chain of the engine).
-/// Shapes keep their own friction and restitution, and stay solid.
+/// between two tiles is stopped by the wall between them. So does the end of a segment. Here such a
+/// contact is found again, by the sides of the outline alone and with the next sides known (as in a
+/// chain of the engine). Shapes keep their own friction and restitution, and stay solid.
 
 #include <box2d/box2d.h>
 
@@ -36,6 +36,7 @@ class OutlineContacts {
   /// Returns nullptr for a shape that stands alone.
   const Shape* ShapeOf(const b2Fixture* fixture) const;
   void FindGroup(const std::vector<b2Body*>& bodies, double gap);
+  void FindSegments(const std::vector<const b2Fixture*>& segments, double gap);
   static bool Best(const Shape& shape, const b2Fixture& own, const Shape* other_shape,
                    const b2Fixture& other, b2Manifold* best);
   static bool Reachable(const Shape& shape, const b2Manifold& manifold, const b2Transform& own,

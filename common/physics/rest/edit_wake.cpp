@@ -63,6 +63,13 @@ int BodyOf(const EditWake::Edited& edited, PartId part) {
   return IndexOf(edited.built.bodies[static_cast<std::size_t>(now - edited.now.assemblies.data())]);
 }
 
+/// Sorts and drops doubles and negative numbers.
+void Sort(std::vector<int>* bodies) {
+  std::sort(bodies->begin(), bodies->end());
+  bodies->erase(std::unique(bodies->begin(), bodies->end()), bodies->end());
+  bodies->erase(bodies->begin(), std::lower_bound(bodies->begin(), bodies->end(), 0));
+}
+
 }  // namespace
 
 EditWake::EditWake(const b2World& world, const Scene& scene, const BuiltScene& built,
@@ -83,10 +90,45 @@ std::vector<int> EditWake::Bodies(const Edited& edited, const std::vector<bool>&
     bodies.push_back(BodyOf(edited, edited.scene.joints[j].a));
     bodies.push_back(BodyOf(edited, edited.scene.joints[j].b));
   }
-  std::sort(bodies.begin(), bodies.end());
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
-  bodies.erase(bodies.begin(), std::lower_bound(bodies.begin(), bodies.end(), 0));
+  Sort(&bodies);
+  AddBehindDisplayed(edited, touches, held, &bodies);
   return bodies;
+}
+
+void EditWake::AddBehindDisplayed(const Edited& edited, const std::vector<PartTouch>& touches,
+                                  const std::vector<bool>& held, std::vector<int>* bodies) const {
+  const auto simulated = [&](int body) {
+    return edited.activities[static_cast<std::size_t>(body)] == Activity::kSimulated;
+  };
+  const bool all = std::all_of(edited.activities.begin(), edited.activities.end(),
+                               [](Activity a) { return a == Activity::kSimulated; });
+  if (bodies->empty() || all) return;
+  std::vector<std::vector<int>> neighbours(edited.activities.size());
+  const auto link = [&](PartId part_a, PartId part_b) {
+    const int a = BodyOf(edited, part_a), b = BodyOf(edited, part_b);
+    if (a < 0 || b < 0) return;
+    neighbours[static_cast<std::size_t>(a)].push_back(b);
+    neighbours[static_cast<std::size_t>(b)].push_back(a);
+  };
+  for (const PartTouch& touch : touches) link(touch.a, touch.b);
+  for (std::size_t j = 0; j < held.size(); ++j) {
+    if (held[j]) link(edited.scene.joints[j].a, edited.scene.joints[j].b);
+  }
+  std::vector<char> woken(edited.activities.size(), 0);
+  std::vector<int> open = *bodies;
+  for (const int body : open) woken[static_cast<std::size_t>(body)] = 1;
+  while (!open.empty()) {
+    const int body = open.back();
+    open.pop_back();
+    for (const int other : neighbours[static_cast<std::size_t>(body)]) {
+      char& is_woken = woken[static_cast<std::size_t>(other)];
+      if (is_woken != 0) continue;
+      is_woken = 1;
+      open.push_back(other);
+      if (!simulated(body) || !simulated(other)) bodies->push_back(other);
+    }
+  }
+  Sort(bodies);
 }
 
 }  // namespace seam

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/physics/activity.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
 
@@ -21,11 +22,17 @@ class EditWake {
     const Scene& scene;
     const Composition &before, &now;
     const BuiltScene& built;
+    const std::vector<Activity>& activities;  ///< by moving body
   };
-  /// Returns the moving bodies to wake, ascending. `held`: as above, after the edits.
+  /// Returns the moving bodies to wake, ascending. `held`: as above, after the edits. The engine
+  /// wakes what these touch, and so on, among simulated bodies. Where one in between is not, the
+  /// bodies behind it are in the result.
   std::vector<int> Bodies(const Edited& edited, const std::vector<bool>& held) const;
 
  private:
+  void AddBehindDisplayed(const Edited& edited, const std::vector<PartTouch>& touches,
+                          const std::vector<bool>& held, std::vector<int>* bodies) const;
+
   std::vector<bool> held_;
   std::vector<PartTouch> touches_;  // before the edits
 };

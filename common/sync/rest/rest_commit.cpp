@@ -134,8 +134,10 @@ void RestCommit::Hold(int body) {
     LetGo(body);  // a replay found an impact
   }
   if (!Holds(body)) return;
-  const bool simulated = world_.activity(body) == Activity::kSimulated && world_.awake(body);
-  if (simulated && (edited_ || IsDisturbed(body))) {
+  // A displayed body is awake here only if the edit woke it. Its rest ends, as at every peer: it
+  // may become this peer's own before its authority has spoken.
+  const bool simulated = world_.activity(body) == Activity::kSimulated;
+  if (world_.awake(body) && (edited_ || (simulated && IsDisturbed(body)))) {
     LetGo(body);
   } else {
     Put(body);

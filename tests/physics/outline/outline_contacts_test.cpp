@@ -202,6 +202,24 @@ TEST(OutlineContacts, AWallBesideAFloorStopsWhatRunsIntoIt) {
   }
 }
 
+TEST(OutlineContacts, AGroundBearsBesideAnyNumberOfPosts) {
+  for (const int posts : {0, 10, 20, 200}) {
+    std::string text = PartText("ground", "box = [900, 1]\nposition = [0, -0.5]\nanchored = true");
+    if (posts > 0) {
+      text += PartText("post",
+                       "box = [0.5, 1]\nposition = [20, 0.5]\nanchored = true\nrepeat = "
+                       "{count = " +
+                           std::to_string(posts) + ", step = [2, 0]}");
+    }
+    text += PartText("disc", "circle = 0.5\nposition = [-3, 0.7]");
+    text += PartText("crate", "box = [1, 1]\nposition = [3, 0.7]");
+    const auto world = SmallWorld(text);
+    Steps(world.get(), 120);
+    EXPECT_NEAR(world->Read(0).position.y(), 0.5f, 0.02f) << posts;
+    EXPECT_NEAR(world->Read(1).position.y(), 0.5f, 0.02f) << posts;
+  }
+}
+
 TEST(OutlineContacts, WithoutOneOfTheBoxesThereIsAHole) {
   // The outline is found anew: the body falls in, and stands against the hole's wall.
   for (const bool hole : {false, true}) {

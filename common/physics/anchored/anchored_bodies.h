@@ -9,15 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "common/physics/anchored/dense_anchored.h"
 #include "common/physics/faces.h"
 #include "common/scene/assembly.h"
 
 namespace seam {
 
-/// Returns, by assembly, true if it may share a body: it is anchored and stationary, and nothing is
-/// attached to its body (no non-rigid joint, breakable glue, connector, belt, seat or thrust). All
-/// false if fewer than kShareFrom assemblies qualify.
-std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition);
+/// Returns, by assembly, true if it may share a body: it is dense (see DenseAnchored), and nothing
+/// is attached to its body (no non-rigid joint, breakable glue, connector, belt, seat or thrust).
+std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition,
+                              const std::vector<bool>& dense);
 
 /// Returns the shapes of the sharing assemblies (see ShareBodies), by the assembly of each shape's
 /// lowest part. Boxes that lie on one body and form a rectangle become one shape, whichever
@@ -28,13 +29,10 @@ std::vector<std::vector<Face>> SharedFaces(const Scene& scene, const Composition
 /// Makes the engine's next step drop contacts that are no longer contacts (see AnchoredBodies).
 void DropFarContacts(b2World* world);
 
-/// Number of anchored assemblies from which they share bodies.
-constexpr int kShareFrom = 32;
-
-/// Makes the bodies of a world's anchored assemblies. Assemblies whose roots lie in the same square
-/// of the plane share a body, so that no shape is far from its body's origin. From kShareFrom parts
-/// on, a pair of shapes of which only the bounding boxes meet is not made a contact: a long wall at
-/// an angle has a box as large as a city.
+/// Makes the shared bodies of a world's dense anchored assemblies. Those whose roots lie in the
+/// same square of the plane share a body, so that no shape is far from its body's origin. With a
+/// shape of a dense assembly, a pair of which only the bounding boxes meet is not made a contact: a
+/// long wall at an angle has a box as large as a city.
 class AnchoredBodies {
  public:
   explicit AnchoredBodies(b2World* world) : world_(world) {}
@@ -43,17 +41,16 @@ class AnchoredBodies {
     b2Body* body = nullptr;
     Part frame;  ///< has the body's pose
   };
-  /// Counts an anchored assembly, with a body of its own or not.
-  void Count(const Assembly& assembly);
+  /// Notes that a dense assembly has this body to itself.
+  void MarkDense(b2Body* body);
   /// Returns the shared body for the assembly with this root.
   const Body& For(const Part& root);
 
  private:
   b2World* world_;
-  std::size_t parts_ = 0;
-  using Square = std::pair<int, int>;  // column and row
-  std::map<Square, Body> bodies_;
-  const std::pair<const Square, Body>* last_ = nullptr;  // last found: neighbours follow each other
+  std::map<AnchoredSquare, Body> bodies_;
+  const std::pair<const AnchoredSquare, Body>* last_ =
+      nullptr;  // last found: neighbours follow each other
 };
 
 }  // namespace seam

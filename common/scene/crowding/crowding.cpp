@@ -1,4 +1,4 @@
-#include "common/scene/crowding.h"
+#include "common/scene/crowding/crowding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "common/base/check.h"
 #include "common/base/spatial/box_sweep.h"
-#include "common/base/trig.h"
+#include "common/scene/crowding/part_limits.h"
 #include "common/scene/scene_limits.h"
 
 namespace seam {
@@ -29,42 +29,6 @@ struct Box {
   bool bullet = false;
 };
 
-struct Limits {
-  Vec2 min{1e30f, 1e30f}, max{-1e30f, -1e30f};
-  void Add(const Vec2& point, float radius) {
-    min = min.cwiseMin((point.array() - radius).matrix());
-    max = max.cwiseMax((point.array() + radius).matrix());
-  }
-};
-
-Vec2 InWorld(const Part& part, const Vec2& local) {
-  const float c = Cos(part.angle), s = Sin(part.angle);
-  return part.position + Vec2(c * local.x() - s * local.y(), s * local.x() + c * local.y());
-}
-
-Limits LimitsOf(const Part& part) {
-  Limits limits;
-  switch (part.kind) {
-    case ShapeKind::kBox:
-      for (const float x : {-0.5f, 0.5f}) {
-        for (const float y : {-0.5f, 0.5f}) {
-          limits.Add(InWorld(part, Vec2(x * part.size.x(), y * part.size.y())), 0);
-        }
-      }
-      break;
-    case ShapeKind::kCircle: limits.Add(part.position, part.radius); break;
-    case ShapeKind::kCapsule:
-      for (const Vec2& p : part.points) limits.Add(InWorld(part, p), part.radius);
-      break;
-    case ShapeKind::kPolygon:
-    case ShapeKind::kChain:
-    case ShapeKind::kSegment:
-      for (const Vec2& p : part.points) limits.Add(InWorld(part, p), 0);
-      break;
-  }
-  return limits;
-}
-
 /// Returns the largest number of shapes that the engine receives for a part other than a chain.
 int PiecesOf(const Part& part) {
   if (part.kind == ShapeKind::kCapsule) return 3;
@@ -72,7 +36,7 @@ int PiecesOf(const Part& part) {
   return part.kind == ShapeKind::kPolygon && points > 8 ? (points + 3) / 4 : 1;
 }
 
-bool Overlap(const Limits& a, const Box& b) {
+bool Overlap(const PartLimits& a, const Box& b) {
   return ((a.max - b.min).array() > kSlop).all() && ((b.max - a.min).array() > kSlop).all();
 }
 
@@ -80,7 +44,7 @@ bool Overlap(const Limits& a, const Box& b) {
 int SegmentsIn(const Part& chain, const Box& box) {
   int count = 0;
   for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
-    Limits limits;
+    PartLimits limits;
     limits.Add(InWorld(chain, chain.points[i]), kSlop);
     limits.Add(InWorld(chain, chain.points[i + 1]), kSlop);
     count += Overlap(limits, box) ? 1 : 0;
@@ -132,7 +96,7 @@ class Count {
       const Assembly& assembly = composition_.assemblies[index];
       const bool stays = assembly.anchored && assembly.kinematic < 0;
       if (part.id < first_ && !stays) continue;
-      const Limits limits = LimitsOf(part);
+      const PartLimits limits = LimitsOf(part);
       boxes.push_back({limits.min, limits.max, part.id, static_cast<int>(index), PiecesOf(part),
                        !assembly.anchored, bullet[index]});
     }

@@ -1,7 +1,6 @@
-#include "common/physics/anchored_bodies.h"
+#include "common/physics/anchored/anchored_bodies.h"
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 
 #include "common/physics/reveal.h"
 #include "common/physics/world_build.h"
@@ -12,26 +11,22 @@
 namespace seam {
 namespace {
 
-/// Side of the squares, m. In each step the engine walks through the contacts of the later body of
-/// a pair, so a body must not have the contacts of a whole city.
-constexpr float kSquare = 16;
-
 SEAM_REVEAL(ContactFlags, uint32, b2Contact, m_flags);
 /// The engine's own flag: ask the contact filter again at the next step.
 constexpr uint32 kFilterAgain = 0x0008;
 
-using Square = std::pair<int, int>;  // column and row
+/// User data of a dense static body; a moving one has its number there.
+constexpr std::uintptr_t kDense = ~std::uintptr_t{0};
 
-Square SquareOf(const Part& root) {
-  const auto square = [](float x) { return static_cast<int>(std::floor(x / kSquare)); };
-  return {square(root.position.x()), square(root.position.y())};
+bool IsDense(b2Body* body) {
+  return body->GetType() == b2_staticBody && body->GetUserData().pointer == kDense;
 }
 
 /// True if the engine's enlarged box of `other`, within which moves go unnoticed, lies beyond a
 /// side of the anchored polygon.
 bool IsBeyond(b2Fixture* anchored, b2Fixture* other) {
   const b2Body* body = anchored->GetBody();
-  if (body->GetType() != b2_staticBody || anchored->GetType() != b2Shape::e_polygon) return false;
+  if (!IsDense(anchored->GetBody()) || anchored->GetType() != b2Shape::e_polygon) return false;
   if (other->GetShape()->GetChildCount() != 1) return false;
   const auto& polygon = *static_cast<const b2PolygonShape*>(anchored->GetShape());
   const b2BroadPhase& boxes = body->GetWorld()->GetContactManager().m_broadPhase;
@@ -71,11 +66,9 @@ void DropFarContacts(b2World* world) {
   }
 }
 
-std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition) {
-  std::vector<bool> share;
-  for (const Assembly& a : composition.assemblies) {
-    share.push_back(a.anchored && a.kinematic < 0);
-  }
+std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition,
+                              const std::vector<bool>& dense) {
+  std::vector<bool> share = dense;
   const auto keep = [&](PartId part) {
     const int index = composition.assembly_of_part[static_cast<std::size_t>(part)];
     if (index >= 0) share[static_cast<std::size_t>(index)] = false;
@@ -92,15 +85,12 @@ std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition
   }
   for (const Seat& seat : scene.seats) keep(seat.part);
   for (const Thrust& thrust : scene.thrusts) keep(thrust.part);
-  if (std::count(share.begin(), share.end(), true) < kShareFrom) {
-    share.assign(share.size(), false);
-  }
   return share;
 }
 
 std::vector<std::vector<Face>> SharedFaces(const Scene& scene, const Composition& composition,
                                            const std::vector<bool>& share) {
-  std::map<Square, Assembly> together;
+  std::map<AnchoredSquare, Assembly> together;
   for (std::size_t a = 0; a < share.size(); ++a) {
     if (!share[a]) continue;
     const Assembly& assembly = composition.assemblies[a];
@@ -118,23 +108,24 @@ std::vector<std::vector<Face>> SharedFaces(const Scene& scene, const Composition
   return faces;
 }
 
-void AnchoredBodies::Count(const Assembly& assembly) {
-  parts_ += assembly.parts.size();
-  if (parts_ >= static_cast<std::size_t>(kShareFrom)) world_->SetContactFilter(Sides());
+void AnchoredBodies::MarkDense(b2Body* body) {
+  body->GetUserData().pointer = kDense;
+  world_->SetContactFilter(Sides());
 }
 
 const AnchoredBodies::Body& AnchoredBodies::For(const Part& root) {
-  const Square square = SquareOf(root);
+  const AnchoredSquare square = SquareOf(root);
   if (last_ != nullptr && last_->first == square) return last_->second;
   const auto found = bodies_.try_emplace(square).first;
   last_ = &*found;
   Body& body = found->second;
   if (body.body != nullptr) return body;
-  const auto middle = [](int of) { return kSquare * (static_cast<float>(of) + 0.5f); };
-  body.frame.position = {middle(square.first), middle(square.second)};
+  const auto middle = [](int of) { return kAnchoredSquare * (static_cast<float>(of) + 0.5f); };
+  body.frame.position = {middle(square.column), middle(square.row)};
   b2BodyDef def;
   def.position = ToB2(body.frame.position);
   body.body = world_->CreateBody(&def);
+  MarkDense(body.body);
   return body;
 }
 
