@@ -137,7 +137,7 @@ SOAK ?= 300
 .PHONY: all fuzz check check-includes objects core-tests docs help deps demo fleet-demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
 	lint compile_commands.json install install-built python wheel deb clean force
 
-all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
+all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp build/share/seam2d/scenes   ## build the programs
 
 help:                                ## this list
 	@echo "make targets (BUILD=release|debug|asan|tsan, default release; PREFIX=/usr/local):"
@@ -330,6 +330,10 @@ $(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml scenes/*/*.toml)
 	  $(OUT)/$$p --generate zsh > $(@D)/zsh/_$$p && $(OUT)/$$p --generate fish > $(@D)/fish/$$p.fish || exit 1; done
 	@$(OUT)/seam-lab schema scenes/*.toml scenes/*/*.toml > $(@D)/seam.schema.json
 	@touch $@
+
+# The scenes by name for built programs that run in another folder, as for installed ones.
+build/share/seam2d/scenes:
+	@mkdir -p $(@D) && ln -sfn ../../../scenes $@
 
 # An example of a page to look through: three methods on one network.
 docs/review.html: $(PROGRAMS)

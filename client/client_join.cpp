@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "client/client.h"
+#include "client/goodbye.h"
 #include "common/base/hex.h"
 #include "common/base/nearest.h"
 #include "common/net/datagram.h"
@@ -33,6 +34,13 @@ std::string OtherProtocol(const std::string& reason) {
   if (!says || theirs == kProtocolVersion) return "";
   return "the server speaks protocol " + std::to_string(theirs) + ", this client speaks " +
          std::to_string(kProtocolVersion) + ": they need the same version";
+}
+
+/// Returns the line for a client that only looks on and was given a player's place.
+std::string PlayersPlace(const std::string& name) {
+  return name +
+         " is a player of this room: to look on, take another name, or a token made with "
+         "--watch";
 }
 
 }  // namespace
@@ -163,6 +171,10 @@ bool Client::OnSealed(std::int64_t now_us, const Bytes& datagram) {
   });
   if (redirect_) Follow(now_us, *std::exchange(redirect_, std::nullopt));
   if (!refusal_.empty()) {
+    if (refusal_ == PlayersPlace(config_.name)) {
+      const auto send = [&](ByteView out) { net_.Send(config_.server, out); };
+      SayGoodbye(now_us, link, [&] { link->Flush(now_us, send); });
+    }
     next_.reset();
     OnRefusal(now_us, std::exchange(refusal_, {}));
   }
@@ -175,6 +187,10 @@ void Client::OnOffered(std::int64_t now_us, ByteView bytes) {
     if (welcome->epoch < epoch_) {
       refusal_ = "it has epoch " + std::to_string(welcome->epoch) +
                  " of the room, which has gone on elsewhere to " + std::to_string(epoch_);
+      return;
+    }
+    if (config_.watch && welcome->player >= 0) {
+      refusal_ = PlayersPlace(config_.name);
       return;
     }
     Forget(now_us);
@@ -239,9 +255,16 @@ void Client::TryElsewhere(std::int64_t now_us) {
 
 void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
   const std::string other = OtherProtocol(reason);
-  if (config_.numbers_name && reason.rfind("the name " + config_.name + " is in use", 0) == 0) {
+  const bool players = reason == PlayersPlace(config_.name);
+  const bool in_use = reason.rfind("the name " + config_.name + " is in use", 0) == 0;
+  if (config_.numbers_name && (players || in_use)) {
     config_.name = "guest-" + std::to_string(++name_number_);
+    if (players) return BeginJoin(now_us);  // the server may still have that session
     BeginOffers();
+    return;
+  }
+  if (players) {
+    fatal_ = reason;
     return;
   }
   // Our own earlier session may still hold the name: retry for a while.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "client/client.h"
+#include "client/goodbye.h"
 
 namespace seam {
 
@@ -66,13 +67,7 @@ void Client::Flush(std::int64_t now_us) {
 
 void Client::Shutdown(std::int64_t now_us) {
   if (link_ == nullptr || closed_) return;
-  Bye bye;
-  bye.utime = now_us;
-  bye.reason = "left";
-  for (int copy = 0; copy < 4; ++copy) {  // may be lost, and is not retransmitted
-    link_->SendUnreliable(Encode(bye));
-    Flush(now_us);
-  }
+  SayGoodbye(now_us, link_.get(), [&] { Flush(now_us); });
   net_.Flush();
 }
 

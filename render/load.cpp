@@ -6,6 +6,7 @@
 #include "common/base/progress_count.h"
 #include "common/record/damage.h"
 #include "common/sync/method.h"
+#include "render/compared.h"
 #include "render/scene_recording.h"
 
 namespace seam {
@@ -59,6 +60,11 @@ std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
     LoadedLog log = LoadLog(options, i);
     playbacks.emplace_back(std::move(log.recording), std::move(log.oracle));
   }
+  std::vector<const Playback*> runs;
+  for (const Playback& playback : playbacks) runs.push_back(&playback);
+  RequireOneScene(options.logs, runs);
+  const std::vector<std::string> apart = ApartOf(options.logs, runs);
+  for (std::size_t i = 0; i < apart.size(); ++i) playbacks[i].SetApart(apart[i]);
   return playbacks;
 }
 

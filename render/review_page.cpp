@@ -9,6 +9,7 @@
 #include "common/base/process.h"
 #include "common/base/progress_count.h"
 #include "render/commands.h"
+#include "render/compared.h"
 #include "render/load.h"
 #include "render/output.h"
 #include "render/page/document.h"
@@ -47,6 +48,9 @@ void RenderReviewPage(const RenderOptions& options) {
         std::filesystem::path(path).stem().string() + SessionSuffix(logs.back()->recording);
     runs.push_back({name, &logs.back()->playback, path});
   }
+  std::vector<const Playback*> compared;
+  for (const auto& log : logs) compared.push_back(&log->playback);
+  RequireOneScene(options.logs, compared);
   const std::string html = PageHtml(runs);
   WriteText(options.out, html);
   count.End();

@@ -98,6 +98,10 @@ void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   y += 16 * scale;
   const std::string about = playback.policy().about();
   list.Text(area.x, y, TextStyle::kBody, about.empty() ? "mode " + room.mode : about, kFaintInk);
+  if (!playback.apart().empty()) {
+    y += 16 * scale;
+    list.Text(area.x, y, TextStyle::kBody, playback.apart(), kInk);
+  }
   y += 4 * scale;
   const auto figure = [&](const std::string& name, const std::string& value) {
     y += 16 * scale;

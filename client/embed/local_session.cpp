@@ -62,6 +62,10 @@ LocalSession::LocalSession(const Scene& scene, const LocalSessionConfig& config)
   };
 }
 
+LocalSession::~LocalSession() {
+  if (log_ != nullptr) cluster_.server().Shutdown(cluster_.now_us(), "the session is over");
+}
+
 void LocalSession::RunToTick(std::int64_t tick) {
   cluster_.RunToTick(tick);
   RequireLog();

@@ -30,6 +30,8 @@ class LocalSession {
   /// Throws OperatorError when a name is unknown, a number out of range, or the log cannot be
   /// written.
   LocalSession(const Scene& scene, const LocalSessionConfig& config);
+  /// Ends the log, if there is one, as seam-server does.
+  ~LocalSession();
   LocalSession(const LocalSession&) = delete;
   LocalSession& operator=(const LocalSession&) = delete;
 

@@ -14,7 +14,7 @@ std::string FindScene(const std::string& word);
 
 /// Returns the folders that are searched for scene names, in order: scenes, scenes/hard and
 /// scenes/exact of the current folder, then the same three in ../share/seam2d relative to the
-/// running program's folder.
+/// running program's folder: those installed, or of the source tree that it is built in.
 std::vector<std::string> SceneFolders();
 
 /// Returns the names that FindScene would find, sorted, except those in folders `hard` and `exact`.

@@ -6,6 +6,8 @@
 #include "common/base/check.h"
 #include "common/codec/message_limits.h"
 #include "common/record/log_file.h"
+#include "common/record/no_room.h"
+#include "common/record/recorder.h"
 #include "common/record/recording.h"
 
 namespace seam {
@@ -18,7 +20,11 @@ Recording ReadRecording(const std::string& path, const std::string& room,
   LogReader reader(path);
   RecordingBuilder builder(room, chosen);
   LogEvent event;
-  while (reader.Next(&event)) builder.Add(event.channel, event.data, event.timestamp_us);
+  bool ours = false;
+  while (reader.Next(&event)) {
+    builder.Add(event.channel, event.data, event.timestamp_us);
+    ours = ours || !RoomOfChannel(event.channel).empty();
+  }
   if (!builder.has_room()) {
     const std::int32_t other = builder.recording().foreign_protocol;
     if (other != 0) {
@@ -27,8 +33,7 @@ Recording ReadRecording(const std::string& path, const std::string& room,
                           std::to_string(kOldestReadableProtocol) + " to " +
                           std::to_string(kProtocolVersion));
     }
-    const std::string which = room.empty() ? "no Seam2D room" : "no room \"" + room + "\"";
-    throw OperatorError(path + ": " + which + " in this log (record channels SEAM.*)");
+    throw OperatorError(path + ": " + WhyNoRoom(room, ours));
   }
   if (!builder.has_scene() && builder.scene_parts().have() > 0) {
     throw OperatorError(path + ": only " + std::to_string(builder.scene_parts().have()) + " of " +

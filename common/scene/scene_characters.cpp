@@ -44,7 +44,7 @@ CharacterDraft ReadDraft(const SceneReader& r, const std::string& name, const Sc
   c.facing = ReadChoice(r, "facing", "right", "left") ? 1.0f : -1.0f;
   c.height = r.Number("height", kCharacterHeight, c.height);
   draft.position = r.Vector("position", kCoordinate);
-  draft.angle = r.Number("angle", {-100, 100}, 0.0f);
+  draft.angle = r.Number("angle", {-100, 100, true}, 0.0f);
   draft.density = r.Number("density", kDensity, draft.density);
   draft.friction = r.Number("friction", {0, 1}, draft.friction);
   draft.strength = r.Number("strength", {0.01, 100}, draft.strength);

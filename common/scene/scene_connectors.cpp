@@ -42,7 +42,7 @@ Connectors ReadConnectors(const SceneReader& part) {
   }
   out.strength = part.Number("join_strength", {0, 1e9}, out.strength);
   out.reach = part.Number("join_reach", {0.001, 10}, out.reach);
-  out.angle = part.Number("join_angle", {0, 3.15}, out.angle);
+  out.angle = part.Number("join_angle", {0, 3.15, true}, out.angle);
   return out;
 }
 

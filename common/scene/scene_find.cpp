@@ -1,7 +1,25 @@
+#include "common/base/nearest.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/toml/scene_text.h"
 
 namespace seam {
+namespace {
+
+/// Returns "there is no part 'chasis' (did you mean 'chassis'?)".
+std::string NoPart(const std::string& name, const SceneDraft& draft) {
+  std::vector<std::string> known;
+  for (const auto& [group, parts] : draft.group_of_name) known.push_back(group);
+  for (const auto& [part, id] : draft.part_of_name) known.push_back(part);
+  return "there is no part '" + Printable(name) + "'" + DidYouMean(name, known);
+}
+
+std::string NoPlayer(const std::string& name, const SceneDraft& draft) {
+  std::vector<std::string> known;
+  for (const Player& player : draft.scene.players) known.push_back(player.name);
+  return "there is no player '" + Printable(name) + "'" + DidYouMean(name, known);
+}
+
+}  // namespace
 
 std::vector<PartId> FindParts(const SceneReader& reader, const char* key, const std::string& name,
                               const SceneDraft& draft) {
@@ -10,7 +28,7 @@ std::vector<PartId> FindParts(const SceneReader& reader, const char* key, const 
   const bool all = name.size() > 2 && name.compare(name.size() - 2, 2, ".*") == 0;
   const auto group = draft.group_of_name.find(all ? name.substr(0, name.size() - 2) : name);
   if (group == draft.group_of_name.end()) {
-    reader.FailAt(key, std::string(key) + ": there is no part '" + Printable(name) + "'");
+    reader.FailAt(key, std::string(key) + ": " + NoPart(name, draft));
   }
   if (!all) {
     const std::string first = draft.scene.parts[static_cast<std::size_t>(group->second[0])].name;
@@ -37,7 +55,7 @@ int FindPlayer(const SceneReader& reader, const char* key, const std::string& na
                            draft.scene.players[static_cast<std::size_t>(group->second.first)].name +
                            "' for one of them");
   }
-  reader.FailAt(key, std::string(key) + ": there is no player '" + Printable(name) + "'");
+  reader.FailAt(key, std::string(key) + ": " + NoPlayer(name, draft));
 }
 
 std::vector<int> FindPlayers(const SceneReader& reader, const char* key, const SceneDraft& draft) {

@@ -78,7 +78,7 @@ const JointName& ReadJointName(const SceneReader& r) {
 /// Reads limits. Hinge: rad; distance: m, of its length; else m from the start.
 void ReadLimits(const SceneReader& r, Joint* joint) {
   if (!r.Has("limits")) return;
-  const Range angles{-100, 100}, lengths{kEdgeMin, 10000}, shifts{-1000, 1000};
+  const Range angles{-100, 100, true}, lengths{kEdgeMin, 10000}, shifts{-1000, 1000};
   const JointLimits of = LimitsOf(joint->kind);
   const Vec2 limits = r.Vector("limits", of == JointLimits::kAngle    ? angles
                                          : of == JointLimits::kLength ? lengths
@@ -119,7 +119,7 @@ void ReadPoseMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) 
   const SceneReader f(*table, draft.file, r.what() + ": follow",
                       {"player", "axis", "reach", "swing"});
   joint->reach = f.Vector("reach", {-1000, 1000}, Vec2(0, 0));
-  joint->swing = f.Number("swing", {-100, 100}, 0.0f);
+  joint->swing = f.Number("swing", {-100, 100, true}, 0.0f);
   joint->motor_player = ReadAxisDriver(f, draft, &joint->motor_axis);
   if (joint->motor_player < 0) f.Fail("player is missing");
 }
@@ -186,7 +186,7 @@ void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   if (!r.Has("reference_angle")) return;
   const Part& a = draft.scene.parts[static_cast<std::size_t>(joint->a)];
   const Part& b = draft.scene.parts[static_cast<std::size_t>(joint->b)];
-  joint->turn = b.angle - a.angle - r.Number("reference_angle", {-1000, 1000});
+  joint->turn = b.angle - a.angle - r.Number("reference_angle", {-1000, 1000, true});
 }
 
 void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {

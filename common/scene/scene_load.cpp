@@ -9,6 +9,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
+#include "common/scene/toml/scene_keys.h"
 #include "common/scene/toml/scene_text.h"
 
 namespace seam {
@@ -107,13 +108,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   scene.name = SceneName(file_name);
   scene.text = text;
 
-  const SceneReader root(
-      tree, file_name, "scene",
-      {"title",       "gravity",  "duration", "buffer",    "speed_limit",   "size_max",  "bounds",
-       "solver",      "part",     "bricks",   "character", "joint",         "thrust",    "water",
-       "player",      "seat",     "watch",    "camera",    "trigger",       "script",    "grouping",
-       "input_delay", "expect",   "follow",   "strand",    "server_follow", "propeller", "charges",
-       "planner",     "show_age", "lcm"});
+  const SceneReader root(tree, file_name, "scene", kSceneKeys);
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);

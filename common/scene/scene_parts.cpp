@@ -119,7 +119,7 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   part.anchored = r.Flag("anchored", r.Has("chain") || r.Has("segment"));
   ReadShape(r, part.anchored ? kSizeMaxMax : draft->size_max, &part);
   part.position = r.Vector("position", kCoordinate, Vec2(0, 0));
-  part.angle = r.Number("angle", {-100, 100}, 0.0f);
+  part.angle = r.Number("angle", {-100, 100, true}, 0.0f);
   part.material.density = r.Number("density", kDensity, part.material.density);
   part.material.friction = r.Number("friction", {0, 1}, part.material.friction);
   part.material.restitution = r.Number("restitution", {0, 1}, part.material.restitution);

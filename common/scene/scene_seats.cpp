@@ -1,5 +1,11 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "common/base/nearest.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {
@@ -42,7 +48,7 @@ void ReadSeats(const SceneReader& root, SceneDraft* draft) {
       r.FailAt("part", "the part of a seat must move");
     }
     seat.at = r.Vector("at", {-100, 100}, Vec2(0, 0));
-    seat.angle = r.Number("angle", {-10, 10}, 0.0f);
+    seat.angle = r.Number("angle", {-10, 10, true}, 0.0f);
     seat.reach = r.Number("reach", {0.1, 100}, seat.reach);
     seat.button = r.Integer("button", {0, 14});
   }
@@ -54,6 +60,14 @@ int FindDriver(const SceneReader& reader, const char* key, const std::string& na
     if (draft.scene.seats[s].name == name) {
       return static_cast<int>(draft.scene.players.size() + s);
     }
+  }
+  std::vector<std::string> seats;
+  for (const Seat& seat : draft.scene.seats) seats.push_back(seat.name);
+  const std::string meant = DidYouMean(name, seats);
+  const bool player = std::any_of(draft.scene.players.begin(), draft.scene.players.end(),
+                                  [&](const Player& p) { return p.name == name; });
+  if (!player && !meant.empty()) {
+    reader.FailAt(key, std::string(key) + ": there is no seat '" + Printable(name) + "'" + meant);
   }
   return FindPlayer(reader, key, name, draft);
 }

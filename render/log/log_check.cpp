@@ -55,15 +55,11 @@ LogCheck CheckLog(const std::string& path, const Secret* key) {
     check.seals += seal != nullptr || std::holds_alternative<TickChain>(message) ? 1 : 0;
     check.keyed += seal != nullptr && !seal->log_keyed.empty() ? 1 : 0;
     SessionSpan& span = check.rooms[room][SessionOf(event.data).value_or(0)];
-    if (span.events++ == 0) span.first_us = span.last_us = event.timestamp_us;
+    ++span.events;
     span.bytes += bytes;
-    span.first_us = std::min(span.first_us, event.timestamp_us);
-    span.last_us = std::max(span.last_us, event.timestamp_us);
+    span.us.Add(event.timestamp_us);
     span.happened += std::holds_alternative<Event>(message) ? 1 : 0;
-    if (const auto* view = std::get_if<View>(&message)) {
-      span.first_tick = span.last_tick < 0 ? view->tick : std::min(span.first_tick, view->tick);
-      span.last_tick = std::max(span.last_tick, view->tick);
-    }
+    if (const auto* view = std::get_if<View>(&message)) span.ticks.Add(view->tick);
   }
   check.skipped_bytes = reader.skipped_bytes();
   check.damage = reader.damage();

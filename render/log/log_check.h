@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/record/chain_check.h"
+#include "render/log/longest_run.h"
 
 namespace seam {
 
@@ -16,8 +17,8 @@ namespace seam {
 struct SessionSpan {
   std::int64_t events = 0, bytes = 0;
   std::int64_t happened = 0;                    ///< Event messages
-  std::int64_t first_us = 0, last_us = 0;       ///< timestamps
-  std::int64_t first_tick = 0, last_tick = -1;  ///< of the views
+  LongestRun us{3600000000};                    ///< timestamps
+  LongestRun ticks{100000};                     ///< of the views
 };
 
 struct LogCheck {

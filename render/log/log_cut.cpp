@@ -74,17 +74,25 @@ std::uint64_t KeyOf(const LogEvent& event, const AnyMessage& message) {
 
 /// A log that is being merged: its next event, and by how much its clock is ahead of the first's.
 struct Source {
-  explicit Source(const std::string& path) : reader(path) { Take(); }
+  explicit Source(const std::string& path) : reader(path) {
+    // A later segment begins with what precedes it, between two seals.
+    keyframe_seals = reader.segment() > 0 ? 2 : 0;
+    Take();
+  }
   void Take() {
     there = reader.Next(&event);
     if (!there) return;
     message = Decode(event.data);
+    in_keyframe = keyframe_seals > 0;
+    if (in_keyframe && std::holds_alternative<LogSeal>(message)) --keyframe_seals;
     at_us = std::max(at_us, event.timestamp_us - ahead_us);
   }
   LogReader reader;
   LogEvent event;
   AnyMessage message;
   bool there = false;
+  int keyframe_seals = 0;    // until the keyframe is over
+  bool in_keyframe = false;  // the event is of what precedes a later segment
   std::int64_t ahead_us = 0;
   std::int64_t at_us = std::numeric_limits<std::int64_t>::min();  // never runs backwards
   /// Returns a key of the event: another one for a message that this log has again.
@@ -101,6 +109,7 @@ std::int64_t ClockAhead(const std::unordered_map<std::uint64_t, std::int64_t>& f
                         const std::string& path) {
   std::vector<std::int64_t> ahead;
   for (Source source(path); source.there; source.Take()) {
+    if (source.in_keyframe) continue;  // with the times of the segment
     const auto found = first.find(KeyOf(source.event, source.message));
     if (found != first.end()) ahead.push_back(source.event.timestamp_us - found->second);
   }
@@ -171,6 +180,7 @@ int RunLogMerge(const LogMergeCommand& command) {
   }
   std::unordered_map<std::uint64_t, std::int64_t> first;  // time by message
   for (Source source(command.logs.front()); source.there; source.Take()) {
+    if (source.in_keyframe) continue;
     first.try_emplace(KeyOf(source.event, source.message), source.event.timestamp_us);
   }
   LogCopy copy(command.out, command.force, command.logs);
@@ -182,6 +192,7 @@ int RunLogMerge(const LogMergeCommand& command) {
     source.at_us = source.event.timestamp_us - source.ahead_us;
   }
   std::unordered_set<std::uint64_t> written;
+  std::unordered_map<std::int64_t, const Source*> begun;  // the log that a session's room is from
   std::int64_t twice = 0;
   for (;;) {
     Source* next = nullptr;
@@ -189,7 +200,11 @@ int RunLogMerge(const LogMergeCommand& command) {
       if (source->there && (next == nullptr || source->at_us < next->at_us)) next = source.get();
     }
     if (next == nullptr) break;
-    if (written.insert(next->Key()).second) {
+    const std::int64_t session = SessionOf(next->event.data).value_or(0);
+    const bool room = std::holds_alternative<Room>(next->message);
+    const auto of = room ? begun.try_emplace(session, next).first : begun.find(session);
+    const bool known = next->in_keyframe && of != begun.end() && of->second != next;
+    if (!known && written.insert(next->Key()).second) {
       copy.Add(next->event, next->at_us, next->message);
     } else {
       ++twice;

@@ -11,6 +11,7 @@
 #include "common/record/damage.h"
 #include "common/record/log_file.h"
 #include "common/record/loss_timeline.h"
+#include "common/record/no_room.h"
 #include "render/log/log_check.h"
 #include "render/log/log_commands.h"
 
@@ -23,22 +24,31 @@ struct ChannelSum {
   std::int64_t last_us = 0, pause_us = 0;  ///< the longest between two events
 };
 
-void PrintSessions(const std::string& path, const std::string& room,
-                   const std::map<std::int64_t, SessionSpan>& spans) {
+void PrintHead() {
+  std::printf("%-12s %3s  %-16s  %-16s %-20s %9s  %-12s  %8s  %12s  %8s\n", "room", "#", "session",
+              "scene", "method", "duration", "", "messages", "bytes", "events");
+}
+
+/// Returns the number of sessions. `head`: a line above the first.
+int PrintSessions(const std::string& path, const std::string& room,
+                  const std::map<std::int64_t, SessionSpan>& spans, bool head) {
   int number = 0;
   for (const LogSession& session : ListSessions(path, room)) {
     const auto found = spans.find(session.id);
     const SessionSpan span = found == spans.end() ? SessionSpan() : found->second;
     const Room& is = session.room;
+    if (head && number == 0) PrintHead();
     const std::string method = is.mode + (is.reconcile.empty() ? "" : "/" + is.reconcile);
     std::printf(
         "%-12s %3d  %016llx  %-16s %-20s %7.1f s  ticks %lld..%lld  %8lld  %9.1f kB  %8lld\n",
         room.c_str(), ++number, static_cast<unsigned long long>(session.id), is.scene_name.c_str(),
-        method.c_str(), static_cast<double>(span.last_us - span.first_us) * 1e-6,
-        static_cast<long long>(span.first_tick), static_cast<long long>(span.last_tick),
+        method.c_str(), static_cast<double>(span.us.length()) * 1e-6,
+        static_cast<long long>(span.ticks.empty() ? 0 : span.ticks.first()),
+        static_cast<long long>(span.ticks.empty() ? -1 : span.ticks.last()),
         static_cast<long long>(span.events), static_cast<double>(span.bytes) * 1e-3,
         static_cast<long long>(span.happened));
   }
+  return number;
 }
 
 /// Returns what the line of a whole log says of its begin.
@@ -55,10 +65,11 @@ int RunLogList(const LogsCommand& command) {
     const LogCheck check = CheckLog(path);
     std::printf("%s: %lld events, %.1f kB%s\n", path.c_str(), static_cast<long long>(check.events),
                 static_cast<double>(check.bytes) * 1e-3, check.damaged() ? ", damaged" : "");
-    if (check.rooms.empty()) throw OperatorError(path + ": no Seam2D room in this log");
-    std::printf("%-12s %3s  %-16s  %-16s %-20s %9s  %-12s  %8s  %12s  %8s\n", "room", "#",
-                "session", "scene", "method", "duration", "", "messages", "bytes", "events");
-    for (const auto& [room, spans] : check.rooms) PrintSessions(path, room, spans);
+    int sessions = 0;
+    for (const auto& [room, spans] : check.rooms) {
+      sessions += PrintSessions(path, room, spans, sessions == 0);
+    }
+    if (sessions == 0) throw OperatorError(path + ": " + WhyNoRoom("", !check.rooms.empty()));
     status = check.damaged() ? 1 : status;
   }
   return status;

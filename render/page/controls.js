@@ -238,6 +238,8 @@ function openPage(head, bytes) {
   new ResizeObserver(() => page.changed()).observe($('world'));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     readTheme();
+    addPanelHeads(page);
+    addLegend(page);
     addOwners(page);
     page.changed();
   });

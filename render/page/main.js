@@ -116,7 +116,7 @@ class Page {
     if (state.mode === 'side') {
       views.forEach((view, i) => {
         const titles = views.length > 1 ? [title(i, 'left')] : [];
-        drawPanel(c, rects[i], camera, view, at(view), titles);
+        drawPanel(c, rects[i], camera, view, at(view), titles, this.word);
       });
       return;
     }
@@ -124,16 +124,16 @@ class Page {
     const [rect] = rects;
     if (state.mode === 'difference') {
       const titles = [title(0, 'left'), title(1, 'right', `from ${second.label()}`)];
-      drawPanel(c, rect, camera, views[0], at(views[0]), titles, second);
+      drawPanel(c, rect, camera, views[0], at(views[0]), titles, 'apart', second);
       return;
     }
     const titles = [title(0, 'left'), title(1, 'right', second.label())];
-    drawPanel(c, rect, camera, second, at(second), titles);
+    drawPanel(c, rect, camera, second, at(second), titles, this.word);
     c.save();
     c.beginPath();
     c.rect(0, 0, state.wipe * width, height);
     c.clip();
-    drawPanel(c, rect, camera, views[0], at(views[0]), titles);
+    drawPanel(c, rect, camera, views[0], at(views[0]), titles, this.word);
     c.restore();
   }
 
@@ -284,7 +284,8 @@ class Page {
   }
   goWorst() {
     const worst = worstMoment(this.views());
-    if (!worst) return this.tell('no error is known');
+    if (!worst) return this.tell(`no ${this.word} is known`);
+    if (worst.units === 0) return this.tell(`the ${this.word} is 0 on all views shown`);
     const {view, id} = worst;
     const error = formatLength(worst.units * view.units.error);
     this.showBody(worst, `worst: ${view.run.names.get(id)} is ${error} off on ${view.label()}`);

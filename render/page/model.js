@@ -228,13 +228,14 @@ function rangeStats(views, measure, from, to) {
   };
 }
 
-// Returns tick and body of the largest error of some views; null without an oracle.
+// Returns tick and body of the largest error of some views; null if none is known.
 function worstMoment(views) {
   let worst = null;
   for (const view of views) {
     for (const track of view.tracks.bodies.values()) {
       track.error.forEach((units, tick) => {
-        if (units > 0 && (!worst || units > worst.units)) worst = {units, tick, view, id: track.id};
+        if (units >= 0 && !(worst && units <= worst.units))
+          worst = {units, tick, view, id: track.id};
       });
     }
   }

@@ -291,9 +291,9 @@ function drawDifference(c, viewport, first, second, tick) {
   return seen;
 }
 
-// Draws a panel. `titles`: of its upper corners; `second`: the view to take the difference from, or
-// nothing.
-function drawPanel(c, rect, camera, view, tick, titles, second) {
+// Draws a panel. `titles`: of its upper corners; `heat`: the word for the colours' scale; `second`:
+// the view to take the difference from, or nothing.
+function drawPanel(c, rect, camera, view, tick, titles, heat, second) {
   const viewport = new Viewport(rect, camera);
   const world = view.worldAt(tick);
   c.save();
@@ -316,7 +316,7 @@ function drawPanel(c, rect, camera, view, tick, titles, second) {
   if (state.layers.vectors) drawVectors(c, viewport, view, tick);
   if (state.layers.contacts) drawContacts(c, viewport, view, tick);
   const taken = titles.map((title) => titleBox(rect, title));
-  if (state.layers.heat || second) taken.push(drawHeatScale(c, rect, second ? 'apart' : 'error'));
+  if (state.layers.heat || second) taken.push(drawHeatScale(c, rect, heat));
   taken.push(drawScaleBar(c, viewport, step));
   drawNames(c, viewport, view, seen, taken);
   for (const title of titles) drawTitle(c, rect, title);

@@ -203,7 +203,7 @@ std::string Playback::PeerName(int peer) const {
   return name.empty() ? number : name + " (" + number + ")";
 }
 
-std::string Playback::Label() const {
+std::string Playback::Method() const {
   const Room& room = recording_->room;
   const std::string variant = VariantOf(room);
   return variant.empty() ? room.mode : room.mode + " · " + variant;

@@ -83,7 +83,12 @@ class Playback {
   /// Returns "server", "ann (peer 1)" or "peer 3".
   std::string PeerName(int peer) const;
   /// Returns "buffer · retrospect", "strict", "oracle".
-  std::string Label() const;
+  std::string Method() const;
+  /// Returns the method, and what tells the run from others of it: "buffer · fade · seed 2".
+  std::string Label() const { return Method() + (apart_.empty() ? "" : " · " + apart_); }
+  /// See ApartOf; "" until it is set.
+  const std::string& apart() const { return apart_; }
+  void SetApart(const std::string& words) { apart_ = words; }
 
   Moment MomentAt(int peer, double tick) const;
   std::optional<Shown> Find(const Moment& moment, PartId id) const;
@@ -118,6 +123,7 @@ class Playback {
 
   std::shared_ptr<const Recording> recording_;
   Scene scene_;
+  std::string apart_;
   std::optional<Oracle> oracle_;
   /// Cache of shapes by revision, with a bounded size.
   struct KnownRevisions {

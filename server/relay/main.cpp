@@ -17,6 +17,7 @@
 #include "common/net/secret_file.h"
 #include "common/net/udp.h"
 #include "server/relay/relay.h"
+#include "server/relay/upstream_lines.h"
 #include "server/server_flags.h"
 
 namespace {
@@ -101,11 +102,12 @@ int PassOn(const Flags& f) {
   if (!f.directory.empty()) rooms = std::make_unique<RoomWatch>(f.directory, f.fleet, f.room);
   Relay relay(config, upstream, downstream, entropy);
   StopOnSignals();
-  std::fprintf(stderr, "seam-relay: watches %s, for watchers on %s\nseam-relay: its key is %s\n",
+  std::fprintf(stderr, "seam-relay: joins %s, for watchers on %s\nseam-relay: its key is %s\n",
                ToString(config.upstream.server).c_str(), ToString(downstream.local()).c_str(),
                ToHex(config.identity->open.data(), config.identity->open.size()).c_str());
   const std::int64_t begin = SteadyClockUs();
   ProgressLine line(f.quiet);
+  UpstreamLines upstream_lines;
   int most = 0;
   while (g_stop == 0 && !relay.closed() && relay.fatal().empty()) {
     const std::int64_t now = SteadyClockUs();
@@ -114,6 +116,11 @@ int PassOn(const Flags& f) {
     if (holder && ReadAddress(holder->address, &at)) relay.Suggest(at, holder->epoch);
     relay.Tick(now);
     most = std::max(most, relay.watchers().ready());
+    const std::string told = upstream_lines.Next(relay.client());
+    if (!told.empty()) {
+      line.End();
+      std::fprintf(stderr, "seam-relay: %s\n", told.c_str());
+    }
     if (f.duration_s > 0 && static_cast<double>(now - begin) * 1e-6 > f.duration_s) break;
     if (static_cast<double>(relay.joining_us(now)) * 1e-6 > f.join_s) {
       relay.Shutdown(now, "the relay has lost its server");

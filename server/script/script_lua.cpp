@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "server/script/lua_hint.h"
 #include "server/script/quiet_host.h"
 #include "server/script/script.h"
 #include "server/script/script_lua_guard.h"
@@ -265,13 +266,11 @@ struct Script::Impl {
     }
     std::size_t bytes = 0;
     const char* text = lua_tolstring(state, -1, &bytes);
-    const std::string prefix = scene_file + ":";
-    if (std::strncmp(text, prefix.c_str(), prefix.size()) == 0) {
-      // The message has its line already, from Lua or the scene's reader.
-      error = Plain(text, bytes);
-      return Close();
-    }
-    Stop(line, Plain(text, bytes));
+    // The message may have its line already, from Lua or the scene's reader.
+    const bool placed = std::string(text).rfind(scene_file + ":", 0) == 0;
+    error = (placed ? "" : scene_file + ":" + std::to_string(line) + ": ") + Plain(text, bytes);
+    error += LuaHint(source, error);
+    Close();
   }
 
   void Stop(int line, const std::string& what) {

@@ -78,6 +78,18 @@ struct Mistake {
 /// Most are in callbacks that nothing calls within a second, behind conditions that do not hold.
 const Mistake kMistakes[] = {
     {"function on_tick(t)\n  if t > 5 adn true then end\nend\n", 2, "'then' expected near 'adn'"},
+    {"function on_tick(t)\n  room.hits += 1\nend\n", 2,
+     "(Lua has no +=: write room.hits = room.hits + ...)"},
+    {"function on_join(p)\n  if p != 'ann' then world.say(p) end\nend\n", 2,
+     "(not equal is ~= in Lua)"},
+    {"function on_join(p)\n  if p = 'ann' then world.say(p) end\nend\n", 2,
+     "(equal is == in a condition)"},
+    {"function on_join(p)\n  if p == 'ann' && p then world.say(p) end\nend\n", 2,
+     "(and is a word in Lua)"},
+    {"function on_join(p)\n  world.say('a += 1' + p)\nend\n", 2, "(texts are joined by ..)"},
+    {"function on_join(p)\n  if p == 'ann' then world.say(p)\n  else if p == 'bob' then "
+     "world.say(p)\n  end\nend\n",
+     6, "(line 49: \"else if\" begins another if with an end of its own, elseif does not)"},
     {"function on_join(p)\n  prnt(p)\nend\n", 2,
      "'prnt' is defined nowhere (did you mean 'print'?)"},
     {"function on_trigger(t, p, e)\n  if world.tick() > 999 then world.remove_prat('gate') "

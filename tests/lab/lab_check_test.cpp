@@ -80,6 +80,26 @@ TEST(LabCheck, FindsABodyInABrick) {
   EXPECT_EQ(Found(kGround + bricks + ball + "[7.3, 1.2]\n"), std::vector<std::string>{});
 }
 
+TEST(LabCheck, FindsAnglesThatMayBeDegrees) {
+  const std::string arm = "[[part]]\nname = \"arm\"\nbox = [1, 0.2]\nposition = [0.5, 5]\n";
+  ExpectOne(std::string(kGround) + arm + "angle = 90\n", 8,
+            "angle = 90 is more than a turn: angles are in radians, 90 degrees are 1.571");
+  const std::string hinge =
+      "[[joint]]\nname = \"pivot\"\nkind = \"hinge\"\na = \"arm\"\nb = \"box\"\nanchor = [0, 5]\n";
+  ExpectOne(std::string(kGround) + kBox + arm + hinge + "limits = [-45, 45]\n", 18,
+            "limits = -45 is more than a turn");
+  EXPECT_EQ(Found(std::string(kGround) + kBox + arm + hinge + "limits = [-6.28, 3]\n"),
+            std::vector<std::string>{});
+  EXPECT_EQ(Found(std::string(kGround) + arm + "# check: meant, twice round\nangle = 14\n"),
+            std::vector<std::string>{});
+}
+
+TEST(LabCheck, AReversedChainIsOneFinding) {
+  ExpectOne("[[part]]\nname = \"ground\"\nchain = [[50, 0], [-50, 0]]\n" + std::string(kBox) +
+                "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [4, 0.3]\n",
+            1, "chain 'ground' faces the wrong way: 'box' and 1 more are on its solid side");
+}
+
 TEST(LabCheck, FindsAChainThatFacesTheWrongWay) {
   ExpectOne(std::string("[[part]]\nname = \"ground\"\nchain = [[50, 0], [-50, 0]]\n") + kBox, 1,
             "chain 'ground' faces the wrong way: 'box' is on its solid side");

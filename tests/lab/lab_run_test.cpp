@@ -56,6 +56,7 @@ TEST(LabRun, TheLogEqualsTheMessagesPublishedInVirtualTime) {
   const Recording read = ReadRecording(command.log);
   Cluster cluster(Configure(command.settings));
   cluster.Run();
+  cluster.server().Shutdown(cluster.now_us(), "the time is over");
   const Recording& direct = cluster.recording();
   // The log ends with the seals that were not kept on the way: one of each peer and its own.
   EXPECT_GE(read.events_read, direct.events_read);
@@ -68,6 +69,11 @@ TEST(LabRun, TheLogEqualsTheMessagesPublishedInVirtualTime) {
   EXPECT_EQ(read.bus_gaps + read.foreign + read.undecodable + read.skipped_bytes, 0);
   EXPECT_EQ(Measure(read, ComputeOracle(read)).error_rms_m,
             Measure(direct, ComputeOracle(direct)).error_rms_m);
+  // It ends as a session of seam-server does.
+  ASSERT_FALSE(read.summaries.empty());
+  EXPECT_EQ(read.summaries.back().ended, static_cast<std::int8_t>(Ended::kEnded));
+  EXPECT_EQ(read.summaries.back().tick, 120);
+  EXPECT_EQ(read.events.back().text, "the room ends: the time is over");
   // One clock stamps all events, independent of the clients' clocks.
   LogReader log(command.log);
   LogEvent event;

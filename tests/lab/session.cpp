@@ -78,6 +78,7 @@ SessionResult RunSession(const ClusterConfig& config, Recording* recording,
   SessionResult result;
   result.simulated_s = static_cast<double>(cluster.now_us() - begin_us) * 1e-6;
   result.ticks = cluster.server().tick();
+  cluster.server().Shutdown(cluster.now_us(), "the time is over");
   result.warnings = cluster.server().TakeWarnings();
   result.script_stopped = cluster.server().script_stopped();
   if (recording != nullptr && config.keep) *recording = cluster.recording();

@@ -107,7 +107,9 @@ class ReadsLogs(unittest.TestCase):
         for call in (lambda: seam.read("/nowhere/x.lcm"), lambda: seam.read(__file__),
                      lambda: self.log.views["carl"], lambda: self.log.views[7],
                      lambda: self.log.views["ann"]["bridge"], lambda: self.log.error("ann", 999),
-                     lambda: self.log.inputs("carl"), lambda: seam.read(LOG, room="other"),
+                     lambda: self.log.inputs("carl"), lambda: self.log.inputs(9),
+                     lambda: self.log.inputs(-1), lambda: self.log.views[1.7],
+                     lambda: self.log.views[10**30], lambda: seam.read(LOG, room="other"),
                      lambda: seam.read(LOG, session="9")):
             with self.assertRaises(seam.Error) as caught:
                 call()
@@ -154,7 +156,8 @@ class StepsScenes(unittest.TestCase):
         nan, big = float("nan"), 1e30
         for call in (lambda: seam.World("nothing-of-that-name"), lambda: seam.World(),
                      lambda: seam.World("crossing", text=PENDULUM), lambda: seam.World(text="part = 1"),
-                     lambda: world.step(ticks=-1), lambda: world.step({"carl": seam.Input()}),
+                     lambda: world.step(ticks=-1), lambda: world.step(ticks=1.5),
+                     lambda: world.step({"ann": (1, 0)}), lambda: world.step({"carl": seam.Input()}),
                      lambda: world.step({7: seam.Input()}), lambda: world.step({"ann": seam.Input(drive=2)}),
                      lambda: world.step({"ann": seam.Input(lift=nan)}),
                      lambda: world.step({"ann": seam.Input(buttons=[15])}),
@@ -200,7 +203,8 @@ class RunsSessions(unittest.TestCase):
                      lambda: seam.Session("crossing", drive="keyboard"), lambda: seam.Session("crossing", seed=-1),
                      lambda: seam.Session("crossing", send_hz=0), lambda: seam.Session("crossing", record="/no/x"),
                      lambda: session.step({"ann": seam.Input()}), lambda: session.state("carl"),
-                     lambda: session.state(9), lambda: session.step(ticks=-3), lambda: session.measure(),
+                     lambda: session.state(9), lambda: seam.Session("crossing", seed=2**63),
+                     lambda: seam.Session("crossing", record="/tmp"), lambda: session.step(ticks=-3), lambda: session.measure(),
                      lambda: seam.Session("crossing", impair="loss=100%").step()):
             with self.assertRaises(seam.Error) as caught:
                 call()
@@ -270,7 +274,8 @@ class KnowsLcmTypes(unittest.TestCase):
     def test_mistakes_raise_one_clear_error(self):
         nan = float("nan")
         for call in (lambda: seam.lcm.Drive(2).encode(), lambda: seam.lcm.Drive(nan).encode(),
-                     lambda: seam.lcm.Drive(buttons=1 << 15).encode(), lambda: seam.lcm.Pose("a", nan).encode(),
+                     lambda: seam.lcm.Drive(buttons=1 << 15).encode(),
+                     lambda: seam.lcm.Drive(buttons=1 << 40).encode(), lambda: seam.lcm.Pose("a", nan).encode(),
                      lambda: seam.lcm.Message("").encode(), lambda: seam.lcm.Message("a\nb").encode(),
                      lambda: seam.lcm.Message("a", [nan]).encode(), lambda: seam.lcm.Message("a", [0] * 65).encode(),
                      lambda: seam.lcm.Drive.decode(b""), lambda: seam.lcm.Pose.decode(seam.lcm.Drive().encode()),
@@ -326,6 +331,8 @@ class JoinsServers(unittest.TestCase):
                            (lambda: seam.Client(self.at, "ann").join(2), "bob"),
                            (lambda: seam.Client("127.0.0.1:9", "ann").join(1), "no answer"),
                            (lambda: seam.Client(self.at, "a b"), "a name has"),
+                           (lambda: seam.Client(self.at, "ann").step(ticks=-1), "ticks -1"),
+                           (lambda: seam.Client(self.at, "ann").step(ticks=1.5), "whole number"),
                            (lambda: seam.Client(self.at, "ann").state, "has not come"),
                            (lambda: seam.Client(self.at, "ann", impair="5g"), "5g"),
                            (lambda: seam.Client(self.at, "ann", server_key="12"), "64 digits"),

@@ -57,6 +57,13 @@ TEST(DidYouMean, EveryProgramSuggestsFlags) {
             "seam-server: there is no flag --xyzzyxyzzy; see seam-server --help\n");
 }
 
+TEST(DidYouMean, AShippedSceneIsFoundFromAnyFolder) {
+  const Workspace elsewhere;
+  Program run({BuiltProgram("seam-lab"), "check", "crossing"}, elsewhere.path());
+  EXPECT_TRUE(run.Wait(60));
+  EXPECT_EQ(run.status(), 0) << run.Story();
+}
+
 TEST(DidYouMean, SuggestsSubcommandsScenesAndNames) {
   const std::pair<Words, const char*> mistakes[] = {
       {{"seam-lab", "sweeep", "x.toml"}, "sweep"},

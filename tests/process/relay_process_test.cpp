@@ -155,6 +155,48 @@ TEST_F(RelayProcesses, WatchersComeBackToTheSameRoomAfterAKillOfTheServer) {
   EXPECT_NE(shown.begin()->second.session, shown.rbegin()->second.session) << "it joined anew";
 }
 
+TEST_F(RelayProcesses, SaysWhenItIsInHasLostItsServerAndIsBack) {
+  StartServer({Scene("crossing"), "--state", "rooms"});
+  const std::string port = server_address_.substr(server_address_.rfind(':') + 1);
+  server_->Signal(SIGKILL);
+  ASSERT_TRUE(server_->Wait(kPatience));
+  StartRelay();
+  sleep(1);
+  EXPECT_EQ(relay_->errors().find("watches"), std::string::npos) << "nobody answered yet";
+  Program first({BuiltProgram("seam-server"), Scene("crossing"), "--lcm-url", "none", "--bind",
+                 "127.0.0.1", "--port", port, "--state", "later", "--wait", "0", "--duration", "0"},
+                folder_.path());
+  const std::string in = "watches main at " + server_address_ + " as guest\n";
+  ASSERT_TRUE(relay_->WaitForErrors(in, kPatience)) << relay_->Story() << first.Story();
+  sleep(7);  // beyond a snapshot
+  first.Signal(SIGKILL);
+  ASSERT_TRUE(first.Wait(kPatience));
+  ASSERT_TRUE(relay_->WaitForErrors("has lost " + server_address_, kPatience)) << relay_->Story();
+  Program again({BuiltProgram("seam-server"), "--lcm-url", "none", "--bind", "127.0.0.1", "--port",
+                 port, "--resume", "later", "--duration", "0"},
+                folder_.path());
+  const std::string back = "watches again: main at " + server_address_;
+  EXPECT_TRUE(relay_->WaitForErrors(back, kPatience)) << relay_->Story() << again.Story();
+}
+
+TEST_F(RelayProcesses, APlayersNameIsRefusedToARelayAndToAWatcher) {
+  StartServer({Scene("crossing")});
+  Program relay(
+      {BuiltProgram("seam-relay"), server_address_, "--bind", "127.0.0.1:0", "--name", "ann"},
+      folder_.path());
+  relay_address_ = server_address_;
+  const auto watcher = Client({"--watch", "--name", "bob"});
+  for (Program* program : {&relay, watcher.get()}) {
+    ASSERT_TRUE(program->Wait(kPatience));
+    EXPECT_EQ(program->status(), 2) << program->Story();
+    EXPECT_NE(program->errors().find("is a player of this room: to look on"), std::string::npos)
+        << program->Story();
+  }
+  const auto ann = Client({"--name", "ann", "--drive", "bot", "--duration", "3"});
+  EXPECT_TRUE(ann->Wait(kPatience));
+  EXPECT_EQ(ann->status(), 0) << ann->Story();
+}
+
 TEST_F(RelayProcesses, ATokenOpensARelayThatDemandsOne) {
   StartServer({Scene("crossing")});
   const auto token = [&](const std::vector<std::string>& more) {

@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from . import _seam, lcm
 from ._seam import Error
-from .bodies import Bodies, Body, Floats, Input, Player, State, some
+from .bodies import (Bodies, Body, Floats, Input, Player, State, count, input_of, log_path, some,
+                     whole)
 from .client import Client
 
 __version__: str = _seam.version
@@ -97,7 +98,7 @@ class Log:
             if peer in self.players:
                 return self.players.index(peer) + 1
             raise Error(f"there is no peer {peer!r}; there are: {some(['server', *self.players])}")
-        return int(peer)
+        return whole(peer, 0, 1023, "peer")
 
     def _view(self, peer: Player, errors: bool) -> View:
         number = self.peer(peer)
@@ -162,7 +163,7 @@ class World:
     def step(self, inputs: Mapping[Player, Input] | None = None, ticks: int = 1) -> State:
         """Sets the given inputs, which are held until they are given again, and steps."""
         _give(self._world, inputs, self.players)
-        self._world.step(_count(ticks))
+        self._world.step(count(ticks))
         return self.state
 
     @property
@@ -221,13 +222,13 @@ class Session:
         self.players: list[str] = self.scene.players
         self._session = _seam.Session(
             self.scene, mode=mode, reconcile=reconcile, predict=predict, impair=impair,
-            seed=seed, send_hz=send_hz, drive=drive, record=os.fspath(record), force=force,
-            keep=keep)
+            seed=whole(seed, -2**63, 2**63 - 1, "seed"), send_hz=whole(send_hz, 0, 2**31 - 1, "send_hz"),
+            drive=drive, record=log_path(record), force=force, keep=keep)
 
     def step(self, inputs: Mapping[Player, Input] | None = None, ticks: int = 1) -> int:
         """Sets inputs, and runs until the server has done so many more ticks. Returns its tick."""
         _give(self._session, inputs, self.players)
-        self._session.run_to(self.tick + _count(ticks))
+        self._session.run_to(self.tick + count(ticks))
         return self.tick
 
     def run(self) -> int:
@@ -244,7 +245,8 @@ class Session:
         """The bodies as a peer displays them now: "server" or 0, or a player."""
         if peer in ("server", 0):
             return State(self._session.state(0))
-        number = _player(peer, self.players) + 1 if isinstance(peer, str) else peer
+        number = _player(peer, self.players) + 1 if isinstance(peer, str) else whole(
+            peer, 0, len(self.players), "peer")
         return State(self._session.state(number))
 
     def measure(self) -> dict[str, Any]:
@@ -266,25 +268,19 @@ def measure(path: str | os.PathLike[str]) -> dict[str, Any]:
     return Log(path).measure()
 
 
-def _count(ticks: int) -> int:
-    if not 0 <= ticks <= 100_000_000:
-        raise Error(f"{ticks} ticks: a call takes 0 to 100000000")
-    return ticks
-
-
 def _player(player: Player, players: list[str]) -> int:
     if isinstance(player, str):
         if player in players:
             return players.index(player)
         raise Error(f"there is no player {player!r}; there are: {some(players)}")
-    return player
+    return whole(player, 0, len(players) - 1, "player")
 
 
 def _give(
     to: _seam.World | _seam.Session, inputs: Mapping[Player, Input] | None, players: list[str]
 ) -> None:
     for player, given in (inputs or {}).items():
-        to.input(_player(player, players), *given._numbers())
+        to.input(_player(player, players), *input_of(given, player)._numbers())
 
 
 def _scene(scene: str | os.PathLike[str], text: str) -> _seam.Scene:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import operator
+import os
 from collections.abc import Iterable, Iterator
 from typing import Any, Union
 
@@ -78,6 +80,37 @@ class State(Bodies):
     def velocity(self, body: Body) -> Floats:
         """vx, vy, spin of a body."""
         return self.velocities[self.index(body)]
+
+
+def whole(value: object, low: int, high: int, what: str) -> int:
+    """A whole number of a range, or Error."""
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise Error(f"{what} {value!r} is no whole number") from None
+    if not low <= number <= high:
+        raise Error(f"{what} {number} is not within {low} and {high}")
+    return number
+
+
+def count(ticks: object) -> int:
+    """A number of ticks that one call may step."""
+    return whole(ticks, 0, 100_000_000, "ticks")
+
+
+def input_of(given: object, player: object) -> Input:
+    """What is given as a player's input, if it is one."""
+    if not isinstance(given, Input):
+        raise Error(f"the input of {player!r} is a seam.Input, not {type(given).__name__}")
+    return given
+
+
+def log_path(record: str | os.PathLike[str]) -> str:
+    """The file to record to; "": none."""
+    path = os.fspath(record)
+    if os.path.isdir(path):
+        raise Error(f"{path}: a folder, not a log's file")
+    return path
 
 
 def some(names: list[str]) -> str:

@@ -7,7 +7,7 @@ import time
 
 from . import _seam
 from ._seam import Error
-from .bodies import Input, State
+from .bodies import Input, State, count, input_of, log_path, whole
 
 
 class Client:
@@ -36,8 +36,9 @@ class Client:
         self.server = server
         self._notice = ""
         self._client = _seam.Client(
-            server, name, room=room, server_key=server_key, impair=impair, seed=seed,
-            lcm_url=lcm_url, record=os.fspath(record), force=force)
+            server, name, room=room, server_key=server_key, impair=impair,
+            seed=whole(seed, -2**63, 2**63 - 1, "seed"), lcm_url=lcm_url, record=log_path(record),
+            force=force)
 
     def __enter__(self) -> Client:
         return self
@@ -61,13 +62,14 @@ class Client:
         """Sets the input, which is held until it is given again, and runs so many ticks of the
         room, or to its end: then `running` is False. Returns the bodies as this client displays
         them. Joins first, if need be; raises Error when the server has been silent for `timeout` s."""
+        more = count(ticks)
         if self._client.ended():
             raise Error(f"{self.server} has closed the room, or this client has left it")
         if self._client.tick() < 0:
             self.join(timeout)
         if input is not None:
-            self._client.input(*input._numbers())
-        goal = self._client.tick() + ticks
+            self._client.input(*input_of(input, "this client")._numbers())
+        goal = self._client.tick() + more
         while self._client.tick() < goal and not self._client.ended():
             self._turn(timeout)
         return self.state

@@ -18,6 +18,7 @@ from typing import Any, Protocol, Union
 
 from . import _seam
 from ._seam import Error
+from .bodies import whole
 
 __all__ = ["Bus", "Drive", "Message", "Pose", "fingerprints"]
 
@@ -32,7 +33,8 @@ class Drive:
     utime: int = 0
 
     def encode(self) -> bytes:
-        return _seam.encode_drive(self.utime, self.drive, self.lift, self.buttons)
+        return _seam.encode_drive(_time(self.utime), self.drive, self.lift,
+                                  whole(self.buttons, 0, 0x7FFF, "buttons"))
 
     @staticmethod
     def decode(data: bytes) -> Drive:
@@ -56,7 +58,8 @@ class Pose:
     utime: int = 0
 
     def encode(self) -> bytes:
-        return _seam.encode_pose(self.utime, self.tick, self.peer, self.name, self.x, self.y,
+        return _seam.encode_pose(_time(self.utime), whole(self.tick, -1, 2**62, "tick"),
+                                 whole(self.peer, 0, 1023, "peer"), self.name, self.x, self.y,
                                  self.angle, self.vx, self.vy, self.spin)
 
     @staticmethod
@@ -75,7 +78,7 @@ class Message:
     utime: int = 0
 
     def encode(self) -> bytes:
-        return _seam.encode_message(self.utime, self.name, list(self.value), self.text)
+        return _seam.encode_message(_time(self.utime), self.name, list(self.value), self.text)
 
     @staticmethod
     def decode(data: bytes) -> Message:
@@ -106,9 +109,16 @@ class Bus:
         self._arrived: collections.deque[tuple[int, str, int, bytes]] = collections.deque()
         self.refused = 0
 
-    def publish(self, channel: str, message: Union[bytes, Encodes]) -> None:
+    def publish(self, channel: str, message: Union[bytes, bytearray, memoryview, Encodes]) -> None:
         """Sends bytes, or anything with `encode()`."""
-        data = message if isinstance(message, bytes) else message.encode()
+        if isinstance(message, (bytes, bytearray, memoryview)):
+            data = bytes(message)
+        elif hasattr(message, "encode") and not isinstance(message, str):
+            data = message.encode()
+        else:
+            raise Error(f"a message is bytes or has encode(), not {type(message).__name__}")
+        if "\0" in channel:
+            raise Error(f"channel {channel!r}: a channel's name has no zero byte")
         self._bus.publish(channel, data)
 
     def subscribe(self, channels: str, handler: Handler, type: Decodes | None = None) -> None:
@@ -143,6 +153,10 @@ class Bus:
     def warnings(self) -> list[str]:
         """Lines about a bus that will lose messages, each with a remedy."""
         return self._bus.warnings()
+
+
+def _time(utime: int) -> int:
+    return whole(utime, -2**63, 2**63 - 1, "utime")
 
 
 def fingerprints() -> dict[str, int]:

@@ -1,7 +1,10 @@
 /// Reads [[charges]].
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
+#include "common/base/nearest.h"
 #include "common/scene/charges/charge.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
@@ -15,7 +18,10 @@ int FindTrigger(const SceneReader& r, const SceneDraft& draft) {
   for (std::size_t t = 0; t < draft.scene.triggers.size(); ++t) {
     if (draft.scene.triggers[t].name == name) return static_cast<int>(t);
   }
-  r.FailAt("trigger", "trigger: there is no trigger '" + Printable(name) + "'");
+  std::vector<std::string> known;
+  for (const Trigger& trigger : draft.scene.triggers) known.push_back(trigger.name);
+  r.FailAt("trigger",
+           "trigger: there is no trigger '" + Printable(name) + "'" + DidYouMean(name, known));
 }
 
 void ReadWhen(const SceneReader& r, const SceneDraft& draft, Charge* charge) {

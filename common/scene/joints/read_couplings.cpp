@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/nearest.h"
 #include "common/scene/scene_limits.h"
 
 namespace seam {
@@ -25,7 +26,10 @@ void ReadGear(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
     const auto named = [&](const Joint& j) { return !j.gone && j.name == names[side]; };
     const auto found = std::find_if(joints.begin(), joints.end(), named);
     if (found == joints.end()) {
-      r.FailAt("joints", "there is no joint '" + names[side] + "' above it");
+      std::vector<std::string> known;
+      for (const Joint& other : joints) known.push_back(other.name);
+      r.FailAt("joints",
+               "there is no joint '" + names[side] + "' above it" + DidYouMean(names[side], known));
     }
     if (found->kind != JointKind::kRevolute && found->kind != JointKind::kPrismatic) {
       r.FailAt("joints", "'" + names[side] + "' is neither a hinge nor prismatic");

@@ -7,6 +7,7 @@
 #include "common/base/names.h"
 #include "common/base/nearest.h"
 #include "common/scene/toml/read_watch.h"
+#include "common/scene/toml/scene_keys.h"
 #include "common/scene/toml/scene_text.h"
 
 namespace seam {
@@ -44,7 +45,11 @@ SceneReader::SceneReader(const TomlNode& table, const std::string& file, std::st
     const auto same = [&name](const char* known) { return name == known; };
     if (std::any_of(keys.begin(), keys.end(), same)) continue;
     const std::string shown = Printable(key);
-    FailLine(node.line, "unknown key '" + shown + "' (" + Suggested(shown, keys) + ")");
+    const bool of_file = std::any_of(kSceneKeys.begin(), kSceneKeys.end(),
+                                     [&](const char* top) { return key == top; });
+    FailLine(node.line, "unknown key '" + shown + "'" +
+                            (of_file ? ": it belongs above the first table"
+                                     : " (" + Suggested(shown, keys) + ")"));
   }
 }
 
@@ -88,7 +93,7 @@ double SceneReader::NumberIn(const TomlNode& node, const char* key, Range range)
   const bool inside =
       value >= static_cast<float>(range.min) && value <= static_cast<float>(range.max);
   if (!is_number || !inside) {
-    const bool degrees = is_number && std::string(key).find("angle") != std::string::npos;
+    const bool degrees = is_number && range.radians;
     Expected(node, key,
              "a number from " + Decimal(range.min) + " to " + Decimal(range.max) +
                  (degrees ? " (in radians: 180 degrees are 3.1416)" : ""));

@@ -15,6 +15,7 @@ namespace seam {
 /// Closed range of values.
 struct Range {
   double min = 0, max = 0;
+  bool radians = false;  ///< the values are angles
 };
 
 class SceneReader {

@@ -126,9 +126,8 @@ TomlNode ParseToml(const std::string& text, const std::string& file) {
     return Convert(toml::parse(in, file), LineEnds(text));
   } catch (const toml::syntax_error& e) {
     const auto [line, what] = Explain(e);
-    const std::string hint = TomlHint(text, line);
-    throw OperatorError(file + ":" + std::to_string(line) + ": " +
-                        (hint.empty() ? FirstLine(what) : hint));
+    const TomlSlip slip = FindTomlSlip(text, line).value_or(TomlSlip{line, FirstLine(what)});
+    throw OperatorError(file + ":" + std::to_string(slip.line) + ": " + slip.text);
   } catch (const std::exception& e) {
     // Some mistakes (a number that does not fit) reach us without a position.
     throw OperatorError(file + ":1: not valid TOML: " + FirstLine(e.what()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -48,6 +49,8 @@ void FindOverlaps(const Scene& scene, std::vector<Finding>* findings) {
   const auto part = [&scene](PartId id) -> const Part& {
     return scene.parts[static_cast<std::size_t>(id)];
   };
+  std::set<PartId> reversed;
+  for (const Finding& finding : *findings) reversed.insert(finding.reversed);
   // The deepest of each pair of bodies: one that is made of many parts is in the way once.
   struct Deep {
     PartId moving = 0, other = 0;
@@ -57,6 +60,7 @@ void FindOverlaps(const Scene& scene, std::vector<Finding>* findings) {
   OverlapMeter(scene, composition)
       .ForEachOverlap(states, 0, [&](PartId moving, PartId other, double depth_m) {
         const double thin = std::min(Thickness(part(moving)), Thickness(part(other)));
+        if (reversed.count(other) != 0) return;
         if (depth_m <= std::max(kOverlapMin, std::min(kOverlapMax, 0.1 * thin))) return;
         const auto& of = composition.assembly_of_part;
         const int a = of[static_cast<std::size_t>(moving)], b = of[static_cast<std::size_t>(other)];

@@ -28,6 +28,7 @@ std::vector<Finding> CheckMeaning(const Scene& scene) {
   FindWrongSides(scene, &findings);
   FindOverlaps(scene, &findings);
   FindInBricks(scene, &findings);
+  FindDegrees(scene, &findings);
   FindRegions(scene, &findings);
   FindUnused(scene, &findings);
   FindJointLimits(scene, &findings);

@@ -102,7 +102,8 @@ void Report(const Scene& scene, const std::vector<Chain>& chains, const Chain& c
              "one; give its points in the other order",
              name, chain.behind.front()->name,
              chain.behind.size() > 1 ? fmt::format(" and {} more are", chain.behind.size() - 1)
-                                     : " is")});
+                                     : " is"),
+         chain.part->id});
     return;
   }
   const Vector2d gravity = scene.gravity.cast<double>();

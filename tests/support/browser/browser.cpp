@@ -234,6 +234,13 @@ void Browser::Press(const std::string& key) {
   Hold(key, false);
 }
 
+void Browser::PreferDark(bool dark) {
+  Call("Emulation.setEmulatedMedia",
+       fmt::format(R"({{"features":[{{"name":"prefers-color-scheme","value":"{}"}}]}})",
+                   dark ? "dark" : "light"));
+  Settle();
+}
+
 void Browser::Hold(const std::string& key, bool down) {
   Call("Input.dispatchKeyEvent",
        fmt::format(R"({{"type":"{}","key":{}}})", down ? "keyDown" : "keyUp", JsonText(key)));

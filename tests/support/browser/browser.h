@@ -41,6 +41,8 @@ class Browser {
   void Point(const std::string& type, const std::string& selector, double x, double y);
   /// Presses and releases a key: "ArrowRight", " ", "w".
   void Press(const std::string& key);
+  /// Prefers dark pages, or light ones, from now on.
+  void PreferDark(bool dark);
   /// Presses a key, or releases it.
   void Hold(const std::string& key, bool down);
 
