@@ -129,7 +129,8 @@ void Server::NoteDoubt(std::int64_t now_us, int peer, int player, const Doubt& d
   const bool refused = doubt.kind == DoubtKind::kRefused;
   // What follows from a silence goes on until the server has the player's bodies.
   const bool parted = ladder_.Withholds(player, replica_.tick());
-  if (!Excused(now_us, player, doubt.kind) && !parted) {
+  const bool excused = doubt.guessed || Excused(now_us, player, doubt.kind);
+  if (!excused && !parted) {
     ladder_.Note(player, doubt.weight);
   } else if (refused && config_.trust == TrustMode::kAct) {
     ladder_.NoteParted(player, replica_.tick());

@@ -126,8 +126,12 @@ class Replica {
   /// of that time, or if this copy rests on a guess: on dead reckoning, or on a world that a late
   /// input could no longer change. The next state heard of the body ends that.
   const BodyState* ComparablePast(int body, std::int64_t tick, int revision) const;
-  /// True if edits alone keep a peer's state from being compared: that peer lacked one, or an input
-  /// of the time before one came too late to be acted on here.
+  /// True if, in the last kHistory s, something was heard of a time before an edit, too late to be
+  /// acted on here. Copies have then gone on from states that were told, rounded by the wire and
+  /// without impulses: small differences say nothing.
+  bool FollowsTold() const;
+  /// True if edits alone keep a peer's state from being compared: that peer lacked one, or nothing
+  /// was heard of the body since the last time that something came too late (FollowsTold).
   bool EditHidesPast(int body, std::int64_t tick, int revision) const;
   /// True if this peer's own world broke the joint within a quarter of a second of the tick.
   bool FeltBreak(int joint, std::int64_t tick) const;

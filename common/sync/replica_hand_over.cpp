@@ -114,6 +114,11 @@ const BodyState* Replica::ComparablePast(int body, std::int64_t tick, int revisi
   return SettledPast(body, tick);
 }
 
+bool Replica::FollowsTold() const {
+  const std::int64_t missed = replay_.missed();
+  return missed >= 0 && tick() - missed < kHistory * config_.tick_hz;
+}
+
 bool Replica::EditHidesPast(int body, std::int64_t tick, int revision) const {
   return memory_.track(body).heard_tick <= replay_.missed() || replay_.LacksEdit(revision, tick);
 }

@@ -10,11 +10,11 @@
 namespace seam {
 namespace {
 
-constexpr std::size_t kLongestLooked = 400;  ///< bytes; no people write longer lines
+constexpr std::size_t kLuaLongestLooked = 400;  ///< bytes; no people write longer lines
 
 /// Returns a line without its comment, and with q for what is quoted; "" if it is too long.
 std::string Masked(std::string line) {
-  if (line.size() > kLongestLooked) return "";
+  if (line.size() > kLuaLongestLooked) return "";
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
@@ -38,7 +38,7 @@ struct Slip {
   const char* cure;
 };
 
-constexpr Slip kSlips[] = {
+constexpr Slip kLuaSlips[] = {
     {"near '!'", "!=", "not equal is ~= in Lua"},
     {"near '!'", "!", "not is a word in Lua"},
     {"near '&'", "&&", "and is a word in Lua"},
@@ -67,7 +67,7 @@ std::string LuaHint(const ScriptSource& source, const std::string& error) {
              ": \"else if\" begins another if with an end of its own, elseif does not)";
     }
     if (line < at) continue;
-    for (const Slip& slip : kSlips) {
+    for (const Slip& slip : kLuaSlips) {
       if (error.find(slip.message) == std::string::npos) continue;
       const std::optional<FormMatch> match = FindForm(slip.form, text, text);
       if (match) return " (" + Filled(slip.cure, *match) + ")";

@@ -20,6 +20,8 @@ struct Doubt {
   std::int64_t tick = 0;
   BodyState told, expected;
   float weight = 0;  ///< see TrustLadder
+  /// The server's copy rests on a guess (Replica::EditHidesPast): what it expected may be wrong.
+  bool guessed = false;
 };
 
 }  // namespace seam

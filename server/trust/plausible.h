@@ -88,7 +88,7 @@ class Plausible {
   bool JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off);
   bool JudgeByWay(int body, std::int64_t tick, int revision, const BodyState& state, bool whole);
   void NoteDoubt(int body, std::int64_t tick, const BodyState& told, const BodyState& expected,
-                 bool refused);
+                 bool refused, bool guessed = false);
   float Seconds(std::int64_t ticks) const;
   bool Settles(int body) const;
   /// Notes that an edit has changed something in the box, which moves at `speed`, m/s, or less.

@@ -119,11 +119,11 @@ position = [-12, 0.3]
 repeat = {count = 40, step = [0.7, 0]}
 [[script]]
 name = "eat"
-code = """
+code = '''
 function on_touch(a, b)
   if a == "ball" and b ~= "ground" then pcall(world.remove_part, b) end
 end
-"""
+'''
 )";
   std::int64_t stale = 0;
   for (const int seed : {1, 2, 3, 4}) {

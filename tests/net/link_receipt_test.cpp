@@ -75,5 +75,20 @@ TEST(LinkReceipts, SendsIsTrueIfAFlushWouldSend) {
   }
 }
 
+TEST(LinkReceipts, KnowsUntilWhenItsMessagesHaveBeenSent) {
+  Link link(LinkKeys(kSession, false));
+  EXPECT_EQ(link.SentUntilUs(1000), 1000) << "there was nothing to send";
+  for (const std::int64_t us : {2000, 3000}) {
+    ASSERT_TRUE(link.SendReliable(Bytes{1, 2, 3}));
+    EXPECT_EQ(link.SentUntilUs(us), 1000);
+  }
+  link.Flush(
+      100'000, [](ByteView) {}, 1);  // one message
+  EXPECT_EQ(link.SentUntilUs(4000), 2000);
+  link.Flush(
+      100'000, [](ByteView) {}, 1);
+  EXPECT_EQ(link.SentUntilUs(5000), 5000) << "all are on their way";
+}
+
 }  // namespace link_receipt_test
 }  // namespace seam

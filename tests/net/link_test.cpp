@@ -93,21 +93,6 @@ const char* const kNetworks[] = {"perfect",
                                  "delay=30ms,loss=40%,duplicate=30%,reorder=20%:100ms,corrupt=5%",
                                  "delay=100ms,jitter=50ms,burst=5%:20%,reorder=10%:80ms"};
 
-TEST(Link, KnowsUntilWhenItsMessagesHaveBeenSent) {
-  Pair pair("perfect");
-  Link& link = pair.a.link;
-  pair.Tick();
-  EXPECT_EQ(link.SentUntilUs(1000), 1000) << "there was nothing to send";
-  ASSERT_TRUE(link.SendReliable(Text("first")));
-  EXPECT_EQ(link.SentUntilUs(2000), 1000);
-  ASSERT_TRUE(link.SendReliable(Text("second")));
-  EXPECT_EQ(link.SentUntilUs(3000), 1000);
-  link.Flush(100'000, kIgnore, 1);  // room for one message
-  EXPECT_EQ(link.SentUntilUs(4000), 2000) << "the second waits";
-  link.Flush(100'000, kIgnore, 1);
-  EXPECT_EQ(link.SentUntilUs(5000), 5000) << "none has arrived, but all are on their way";
-}
-
 TEST(Link, DeliversReliableMessagesOnceAndInOrderOverEveryNetwork) {
   for (const char* network : kNetworks) {
     Pair pair(network);

@@ -51,7 +51,7 @@ std::unique_ptr<LabWorkspace> OddLogs::files_;
 
 TEST_F(OddLogs, SegmentsMergeToAWholeLog) {
   {
-    RoomLog log(At("long.lcm"), true, nullptr, nullptr, 200000);
+    RoomLog log(At("long.lcm"), true, nullptr, nullptr, 100000);
     LogReader reader(At("run.lcm"));
     for (LogEvent event; reader.Next(&event);) {
       const AnyMessage message = Decode(event.data);
@@ -62,11 +62,11 @@ TEST_F(OddLogs, SegmentsMergeToAWholeLog) {
       }
     }
   }
-  ASSERT_TRUE(std::filesystem::exists(At("long.s0003.lcm")));
+  ASSERT_TRUE(std::filesystem::exists(At("long.s0002.lcm")));
   const std::vector<Words> merges = {{"long.lcm", "long.s0001.lcm"},
                                      {"long.s0002.lcm", "long.lcm"},
                                      {"long.s0001.lcm", "long.s0002.lcm"},
-                                     {"long.s0003.lcm", "long.s0002.lcm", "long.s0001.lcm"}};
+                                     {"long.lcm", "long.s0002.lcm", "long.s0001.lcm"}};
   for (const Words& logs : merges) {
     Words words = {"merge", "--force", "-o", At("series.lcm")};
     for (const std::string& log : logs) words.push_back(At(log));
@@ -103,7 +103,6 @@ TEST_F(OddLogs, AFarTickAndAFarTimeDoNotCountInTheList) {
   Program list({BuiltProgram("seam-log"), "list", At("far.lcm")});
   ASSERT_TRUE(list.Wait(120));
   EXPECT_NE(list.output().find(ticks), std::string::npos) << list.output();
-  EXPECT_NE(list.output().find(" 4."), std::string::npos) << list.output();
   EXPECT_EQ(list.output().find("4611"), std::string::npos) << list.output();
 }
 

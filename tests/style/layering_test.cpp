@@ -156,6 +156,7 @@ TEST(Layering, TheTableHasNoCycles) {
 TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/physics/contacts", "common/physics"},
+      {"common/physics/anchored", "common/physics"},
       {"common/physics/exact", "common/physics(/contacts)?"},
       {"common/physics/flight", "none"},
       {"common/physics/outline", "common/physics"},
@@ -204,6 +205,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/scene/motion", "common/scene(/toml)?"},
       {"common/scene/charges", "common/scene(/toml)?"},
       {"common/scene/planner", "common/scene(/toml)?"},
+      {"common/scene/crowding", "common/scene"},
       {"common/scene/lcm", "common/scene(/toml)?"},
       {"common/scene/saved", "common/scene"},
       {"common/scene/toml", "common/scene"},

@@ -124,7 +124,7 @@ TEST(RestBlocks, APersistentDifferenceIsALossAndAChangingOneIsInFlight) {
   EXPECT_TRUE(lost);
 }
 
-TEST(RestBlocks, WhatWaitsForItsTurnOnAThinLineIsNotSentAgain) {
+TEST(RestBlocks, ACommitmentThatWaitsForItsTurnIsNotSentAgain) {
   const RestBlock only{1, 0};
   RestBlocks blocks;
   for (int tenth = 0; tenth < 90; ++tenth) {

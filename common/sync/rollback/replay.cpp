@@ -60,16 +60,23 @@ bool Replay::Agrees(const BodyState& d) {
 }
 
 bool Replay::Ask(int body, std::int64_t tick) {
-  if (IsBeforeEdit(tick)) return true;
+  if (IsBeforeEdit(tick)) {
+    if (HeardOtherwise(body, tick)) missed_ = std::max(missed_, oldest());
+    return true;
+  }
   if (barriers_.empty() || tick < barriers_.front().world->tick) return false;
   if (tick < memory_.track(body).dynamic_since) return SimulateFrom(body, tick);
-  const BodyState* known = memory_.snapshots().At(body, tick);
-  if (known == nullptr) return true;  // replaced by a newer one earlier
-  const BodyState& then = *memory_.history().At(tick, body);
-  BodyState heard = *known;
-  heard.angle = UnwrapAngle(heard.angle, then.angle);
-  if (!Agrees(Minus(heard, then))) AskFrom(tick);
+  if (HeardOtherwise(body, tick)) AskFrom(tick);
   return true;
+}
+
+bool Replay::HeardOtherwise(int body, std::int64_t tick) const {
+  const BodyState* const known = memory_.snapshots().At(body, tick);
+  const BodyState* const then = memory_.history().At(tick, body);
+  if (known == nullptr || then == nullptr) return false;  // replaced by a newer one earlier
+  BodyState heard = *known;
+  heard.angle = UnwrapAngle(heard.angle, then->angle);
+  return !Agrees(Minus(heard, *then));
 }
 
 /// Begins the simulation of a copy at a state from before it was simulated, so that its motion at

@@ -50,7 +50,7 @@ class Replay {
   std::int64_t oldest() const {
     return barriers_.empty() ? world_.tick() : barriers_.front().world->tick;
   }
-  /// The newest tick that could be reached when a change of an earlier one was asked for: what
+  /// The newest tick that could be reached when a change of an earlier one was heard of: what
   /// follows lacks that change. -1: never.
   std::int64_t missed() const { return missed_; }
   /// All ticks before this one are final as far as is known: a pending replay begins here. The
@@ -129,6 +129,8 @@ class Replay {
   /// True if an edit that changed bodies lies between `tick` and now. Extrapolated without that
   /// edit, the state says nothing about now, and newer ones are on their way.
   bool IsBeforeEdit(std::int64_t tick) const;
+  /// True if the state that was heard of the tick is another than the body had here.
+  bool HeardOtherwise(int body, std::int64_t tick) const;
   bool Depart(std::int64_t from, bool all);
   void RestoreDormant();
   void StepTo(std::int64_t tick);

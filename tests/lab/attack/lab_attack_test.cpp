@@ -47,7 +47,7 @@ std::string FarEdits(int every, const std::string& place) {
   return R"(
 [[script]]
 name = "spawner"
-code = """
+code = '''
 function on_tick()
   if world.tick() % )" +
          std::to_string(every) + R"( ~= 0 then return end
@@ -59,7 +59,7 @@ function on_tick()
     pcall(world.remove_part, "x" .. (room.n - 1))
   end
 end
-"""
+'''
 )";
 }
 

@@ -68,7 +68,7 @@ TEST(LineContacts, ABoxOnTheEndOfARowTipsOver) {
   EXPECT_LT(fallen(-11.8).position.y(), -2) << "its middle is beyond the end";
 }
 
-TEST(LineContacts, WhatStandsBesideAnEndIsNotLifted) {
+TEST(LineContacts, ABodyBesideAnEndIsNotLifted) {
   const std::string ground = "[[part]]\nname = \"g\"\nchain = [[-90, -0.5], [90, -0.5]]\n";
   const auto world = SmallWorld(ground + Segments(4) +
                                 "[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [-11.4, 0.02]\n");

@@ -77,14 +77,14 @@ box = [0.5, 0.5]
 position = [-59.4, 0.26]
 [[script]]
 name = "maker"
-code = """
+code = '''
 function on_tick()
   if world.tick() == 20 then )" + kMade[made] +
                                  R"( end
   if world.tick() == 60 then )" + kRemoved[removed] +
                                  R"( end
 end
-"""
+'''
 )",
                              "made.toml"));
     for (const std::int64_t tick : {40, 90}) {
