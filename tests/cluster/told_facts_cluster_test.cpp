@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/gas_room.h"
@@ -69,19 +70,21 @@ Outcome After(FaultKind kind, std::int64_t seed) {
   Cluster cluster(faults.Config());
   std::vector<double> parted, off;
   double before = 0;
-  std::int64_t looked = -1;
+  std::int64_t looked[2] = {-1, -1};  // ticks at which ann was compared with bob and the server
   cluster.each_instant = [&] {
     faults.Act(cluster);
     const Client *const ann = cluster.client(0), *const bob = cluster.client(1);
-    const Replica& server = cluster.server().replica();
-    const std::int64_t tick = server.tick();
-    if (tick == looked || tick < 60 || tick % 2 != 0 || ann->replica()->tick() != tick) return;
-    looked = tick;
+    if (ann == nullptr || ann->replica() == nullptr) return;
+    const std::int64_t tick = ann->replica()->tick();
     if (tick == 60) before = KineticEnergy(ann->replica()->world());
-    if (tick < 4 * 60 || bob == nullptr || bob->replica() == nullptr) return;
-    std::vector<double> now = Off(*ann->replica(), *bob->replica(), bob->peer());
+    if (tick < 4 * 60 || tick % 2 != 0 || bob == nullptr || bob->replica() == nullptr) return;
+    const auto compare = [&](int n, const Replica& other, int peer) -> std::vector<double> {
+      if (other.tick() != tick || std::exchange(looked[n], tick) == tick) return {};
+      return Off(*ann->replica(), other, peer);
+    };
+    std::vector<double> now = compare(0, *bob->replica(), bob->peer());
     if (tick < 5 * 60) parted.insert(parted.end(), now.begin(), now.end());
-    for (const double m : Off(*ann->replica(), server, 0)) now.push_back(m);
+    for (const double m : compare(1, cluster.server().replica(), 0)) now.push_back(m);
     if (tick >= 11 * 60) off.insert(off.end(), now.begin(), now.end());
   };
   cluster.Run();
