@@ -222,7 +222,10 @@ class FileStore : public KeyStore {
   }
 
   Status Read(FileState* state) const {
-    if (!fs::exists(path_)) return Status::Ok();
+    std::error_code unknown;
+    const bool there = fs::exists(path_, unknown);
+    if (unknown) return Status::Error(path_ + ": cannot be read: " + unknown.message());
+    if (!there) return Status::Ok();
     std::string text;
     try {
       text = ReadPlainFile(path_, kStoreBytesMax);
