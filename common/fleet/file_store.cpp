@@ -1,7 +1,9 @@
-/// A KeyStore in one JSON file, guarded by flock: FOLDER/directory.json, replaced as a whole.
+/// A KeyStore in one JSON file: FOLDER/directory.json. Who changes it holds the flock of
+/// FOLDER/directory.lock and replaces the file as a whole, so that who reads it needs no lock.
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -25,16 +27,31 @@ using Json = nlohmann::json;
 /// Longest wait for the lock.
 constexpr std::int64_t kLockUs = 2000000;
 
-/// Holds the folder's lock while it lives.
+/// Opens a file to lock it; -1 with errno. flock takes a file that may only be read, too.
+int OpenToLock(const std::string& path, mode_t mode) {
+  constexpr int kAlways = O_CLOEXEC | O_NONBLOCK;
+  int fd = open(path.c_str(), O_RDWR | kAlways);
+  if (fd < 0 && errno == ENOENT) fd = open(path.c_str(), O_RDWR | O_CREAT | kAlways, mode);
+  if (fd < 0 && errno == EACCES) fd = open(path.c_str(), O_RDONLY | kAlways);
+  return fd;
+}
+
+/// Holds the folder's lock while it lives, if `status` is good.
 class FolderLock {
  public:
-  explicit FolderLock(const std::string& path)
-      : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
+  FolderLock(const std::string& path, mode_t mode) : fd_(OpenToLock(path, mode)) {
+    if (fd_ < 0) status_ = Status::Error(path + ": cannot be opened: " + std::strerror(errno));
     // Everybody holds it for milliseconds; one that does not must not hold up a server's end.
     const std::int64_t until_us = SteadyClockUs() + kLockUs;
-    while (fd_ >= 0 && !locked_) {
-      locked_ = flock(fd_, LOCK_EX | LOCK_NB) == 0;
-      if (locked_ || SteadyClockUs() > until_us) return;
+    while (fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK && errno != EINTR) {
+        status_ = Status::Error(path + ": cannot be locked: " + std::strerror(errno));
+        return;
+      }
+      if (SteadyClockUs() > until_us) {
+        status_ = Status::Error(path + ": cannot be locked; another program holds it");
+        return;
+      }
       usleep(200 + static_cast<useconds_t>(SteadyClockUs() % 800));
     }
   }
@@ -43,11 +60,11 @@ class FolderLock {
   }
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
-  bool locked() const { return locked_; }
+  const Status& status() const { return status_; }
 
  private:
   int fd_;
-  bool locked_ = false;
+  Status status_ = Status::Ok();
 };
 
 struct FileLease {
@@ -126,7 +143,8 @@ void EndLeases(std::int64_t now_us, FileState* state) {
 class FileStore : public KeyStore {
  public:
   explicit FileStore(const std::string& folder)
-      : path_((fs::path(folder) / "directory.json").string()),
+      : folder_(folder),
+        path_((fs::path(folder) / "directory.json").string()),
         lock_((fs::path(folder) / "directory.lock").string()) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -134,19 +152,19 @@ class FileStore : public KeyStore {
   }
 
   Status List(const std::string& prefix, std::vector<KeyValue>* found) override {
-    return With(false, [&](FileState* state) {
-      for (auto key = state->keys.lower_bound(prefix);
-           key != state->keys.end() && key->first.rfind(prefix, 0) == 0; ++key) {
-        found->push_back(key->second);
-      }
-      return Status::Ok();
-    });
+    FileState state;
+    const Status status = Read(&state);
+    for (auto key = state.keys.lower_bound(prefix);
+         status.ok() && key != state.keys.end() && key->first.rfind(prefix, 0) == 0; ++key) {
+      found->push_back(key->second);
+    }
+    return status;
   }
 
   Status Commit(const std::vector<KeyCondition>& conditions, const std::vector<KeyWrite>& writes,
                 bool* done) override {
     *done = false;
-    return With(true, [&](FileState* state) {
+    return Change([&](FileState* state, bool* changed) {
       for (const KeyCondition& condition : conditions) {
         if (!Holds(*state, condition)) return Status::Ok();
       }
@@ -162,13 +180,14 @@ class FileStore : public KeyStore {
           state->keys[write.key] = {write.key, *write.value, state->revision, write.lease};
         }
       }
-      *done = true;
+      *done = *changed = true;
       return Status::Ok();
     });
   }
 
   Status Grant(int ttl_s, std::int64_t* lease) override {
-    return With(true, [&](FileState* state) {
+    return Change([&](FileState* state, bool* changed) {
+      *changed = true;
       *lease = ++state->leases_given;
       const std::int64_t ttl_us = std::int64_t{ttl_s} * 1000000;
       state->leases[*lease] = {ttl_us, WallClockUs() + ttl_us};
@@ -177,17 +196,17 @@ class FileStore : public KeyStore {
   }
 
   Status KeepAlive(std::int64_t lease, bool* alive) override {
-    return With(true, [&](FileState* state) {
+    return Change([&](FileState* state, bool* changed) {
       const auto found = state->leases.find(lease);
-      *alive = found != state->leases.end();
+      *alive = *changed = found != state->leases.end();
       if (*alive) found->second.until_us = WallClockUs() + found->second.ttl_us;
       return Status::Ok();
     });
   }
 
   Status Revoke(std::int64_t lease) override {
-    return With(true, [&](FileState* state) {
-      state->leases.erase(lease);
+    return Change([&](FileState* state, bool* changed) {
+      *changed = state->leases.erase(lease) > 0;
       EndLeases(WallClockUs(), state);
       return Status::Ok();
     });
@@ -207,20 +226,32 @@ class FileStore : public KeyStore {
     return false;
   }
 
-  /// Reads the file under the lock, lets `act` use it, and writes it if `writes`.
+  /// Reads the file under the lock, lets `act` change it, and writes it if `changed` is set.
   template <class Act>
-  Status With(bool writes, const Act& act) {
-    const FolderLock lock(lock_);
-    if (!lock.locked())
-      return Status::Error(lock_ + ": cannot be locked; another program holds it");
+  Status Change(const Act& act) {
+    const FolderLock lock(lock_, LockMode());
+    if (!lock.status().ok()) return lock.status();
     FileState state;
     Status status = Read(&state);
     if (!status.ok()) return status;
-    EndLeases(WallClockUs(), &state);
-    status = act(&state);
-    return status.ok() && writes ? Replace(ToText(state)) : status;
+    bool changed = false;
+    status = act(&state, &changed);
+    return status.ok() && changed ? Replace(ToText(state)) : status;
   }
 
+  /// The file's mode: read and written by those who may read and write the folder; the umask takes
+  /// its part from it.
+  mode_t FileMode() const {
+    struct stat status {};
+    return stat(folder_.c_str(), &status) == 0 ? status.st_mode & 0666 : 0600;
+  }
+  /// Only those who may write the folder may hold its lock.
+  mode_t LockMode() const {
+    const mode_t writes = FileMode() & 0222;
+    return writes | (writes << 1);
+  }
+
+  /// Reads the file, without the leases that have ended.
   Status Read(FileState* state) const {
     std::error_code unknown;
     const bool there = fs::exists(path_, unknown);
@@ -233,12 +264,15 @@ class FileStore : public KeyStore {
       return Status::Error(error.what());
     }
     const Json all = Json::parse(text, nullptr, false);
-    return FromJson(all, state) ? Status::Ok() : Status::Error(path_ + ": is damaged");
+    if (!FromJson(all, state)) return Status::Error(path_ + ": is damaged");
+    EndLeases(WallClockUs(), state);
+    return Status::Ok();
   }
 
   Status Replace(const std::string& text) const {
     const std::string unfinished = path_ + ".tmp";
-    const int fd = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    unlink(unfinished.c_str());  // of another user, who was killed
+    const int fd = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, FileMode());
     bool good = fd >= 0;
     for (std::size_t at = 0; good && at < text.size();) {
       const ssize_t now = write(fd, text.data() + at, text.size() - at);
@@ -253,7 +287,7 @@ class FileStore : public KeyStore {
     return Status::Error(path_ + ": cannot be written: " + std::strerror(errno));
   }
 
-  const std::string path_, lock_;
+  const std::string folder_, path_, lock_;
 };
 
 }  // namespace
