@@ -2,7 +2,6 @@
 /// FOLDER/directory.lock and replaces the file as a whole, so that who reads it needs no lock.
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/base/process.h"
+#include "common/fleet/folder_lock.h"
 #include "common/fleet/key_store.h"
 
 namespace seam {
@@ -23,49 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-/// Longest wait for the lock.
-constexpr std::int64_t kLockUs = 2000000;
-
-/// Opens a file to lock it; -1 with errno. flock takes a file that may only be read, too.
-int OpenToLock(const std::string& path, mode_t mode) {
-  constexpr int kAlways = O_CLOEXEC | O_NONBLOCK;
-  int fd = open(path.c_str(), O_RDWR | kAlways);
-  if (fd < 0 && errno == ENOENT) fd = open(path.c_str(), O_RDWR | O_CREAT | kAlways, mode);
-  if (fd < 0 && errno == EACCES) fd = open(path.c_str(), O_RDONLY | kAlways);
-  return fd;
-}
-
-/// Holds the folder's lock while it lives, if `status` is good.
-class FolderLock {
- public:
-  FolderLock(const std::string& path, mode_t mode) : fd_(OpenToLock(path, mode)) {
-    if (fd_ < 0) status_ = Status::Error(path + ": cannot be opened: " + std::strerror(errno));
-    // Everybody holds it for milliseconds; one that does not must not hold up a server's end.
-    const std::int64_t until_us = SteadyClockUs() + kLockUs;
-    while (fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) != 0) {
-      if (errno != EWOULDBLOCK && errno != EINTR) {
-        status_ = Status::Error(path + ": cannot be locked: " + std::strerror(errno));
-        return;
-      }
-      if (SteadyClockUs() > until_us) {
-        status_ = Status::Error(path + ": cannot be locked; another program holds it");
-        return;
-      }
-      usleep(200 + static_cast<useconds_t>(SteadyClockUs() % 800));
-    }
-  }
-  ~FolderLock() {
-    if (fd_ >= 0) close(fd_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  const Status& status() const { return status_; }
-
- private:
-  int fd_;
-  Status status_ = Status::Ok();
-};
 
 struct FileLease {
   std::int64_t ttl_us = 0, until_us = 0;  // until: since 1970
@@ -229,14 +186,14 @@ class FileStore : public KeyStore {
   /// Reads the file under the lock, lets `act` change it, and writes it if `changed` is set.
   template <class Act>
   Status Change(const Act& act) {
-    const FolderLock lock(lock_, LockMode());
-    if (!lock.status().ok()) return lock.status();
-    FileState state;
-    Status status = Read(&state);
-    if (!status.ok()) return status;
-    bool changed = false;
-    status = act(&state, &changed);
-    return status.ok() && changed ? Replace(ToText(state)) : status;
+    return lock_.With(LockMode(), [&] {
+      FileState state;
+      Status status = Read(&state);
+      if (!status.ok()) return status;
+      bool changed = false;
+      status = act(&state, &changed);
+      return status.ok() && changed ? Replace(ToText(state)) : status;
+    });
   }
 
   /// The file's mode: read and written by those who may read and write the folder; the umask takes
@@ -287,7 +244,8 @@ class FileStore : public KeyStore {
     return Status::Error(path_ + ": cannot be written: " + std::strerror(errno));
   }
 
-  const std::string folder_, path_, lock_;
+  const std::string folder_, path_;
+  FolderLock lock_;
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <thread>
+
 #include "common/base/limits.h"
 #include "common/base/process.h"
 #include "common/base/version.h"
@@ -53,6 +55,34 @@ TEST(DirectoryFile, AReaderWaitsForNoLock) {
   EXPECT_TRUE(directory.List(&listing).ok());
   EXPECT_EQ(listing.servers.size(), 1u);
   close(other);
+}
+
+/// By chance, one of many waits for longer than it may on a busy machine.
+TEST(DirectoryFile, TheLockIsHadInTheOrderInWhichItWasAskedFor) {
+  constexpr int kWaiters = 7;
+  Workspace folder;
+  const std::string text = "file:" + folder.path();
+  bool done = false;
+  ASSERT_TRUE(OpenKeyStore(text)->Commit({}, {{"/0", "", 0}}, &done).ok());
+  const int other = open((folder / "directory.lock").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  std::vector<std::thread> waiters;
+  for (int i = 1; i <= kWaiters; ++i) {
+    waiters.emplace_back([i, text] {
+      bool had = false;
+      const std::string key = "/" + std::to_string(i);
+      EXPECT_TRUE(OpenKeyStore(text)->Commit({}, {{key, "", 0}}, &had).ok());
+    });
+    usleep(100000);
+  }
+  close(other);
+  for (std::thread& waiter : waiters) waiter.join();
+  std::vector<KeyValue> keys;
+  ASSERT_TRUE(OpenKeyStore(text)->List("/", &keys).ok());
+  ASSERT_EQ(keys.size(), kWaiters + 1u);
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    EXPECT_GT(keys[i].changed, keys[i - 1].changed) << keys[i].key;
+  }
 }
 
 TEST(DirectoryFile, ATransactionThatIsRefusedWritesNothing) {
