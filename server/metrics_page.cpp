@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "common/base/check.h"
+#include "common/base/files/list_folder.h"
 #include "common/base/limits.h"
 #include "common/base/process.h"
 #include "common/base/version.h"
@@ -48,12 +48,7 @@ double ResidentBytes() {
 
 double OpenFiles() {
   std::error_code error;
-  double files = 0;
-  for (std::filesystem::directory_iterator at("/proc/self/fd", error), end; !error && at != end;
-       at.increment(error)) {
-    ++files;
-  }
-  return files;
+  return static_cast<double>(ListFolder("/proc/self/fd", error).size());
 }
 
 /// Returns 1 while the directory of the fleet answers; "" without a fleet.

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "common/base/check.h"
+#include "common/base/files/list_folder.h"
 #include "common/base/nearest.h"
 
 namespace seam {
@@ -26,8 +27,8 @@ std::vector<std::string> Names(bool all) {
     const fs::path name = fs::path(folder).filename();
     if (!all && (name == "hard" || name == "exact")) continue;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-      if (entry.path().extension() == kEnding) names.insert(entry.path().stem().string());
+    for (const fs::path& path : ListFolder(folder, error)) {
+      if (path.extension() == kEnding) names.insert(path.stem().string());
     }
   }
   return {names.begin(), names.end()};

@@ -1,7 +1,8 @@
-/// A KeyStore in one JSON file, guarded by flock: FOLDER/directory.json, replaced as a whole.
+/// A KeyStore in one JSON file: FOLDER/directory.json. Who changes it holds the flock of
+/// FOLDER/directory.lock and replaces the file as a whole, so that who reads it needs no lock.
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/base/process.h"
+#include "common/fleet/folder_lock.h"
 #include "common/fleet/key_store.h"
 
 namespace seam {
@@ -21,34 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-/// Longest wait for the lock.
-constexpr std::int64_t kLockUs = 2000000;
-
-/// Holds the folder's lock while it lives.
-class FolderLock {
- public:
-  explicit FolderLock(const std::string& path)
-      : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
-    // Everybody holds it for milliseconds; one that does not must not hold up a server's end.
-    const std::int64_t until_us = SteadyClockUs() + kLockUs;
-    while (fd_ >= 0 && !locked_) {
-      locked_ = flock(fd_, LOCK_EX | LOCK_NB) == 0;
-      if (locked_ || SteadyClockUs() > until_us) return;
-      usleep(200 + static_cast<useconds_t>(SteadyClockUs() % 800));
-    }
-  }
-  ~FolderLock() {
-    if (fd_ >= 0) close(fd_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  bool locked() const { return locked_; }
-
- private:
-  int fd_;
-  bool locked_ = false;
-};
 
 struct FileLease {
   std::int64_t ttl_us = 0, until_us = 0;  // until: since 1970
@@ -126,7 +100,8 @@ void EndLeases(std::int64_t now_us, FileState* state) {
 class FileStore : public KeyStore {
  public:
   explicit FileStore(const std::string& folder)
-      : path_((fs::path(folder) / "directory.json").string()),
+      : folder_(folder),
+        path_((fs::path(folder) / "directory.json").string()),
         lock_((fs::path(folder) / "directory.lock").string()) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -134,19 +109,19 @@ class FileStore : public KeyStore {
   }
 
   Status List(const std::string& prefix, std::vector<KeyValue>* found) override {
-    return With(false, [&](FileState* state) {
-      for (auto key = state->keys.lower_bound(prefix);
-           key != state->keys.end() && key->first.rfind(prefix, 0) == 0; ++key) {
-        found->push_back(key->second);
-      }
-      return Status::Ok();
-    });
+    FileState state;
+    const Status status = Read(&state);
+    for (auto key = state.keys.lower_bound(prefix);
+         status.ok() && key != state.keys.end() && key->first.rfind(prefix, 0) == 0; ++key) {
+      found->push_back(key->second);
+    }
+    return status;
   }
 
   Status Commit(const std::vector<KeyCondition>& conditions, const std::vector<KeyWrite>& writes,
                 bool* done) override {
     *done = false;
-    return With(true, [&](FileState* state) {
+    return Change([&](FileState* state, bool* changed) {
       for (const KeyCondition& condition : conditions) {
         if (!Holds(*state, condition)) return Status::Ok();
       }
@@ -162,13 +137,14 @@ class FileStore : public KeyStore {
           state->keys[write.key] = {write.key, *write.value, state->revision, write.lease};
         }
       }
-      *done = true;
+      *done = *changed = true;
       return Status::Ok();
     });
   }
 
   Status Grant(int ttl_s, std::int64_t* lease) override {
-    return With(true, [&](FileState* state) {
+    return Change([&](FileState* state, bool* changed) {
+      *changed = true;
       *lease = ++state->leases_given;
       const std::int64_t ttl_us = std::int64_t{ttl_s} * 1000000;
       state->leases[*lease] = {ttl_us, WallClockUs() + ttl_us};
@@ -177,17 +153,17 @@ class FileStore : public KeyStore {
   }
 
   Status KeepAlive(std::int64_t lease, bool* alive) override {
-    return With(true, [&](FileState* state) {
+    return Change([&](FileState* state, bool* changed) {
       const auto found = state->leases.find(lease);
-      *alive = found != state->leases.end();
+      *alive = *changed = found != state->leases.end();
       if (*alive) found->second.until_us = WallClockUs() + found->second.ttl_us;
       return Status::Ok();
     });
   }
 
   Status Revoke(std::int64_t lease) override {
-    return With(true, [&](FileState* state) {
-      state->leases.erase(lease);
+    return Change([&](FileState* state, bool* changed) {
+      *changed = state->leases.erase(lease) > 0;
       EndLeases(WallClockUs(), state);
       return Status::Ok();
     });
@@ -207,22 +183,37 @@ class FileStore : public KeyStore {
     return false;
   }
 
-  /// Reads the file under the lock, lets `act` use it, and writes it if `writes`.
+  /// Reads the file under the lock, lets `act` change it, and writes it if `changed` is set.
   template <class Act>
-  Status With(bool writes, const Act& act) {
-    const FolderLock lock(lock_);
-    if (!lock.locked())
-      return Status::Error(lock_ + ": cannot be locked; another program holds it");
-    FileState state;
-    Status status = Read(&state);
-    if (!status.ok()) return status;
-    EndLeases(WallClockUs(), &state);
-    status = act(&state);
-    return status.ok() && writes ? Replace(ToText(state)) : status;
+  Status Change(const Act& act) {
+    return lock_.With(LockMode(), [&] {
+      FileState state;
+      Status status = Read(&state);
+      if (!status.ok()) return status;
+      bool changed = false;
+      status = act(&state, &changed);
+      return status.ok() && changed ? Replace(ToText(state)) : status;
+    });
   }
 
+  /// The file's mode: read and written by those who may read and write the folder; the umask takes
+  /// its part from it.
+  mode_t FileMode() const {
+    struct stat status {};
+    return stat(folder_.c_str(), &status) == 0 ? status.st_mode & 0666 : 0600;
+  }
+  /// Only those who may write the folder may hold its lock.
+  mode_t LockMode() const {
+    const mode_t writes = FileMode() & 0222;
+    return writes | (writes << 1);
+  }
+
+  /// Reads the file, without the leases that have ended.
   Status Read(FileState* state) const {
-    if (!fs::exists(path_)) return Status::Ok();
+    std::error_code unknown;
+    const bool there = fs::exists(path_, unknown);
+    if (unknown) return Status::Error(path_ + ": cannot be read: " + unknown.message());
+    if (!there) return Status::Ok();
     std::string text;
     try {
       text = ReadPlainFile(path_, kStoreBytesMax);
@@ -230,12 +221,15 @@ class FileStore : public KeyStore {
       return Status::Error(error.what());
     }
     const Json all = Json::parse(text, nullptr, false);
-    return FromJson(all, state) ? Status::Ok() : Status::Error(path_ + ": is damaged");
+    if (!FromJson(all, state)) return Status::Error(path_ + ": is damaged");
+    EndLeases(WallClockUs(), state);
+    return Status::Ok();
   }
 
   Status Replace(const std::string& text) const {
     const std::string unfinished = path_ + ".tmp";
-    const int fd = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    unlink(unfinished.c_str());  // of another user, who was killed
+    const int fd = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, FileMode());
     bool good = fd >= 0;
     for (std::size_t at = 0; good && at < text.size();) {
       const ssize_t now = write(fd, text.data() + at, text.size() - at);
@@ -250,7 +244,8 @@ class FileStore : public KeyStore {
     return Status::Error(path_ + ": cannot be written: " + std::strerror(errno));
   }
 
-  const std::string path_, lock_;
+  const std::string folder_, path_;
+  FolderLock lock_;
 };
 
 }  // namespace

@@ -93,8 +93,10 @@ void FollowFleet(FleetMember& member, Hub& hub) {
   for (const RoomPlan& plan : member.TakeReady()) {
     try {
       hub.Add(plan);
+      PrintError("seam-server", "room " + plan.config.room + ": taken over in epoch " +
+                                    std::to_string(plan.config.epoch));
     } catch (const OperatorError& error) {
-      PrintError("seam-server", error.what());
+      member.GiveBack(plan.config.room, plan.config.epoch, error.what());
     }
   }
 }

@@ -15,8 +15,9 @@ namespace {
 
 /// Time between two rounds, ms: a lease of kFleetLeaseS is renewed twenty times.
 constexpr int kRoundMs = 250;
-/// A room that cannot be opened here is left to others for so long, us.
-constexpr std::int64_t kFailedUs = 10000000;
+/// A room that cannot be opened here is left to others for so long, us; twice as long after each
+/// further failure, up to the most: each try costs an epoch.
+constexpr std::int64_t kFailedUs = 10000000, kFailedMostUs = 3600000000;
 
 Redirect To(const std::string& room, const FleetHolder& holder) {
   Redirect to;
@@ -106,6 +107,8 @@ Status FleetMember::Round() {
   bool kept = false;
   Status status = directory_.Renew(&kept);
   if (!status.ok()) return status;
+  status = GiveUpUnopened();
+  if (!status.ok()) return status;
   FleetServer me = config_.me;
   me.used = static_cast<std::int32_t>(held_.size());
   if (!kept || me.used != directory_.me().used) {
@@ -152,7 +155,7 @@ Status FleetMember::LookAt(const FleetRoom& room) {
     return room.holder ? Status::Ok() : directory_.TakeBack(room.name, held->second, &done);
   }
   const auto failed = failed_.find(room.name);
-  const bool tries = failed == failed_.end() || SteadyClockUs() - failed->second > kFailedUs;
+  const bool tries = failed == failed_.end() || SteadyClockUs() > failed->second.again_us;
   if (!config_.takes || room.state.empty() || !tries) return Status::Ok();
   if (mine) {
     bool done = false;
@@ -172,12 +175,45 @@ Status FleetMember::TakeHere(const FleetRoom& room, std::int32_t epoch) {
     held_[room.name] = epoch;
     const std::lock_guard<std::mutex> lock(mutex_);
     ready_.push_back(std::move(plan));
-    news_.push_back("room " + room.name + ": taken over in epoch " + std::to_string(epoch));
   } catch (const OperatorError& error) {
-    failed_[room.name] = SteadyClockUs();
-    held_.erase(room.name);
-    Say("room " + room.name + " cannot go on here: " + error.what());
-    return directory_.GiveUp(room.name, epoch);  // others may
+    NoteUnopened({room.name, epoch, error.what()});
+    return GiveUpUnopened();
+  }
+  return Status::Ok();
+}
+
+void FleetMember::GiveBack(const std::string& room, std::int32_t epoch, const std::string& why) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  unopened_.push_back({room, epoch, why});
+}
+
+void FleetMember::NoteUnopened(const Unopened& failed) {
+  const auto held = held_.find(failed.room);
+  if (held != held_.end() && held->second > failed.epoch) return;  // it has come again since
+  if (held != held_.end()) held_.erase(held);
+  to_give_[failed.room] = failed.epoch;
+  const std::int64_t now_us = SteadyClockUs();
+  Failure& noted = failed_[failed.room];
+  // It is tried as soon as it may be: long after, another server has had it in between.
+  if (now_us > noted.again_us + kFailedMostUs) noted = Failure();
+  noted.wait_us = std::min(std::max(kFailedUs, 2 * noted.wait_us), kFailedMostUs);
+  noted.again_us = now_us + noted.wait_us;
+  if (std::exchange(noted.why, failed.why) == failed.why) return;
+  Say("room " + failed.room + " cannot go on here, its state stays: " + failed.why);
+}
+
+Status FleetMember::GiveUpUnopened() {
+  std::vector<Unopened> unopened;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    unopened.swap(unopened_);
+  }
+  for (const Unopened& failed : unopened) NoteUnopened(failed);
+  while (!to_give_.empty()) {
+    const auto [room, epoch] = *to_give_.begin();
+    const Status status = directory_.GiveUp(room, epoch);
+    if (!status.ok()) return status;
+    to_give_.erase(to_give_.begin());
   }
   return Status::Ok();
 }

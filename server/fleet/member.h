@@ -61,6 +61,9 @@ class FleetMember {
   std::vector<Redirect> TakeLost();
   /// Returns lines for the operator since the last call.
   std::vector<std::string> TakeReports();
+  /// Gives back a room of TakeReady that could not be opened in this epoch: its state stays, and
+  /// any server may take it. It is not tried here again at once.
+  void GiveBack(const std::string& room, std::int32_t epoch, const std::string& why);
   /// Returns where a room is now, as far as is known; empty room: the first.
   std::optional<Redirect> Find(const std::string& room) const;
   /// True if the directory answered last.
@@ -72,6 +75,15 @@ class FleetMember {
   Status Round();
   Status LookAt(const FleetRoom& room);
   Status TakeHere(const FleetRoom& room, std::int32_t epoch);
+  /// A room that was taken over and could not be opened here.
+  struct Unopened {
+    std::string room;
+    std::int32_t epoch = 0;
+    std::string why;
+  };
+  /// Holds the rooms that were given back no longer.
+  Status GiveUpUnopened();
+  void NoteUnopened(const Unopened& failed);
   bool IsOurs(const std::string& room) const;
   /// Returns the spec and state of the rooms here: their folder.
   std::string SpecOfRooms() const;
@@ -80,8 +92,13 @@ class FleetMember {
   const Config config_;
   const Prepare prepare_;
   Directory directory_;
-  std::map<std::string, std::int32_t> held_;    // epoch of each room that is here
-  std::map<std::string, std::int64_t> failed_;  // us: rooms that could not be opened here
+  struct Failure {
+    std::int64_t again_us = 0, wait_us = 0;  // left to others until then
+    std::string why;
+  };
+  std::map<std::string, std::int32_t> held_;     // epoch of each room that is here
+  std::map<std::string, Failure> failed_;        // rooms that could not be opened here
+  std::map<std::string, std::int32_t> to_give_;  // epoch of each that the directory has to give up
   std::atomic<bool> up_{true};
   std::thread thread_;
   mutable std::mutex mutex_;  // guards all below
@@ -89,6 +106,7 @@ class FleetMember {
   bool stop_ = false;
   FleetListing listing_;
   std::vector<RoomPlan> ready_;
+  std::vector<Unopened> unopened_;
   std::vector<Redirect> lost_;
   std::vector<std::string> news_;
   std::string refused_;  // the last value that was reported

@@ -20,7 +20,10 @@ namespace fs = std::filesystem;
 std::int32_t FirstNeeded(const std::string& folder, const std::string& room, std::int32_t epoch,
                          std::int32_t last) {
   std::int32_t first = last;
-  for (const SnapshotName& file : ListSnapshots(folder, room)) {
+  std::error_code error;
+  const std::vector<SnapshotName> files = ListSnapshots(folder, room, &error);
+  if (error) return 0;
+  for (const SnapshotName& file : files) {
     if (file.epoch != epoch) continue;  // of another log
     RoomSnapshot snapshot;
     if (!ReadSnapshot(file.path, &snapshot).ok()) return 0;

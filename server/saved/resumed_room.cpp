@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/files/list_folder.h"
 #include "common/base/names.h"
 #include "common/record/room_log.h"
 #include "common/record/segments/log_segments.h"
@@ -20,11 +21,11 @@ namespace fs = std::filesystem;
 /// Gives a file that a log cannot go on with another name. Returns a line that says so.
 std::string PutAside(const std::string& log) {
   std::string to;
-  for (int n = 1; to.empty() || fs::exists(to); ++n) {
+  std::error_code error;
+  for (int n = 1; to.empty() || fs::exists(to, error); ++n) {
     to = log + ".damaged-" + std::to_string(n);
   }
-  std::error_code error;
-  fs::rename(log, to, error);
+  if (!error) fs::rename(log, to, error);
   if (error) throw OperatorError(log + ": cannot be renamed: " + error.message());
   return "kept as " + to;
 }
@@ -47,8 +48,7 @@ std::string StateLogOf(const std::string& folder, const std::string& room, std::
 std::vector<std::string> RoomsIn(const std::string& folder, bool may_none) {
   std::set<std::string> names;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& path = entry.path();
+  for (const fs::path& path : ListFolder(folder, error)) {
     const std::string stem = path.stem().string();
     const std::string name = stem.substr(0, stem.find('.'));
     if (path.extension() == kLogEnding && IsName(name)) names.insert(name);
@@ -104,8 +104,8 @@ ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
   if (damage.empty()) {
     const std::string next = SegmentPath(resumed.log, tail.end.segment + 1);
     std::error_code none;
-    const fs::file_status there = fs::symlink_status(next, none);
-    if (fs::exists(there) && !fs::is_regular_file(there)) {
+    const fs::file_status status = fs::symlink_status(next, none);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
       resumed.notes.push_back(next + ": not a file of this log; " + PutAside(next));
     }
     // Nothing of a later file belongs to the log; an empty one is a segment that was not begun.
@@ -137,12 +137,11 @@ void PrepareStateFolder(const std::string& folder, const std::string& room, bool
   if (error) throw OperatorError(folder + ": cannot be made: " + error.message());
   const std::vector<SnapshotName> snapshots = ListSnapshots(folder, room);
   std::vector<fs::path> logs;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind(room + ".", 0) == 0 && entry.path().extension() == kLogEnding) {
-      logs.push_back(entry.path());
-    }
+  for (const fs::path& path : ListFolder(folder, error)) {
+    const std::string name = path.filename().string();
+    if (name.rfind(room + ".", 0) == 0 && path.extension() == kLogEnding) logs.push_back(path);
   }
+  if (error) throw OperatorError(folder + ": cannot be read: " + error.message());
   for (const fs::path& log : logs) RequireUnused(log);
   // Without a snapshot there is nothing to go on with: it was killed before it began.
   if (!force && !snapshots.empty()) {

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "common/base/check.h"
+#include "common/base/files/list_folder.h"
 #include "common/base/plain_file.h"
 #include "common/net/crc32c.h"
 #include "common/record/segments/log_segments.h"
@@ -90,16 +91,17 @@ std::string StemOf(const std::string& room, std::int32_t epoch) {
   return epoch <= 1 ? room : room + kEpochMark + std::to_string(epoch);
 }
 
-std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room) {
+std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room,
+                                        std::error_code* error) {
   std::vector<SnapshotName> all;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != kSnapshotEnding) continue;
-    const std::string name = entry.path().stem().string();
+  std::error_code ignored;
+  for (const fs::path& path : ListFolder(folder, error != nullptr ? *error : ignored)) {
+    if (path.extension() != kSnapshotEnding) continue;
+    const std::string name = path.stem().string();
     const std::size_t dash = name.rfind('-');
     if (dash == std::string::npos || name.rfind(room, 0) != 0) continue;
     SnapshotName file;
-    file.path = entry.path().string();
+    file.path = path.string();
     const std::string mark = kEpochMark;
     const std::string between =
         dash < room.size() ? "-" : name.substr(room.size(), dash - room.size());

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "common/base/bytes.h"
@@ -40,7 +41,9 @@ struct SnapshotName {
 std::string StemOf(const std::string& room, std::int32_t epoch);
 
 /// Returns the snapshots of a room in a folder, the latest epoch first, and its newest first.
-std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room);
+/// `error`: set if the folder could not be read to its end.
+std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room,
+                                        std::error_code* error = nullptr);
 /// Writes a snapshot that appears whole or not at all (a file of its own, fsync, rename), and
 /// removes those older than the last kSnapshotsKept. Returns one line if it cannot.
 Status WriteSnapshot(const std::string& folder, const std::string& room,

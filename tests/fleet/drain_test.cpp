@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/server.h"
 #include "tests/fleet/fleet_rooms.h"
 
 namespace seam {

@@ -175,6 +175,7 @@ TEST(Layering, InnerRoomsDoNotIncludeTheirUsers) {
       {"common/sync/audit", "none"},
       {"common/base/command", "common/base"},
       {"common/base/spatial", "common/base"},
+      {"common/base/files", "none"},
       {"common/record/events", "none"},
       {"common/record/store", "common/record(/events)?"},
       {"common/record/segments", "common/record"},

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "common/base/check.h"
+#include "common/base/files/list_folder.h"
 
 namespace seam {
 namespace {
@@ -65,11 +66,11 @@ std::vector<LogSegment> ListSegments(const std::string& log, std::int32_t from) 
   std::vector<LogSegment> all;
   std::error_code error;
   if (from == 0 && fs::exists(log, error)) all.push_back({0, log});
-  for (const auto& entry : fs::directory_iterator(FolderOf(log), error)) {
-    const std::int32_t number = NumberOf(entry.path().filename().string());
+  for (const fs::path& entry : ListFolder(FolderOf(log), error)) {
+    const std::int32_t number = NumberOf(entry.filename().string());
     const std::string path = SegmentPath(log, number);
-    const bool ours = number > 0 && fs::path(path).filename() == entry.path().filename();
-    if (ours && number >= from && entry.is_regular_file(error)) all.push_back({number, path});
+    const bool ours = number > 0 && fs::path(path).filename() == entry.filename();
+    if (ours && number >= from && fs::is_regular_file(entry, error)) all.push_back({number, path});
   }
   std::sort(all.begin(), all.end(),
             [](const LogSegment& a, const LogSegment& b) { return a.number < b.number; });
@@ -80,8 +81,8 @@ std::string LogNamed(const std::string& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return path;
   std::set<std::string> logs;
-  for (const auto& entry : fs::directory_iterator(path, error)) {
-    if (EndsAsLog(entry.path().string())) logs.insert(LogOfSegment(entry.path().string()));
+  for (const fs::path& entry : ListFolder(path, error)) {
+    if (EndsAsLog(entry.string())) logs.insert(LogOfSegment(entry.string()));
   }
   if (error) throw OperatorError(path + ": cannot be read: " + error.message());
   if (logs.empty()) throw OperatorError(path + ": no log in this folder");

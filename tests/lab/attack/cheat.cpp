@@ -48,15 +48,13 @@ const std::vector<std::string>& AttackNames() {
 }
 
 Cheat::Cheat(const std::string& attack, const Scene& scene)
-    : scene_(scene),
-      attack_(attack),
-      honest_(MotionOf(scene)),
-      lying_(MotionOf(scene)),
-      first_(scene.parts.size()),
-      ahead_(scene.parts.size()) {
+    : scene_(scene), attack_(attack), honest_(MotionOf(scene)), lying_(MotionOf(scene)) {
   const Composition composition = Compose(scene);
   const int m = MechanismIn(composition, scene.players.front().vehicle);
   if (m >= 0) EachIdOf(composition, m, [this](PartId id) { car_.push_back(id); });
+  for (std::size_t id = 0; id < scene.parts.size(); ++id) {
+    if (scene.parts[id].name == "ann-wheel.0") wheel_ = static_cast<std::int32_t>(id);
+  }
   ChooseLies(attack);
 }
 
@@ -69,9 +67,7 @@ void Cheat::ChooseLies(const std::string& attack) {
   if (std::find(names.begin(), names.end(), attack) == names.end()) {
     throw OperatorError("no attack \"" + attack + "\"");
   }
-  const auto first = [this](const WireBody& body) -> const WireBody& {
-    return first_[static_cast<std::size_t>(body.id)];
-  };
+  const auto first = [this](const WireBody& body) -> const WireBody& { return first_.at(body.id); };
   const auto factor = [first, this](double f, bool speed) -> Change {
     return [=](std::int64_t, WireBody* body) {
       if (!IsCar(body->id)) return true;
@@ -139,8 +135,7 @@ void Cheat::ChooseLies(const std::string& attack) {
   }
   if (attack == "tear") {
     change_ = [this](std::int64_t, WireBody* body) {
-      const std::string& name = scene_.parts[static_cast<std::size_t>(body->id)].name;
-      if (name == "ann-wheel.0") Shift(-4, 0, body);
+      if (body->id == wheel_) Shift(-4, 0, body);
       return true;
     };
   }
@@ -158,7 +153,7 @@ void Cheat::ChooseLies(const std::string& attack) {
 Cheat::Change Cheat::Gain(double rate) {
   return [this, rate](std::int64_t tick, WireBody* body) {
     if (!IsCar(body->id)) return true;
-    Ahead& ahead = ahead_[static_cast<std::size_t>(body->id)];
+    Ahead& ahead = ahead_[body->id];
     const double speed = MpsOf(body->vx);
     const double s = ahead.tick < 0 ? 0 : static_cast<double>(tick - ahead.tick) / 60;
     if (std::fabs(speed) > 0.5) ahead.speed += (speed > 0 ? rate : -rate) * s;
@@ -173,7 +168,7 @@ Cheat::Change Cheat::Gain(double rate) {
 Cheat::Change Cheat::Bounce(double share) {
   return [this, share](std::int64_t tick, WireBody* body) {
     if (!IsCar(body->id)) return true;
-    Ahead& ahead = ahead_[static_cast<std::size_t>(body->id)];
+    Ahead& ahead = ahead_[body->id];
     const double speed = MpsOf(body->vx), blow = speed - ahead.was;
     const double s = ahead.tick < 0 ? 0 : static_cast<double>(tick - ahead.tick) / 60;
     if (ahead.tick >= 0 && std::fabs(blow) > 1) ahead.speed += (share - 1) * blow;
@@ -220,9 +215,8 @@ void Cheat::RewriteStates(Bytes* message, const PackedStates& packed) {
     std::vector<WireBody> bodies;
     for (std::size_t i = 0; i < states.id.size(); ++i) {
       WireBody body = BodyAt(states, i);
-      WireBody& first = first_[static_cast<std::size_t>(body.id)];
       const bool lies = change_ && states.tick >= start_tick_;
-      if (lies && first.tick < 0) first = body;
+      if (lies) first_.emplace(body.id, body);
       if (lies) NoteLie(states.tick);
       if (!lies || change_(states.tick, &body)) bodies.push_back(body);
     }

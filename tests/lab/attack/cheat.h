@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,15 +55,16 @@ class Cheat {
   Change change_;
   StatesUnpacker honest_;
   StatesPacker lying_;
-  std::vector<WireBody> first_;  // by id: the honest state of the first lie
+  std::map<std::int32_t, WireBody> first_;  // by id: the honest state of the first lie
   /// Of a car's part, by Gain and Bounce: how far its told state is ahead.
   struct Ahead {
     std::int64_t tick = -1;
     double way = 0, speed = 0;  // m, m/s
     double was = 0;             // honest speed of that tick
   };
-  std::vector<Ahead> ahead_;     // by id
-  std::int64_t tick_ = 0;        // newest told
+  std::map<std::int32_t, Ahead> ahead_;  // by id
+  std::int32_t wheel_ = -1;              // id of the one that is torn off
+  std::int64_t tick_ = 0;                // newest told
   std::int64_t first_tick_ = -1, lies_ = 0;
   std::int32_t revision_ = 0;  // newest told
   int pings_ = 0;

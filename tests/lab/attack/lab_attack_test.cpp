@@ -196,6 +196,28 @@ TEST(Attack, ARecordingShowsWhoseEngineIsTooStrong) {
   }
 }
 
+TEST(Attack, PartsThatAScriptInsertsAreToldOf) {
+  for (const char* attack : {"x1.05", "gain0.1", "bounce1.2", "tear", "fly"}) {
+    SCOPED_TRACE(attack);
+    ClusterConfig room = Room("perfect", 1);
+    room.duration_s = 8;
+    room.scene_text += R"(
+[[script]]
+name = "spawner"
+code = '''
+function on_tick(t)
+  local at = world.tick()
+  if at % 3 == 0 then
+    world.add_part{name = "x" .. at, box = {0.2, 0.2}, position = {-200, 30}}
+  end
+  if world.part("x" .. at - 60) then world.remove_part("x" .. at - 60) end
+end
+'''
+)";
+    EXPECT_GT(RunAttack(room, attack).lies, 10);
+  }
+}
+
 TEST(Attack, GlueWithoutALoadDoesNotBreak) {
   const AttackOutcome outcome = RunAttack(Room("demo", 1), "break");
   EXPECT_GT(outcome.lies, 5);

@@ -19,6 +19,9 @@ struct ChaosOutcome {
   int restarts = 0;                 ///< of the server
 };
 
+/// Returns the command that runs the session of a seed alone.
+std::string CommandOf(std::uint64_t seed, const ChaosChoice& choice);
+
 /// Runs the session of a seed. The same seed and choice run the same.
 ChaosOutcome RunChaos(std::uint64_t seed, const ChaosChoice& choice);
 

@@ -30,6 +30,15 @@ TEST(ChaosCluster, EverySeedKeepsItsInvariantsThroughDeathsOfTheServer) {
   EXPECT_GT(restarts, kSeeds / 2) << "no server died: the test would show nothing";
 }
 
+TEST(ChaosCluster, TheCommandOfASeedNamesItsScenes) {
+  ChaosChoice choice;
+  choice.seconds = 24;
+  EXPECT_EQ(CommandOf(7, choice), "seam-lab chaos --seeds 1 --first 7 --seconds 24");
+  choice.scenes = {"seesaw", "arena"};
+  EXPECT_EQ(CommandOf(7, choice),
+            "seam-lab chaos --seeds 1 --first 7 --seconds 24 --scene seesaw,arena");
+}
+
 TEST(ChaosCluster, ASeedRepeats) {
   ChaosChoice choice;
   choice.seconds = 16;

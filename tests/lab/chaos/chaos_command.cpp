@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <string>
 
@@ -8,6 +10,15 @@
 #include "tests/lab/experiment/jobs.h"
 
 namespace seam {
+
+std::string CommandOf(std::uint64_t seed, const ChaosChoice& choice) {
+  std::string text =
+      fmt::format("seam-lab chaos --seeds 1 --first {} --seconds {:g}", seed, choice.seconds);
+  for (std::size_t i = 0; i < choice.scenes.size(); ++i) {
+    text += (i == 0 ? " --scene " : ",") + choice.scenes[i];
+  }
+  return text;
+}
 
 int RunChaosSeeds(const ChaosCommand& command) {
   StopOnSignals();
@@ -31,8 +42,7 @@ int RunChaosSeeds(const ChaosCommand& command) {
       std::printf("%s%s\n", good ? "" : "FAILED ", result.text.substr(name).c_str());
     }
     if (!good) {
-      std::printf("  repeat: seam-lab chaos --seeds 1 --first %llu --seconds %g\n",
-                  static_cast<unsigned long long>(seed(n)), command.seconds);
+      std::printf("  repeat: %s\n", CommandOf(seed(n), choice).c_str());
     }
     std::fflush(stdout);
   };

@@ -2,14 +2,16 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <map>
 
 #include "common/base/check.h"
 #include "common/base/files_read.h"
 #include "common/base/plain_file.h"
 #include "tests/lab/experiment/csv_table.h"
+#include "tests/lab/experiment/key_index.h"
+#include "tests/lab/experiment/values.h"
 
 namespace seam {
 namespace {
@@ -44,8 +46,7 @@ ResultTable::ResultTable(const std::string& path, const std::string& key_columns
       lines_(keys.size()) {
   const bool there = access(path.c_str(), F_OK) == 0;
   if (WasFileRead(path)) throw OperatorError(path + ": is read, it cannot be written");
-  Load(there && !force ? ReadPlainFile(path, kTableBytesMax) : "", CsvFields(key_columns).size(),
-       keys);
+  Load(there && !force ? ReadPlainFile(path, kTableBytesMax) : "", CsvFields(key_columns), keys);
   Rewrite();
 }
 
@@ -53,11 +54,11 @@ ResultTable::~ResultTable() {
   if (file_ != nullptr) std::fclose(file_);
 }
 
-void ResultTable::Load(const std::string& text, std::size_t key_columns,
+void ResultTable::Load(const std::string& text, const std::vector<std::string>& key_columns,
                        const std::vector<std::string>& keys) {
-  std::map<Fields, std::size_t> rows;
+  KeyIndex rows(key_columns);
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (rows.emplace(CsvFields(keys[i]), i).second) continue;
+    if (rows.Add(CsvFields(keys[i]), i)) continue;
     throw OperatorError(path_ + ": the same run twice: " + keys[i]);
   }
   const std::size_t columns = CsvFields(header_).size();
@@ -71,15 +72,17 @@ void ResultTable::Load(const std::string& text, std::size_t key_columns,
     at = text.find('\n', begin);
     if (at == std::string::npos) break;  // half-written, or the end
     const std::string line = text.substr(begin, at - begin);
-    Fields fields = FieldsOr(line);
-    const bool whole = fields.size() == columns;
-    if (whole) fields.resize(key_columns);
-    const auto row = whole ? rows.find(fields) : rows.end();
-    if (row == rows.end() || Has(row->second)) {
+    const Fields fields = FieldsOr(line);
+    const auto values =
+        fields.begin() + static_cast<std::ptrdiff_t>(std::min(key_columns.size(), fields.size()));
+    const Fields key(fields.begin(), values);
+    const auto row = fields.size() == columns ? rows.Find(key) : std::nullopt;
+    if (!row || Has(*row)) {
       RefuseTable(path_, "line " + std::to_string(number) +
                              " is not of this sweep (scene, settings or version differ)");
     }
-    lines_[row->second] = line;
+    const bool same = CsvFields(keys[*row]) == key;  // else its scene lay in another folder
+    lines_[*row] = same ? line : keys[*row] + ',' + CsvRow(Fields(values, fields.end()));
     ++count_;
   }
 }

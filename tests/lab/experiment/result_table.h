@@ -14,9 +14,10 @@ class ResultTable {
  public:
   /// Takes over the rows that an earlier run left in `path`; drops a last line without its end.
   /// `key_columns` and `value_columns` are names with commas between, `keys` the texts of all rows'
-  /// key columns as CSV. Throws OperatorError when two keys are equal, when the file has other
-  /// columns or rows, unless `force` (then it begins anew), when it cannot be written, when this
-  /// program has read it as a scene or the like, or when another process writes it.
+  /// key columns as CSV; a row counts as KeyIndex finds it. Throws OperatorError when two keys are
+  /// equal, when the file has other columns or rows, unless `force` (then it begins anew), when it
+  /// cannot be written, when this program has read it as a scene or the like, or when another
+  /// process writes it.
   ResultTable(const std::string& path, const std::string& key_columns,
               const std::string& value_columns, const std::vector<std::string>& keys, bool force);
   ~ResultTable();
@@ -32,7 +33,8 @@ class ResultTable {
   void Add(std::size_t row, const std::string& line);
 
  private:
-  void Load(const std::string& text, std::size_t key_columns, const std::vector<std::string>& keys);
+  void Load(const std::string& text, const std::vector<std::string>& key_columns,
+            const std::vector<std::string>& keys);
   void Rewrite();
 
   std::string path_, header_;

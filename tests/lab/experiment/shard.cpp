@@ -6,15 +6,20 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <set>
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "tests/lab/experiment/csv_table.h"
+#include "tests/lab/experiment/key_index.h"
 #include "tests/lab/experiment/values.h"
 
 namespace seam {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool DiffersByBuild(const std::string& column) {
   return column == "version" || column == "commit" || column == "numerics";
@@ -29,20 +34,39 @@ std::vector<std::string> FilesLike(const std::string& pattern) {
   return files;
 }
 
-/// Returns the keys, as text, of the rows in the tables.
-std::set<std::string> KeysIn(const std::vector<std::string>& tables,
-                             const std::vector<std::string>& columns) {
-  std::set<std::string> keys;
-  for (const std::string& path : tables) {
-    const CsvTable table = CsvTable::Load(path);
-    table.Require(columns);
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      std::vector<std::string> key;
-      for (const std::string& column : columns) key.push_back(table.Text(row, column));
-      keys.insert(CsvRow(key));
-    }
+/// Adds the rows of the experiment that are in a table.
+void AddRowsOf(const CsvTable& table, const std::vector<std::string>& columns,
+               const KeyIndex& index, std::set<std::size_t>* rows) {
+  table.Require(columns);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    std::vector<std::string> key;
+    for (const std::string& column : columns) key.push_back(table.Text(row, column));
+    if (const auto found = index.Find(key)) rows->insert(*found);
   }
-  return keys;
+}
+
+/// Returns the rows of the experiment that others have: those in the tables of --have without those
+/// in `own`, whose half-written last line does not count.
+std::set<std::size_t> RowsHad(const std::string& have, const std::string& own, bool force,
+                              const Experiment& experiment,
+                              const std::vector<std::string>& columns) {
+  KeyIndex index(columns);
+  for (std::size_t row = 0; row < experiment.keys.size(); ++row) {
+    index.Add(CsvFields(experiment.keys[row]), row);
+  }
+  std::error_code unknown;
+  std::set<std::size_t> had, done;
+  for (const std::string& path : FilesLike(have)) {
+    if (fs::equivalent(path, own, unknown)) continue;
+    AddRowsOf(CsvTable::Load(path), columns, index, &had);
+  }
+  if (force || !fs::exists(own, unknown)) return had;
+  const std::string text = ReadPlainFile(own, kTableBytesMax);
+  const std::size_t end = text.rfind('\n');
+  if (end == std::string::npos) return had;
+  AddRowsOf(CsvTable::Parse(text.substr(0, end + 1), own), columns, index, &done);
+  for (const std::size_t row : done) had.erase(row);
+  return had;
 }
 
 }  // namespace
@@ -89,14 +113,6 @@ Experiment WithRows(const Experiment& experiment, const std::vector<std::size_t>
 int CompleteShard(const Experiment& experiment, const TableFlags& flags, const std::string& name) {
   const std::vector<std::string> columns = CsvFields(experiment.key_columns);
   const Shard shard = flags.shard.empty() ? Shard() : ParseShard(flags.shard);
-  const std::set<std::string> have =
-      flags.have.empty() ? std::set<std::string>() : KeysIn(FilesLike(flags.have), columns);
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < experiment.keys.size(); ++row) {
-    const std::string& key = experiment.keys[row];
-    if (ShardOf(columns, key, shard.count) != shard.index) continue;
-    if (have.count(key) == 0) rows.push_back(row);
-  }
   TableFlags own = flags;
   if (!flags.shard.empty()) {
     if (mkdir(flags.table.c_str(), 0777) != 0 && errno != EEXIST) {
@@ -104,6 +120,14 @@ int CompleteShard(const Experiment& experiment, const TableFlags& flags, const s
     }
     own.table += "/" + name + "." + std::to_string(shard.index) + "-of-" +
                  std::to_string(shard.count) + ".csv";
+  }
+  std::set<std::size_t> had;
+  if (!flags.have.empty()) had = RowsHad(flags.have, own.table, flags.force, experiment, columns);
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < experiment.keys.size(); ++row) {
+    const std::string& key = experiment.keys[row];
+    if (ShardOf(columns, key, shard.count) != shard.index) continue;
+    if (had.count(row) == 0) rows.push_back(row);
   }
   return CompleteTable(WithRows(experiment, rows), own);
 }

@@ -25,8 +25,8 @@ Shard ParseShard(const std::string& text);
 Experiment WithRows(const Experiment& experiment, const std::vector<std::size_t>& rows);
 
 /// Completes the table, or with --shard one shard of it in the folder of --output, without the rows
-/// that the tables of --have hold. Returns the exit status. `name`: of the whole table, "demo" for
-/// "demo.3-of-8.csv".
+/// that the tables of --have hold; its own table does not count among them. Returns the exit
+/// status. `name`: of the whole table, "demo" for "demo.3-of-8.csv".
 int CompleteShard(const Experiment& experiment, const TableFlags& flags, const std::string& name);
 
 }  // namespace seam

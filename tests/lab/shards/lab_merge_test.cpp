@@ -18,13 +18,15 @@ namespace lab_merge_test {
 const std::set<std::string> kTimes = {"cpu_s"};
 
 /// Squares of 0 to 39, in two scenes, and a time that differs from run to run.
-Experiment Squares(const std::string& commit = "abc") {
+Experiment Squares(const std::string& commit = "abc", const std::string& folder = "some") {
   Experiment experiment;
-  experiment.key_columns = "version,commit,scene,number";
+  experiment.key_columns = "version,commit,scene,scene_hash,number";
   experiment.value_columns = "square,cpu_s";
   for (int i = 0; i < 40; ++i) {
     experiment.keys.push_back(
-        "1," + commit + (i % 2 == 0 ? ",\"some/a,b.toml\"," : ",some/c.toml,") + std::to_string(i));
+        "1," + commit +
+        (i % 2 == 0 ? ",\"" + folder + "/a,b.toml\",0f," : "," + folder + "/c.toml,1f,") +
+        std::to_string(i));
   }
   experiment.measure = [](std::size_t row) {
     static int runs = 0;
@@ -129,6 +131,47 @@ TEST_F(Merge, AMissingShardIsNamedAndNothingIsWrittenUnlessPartial) {
   rest.have = files_ / "parts/*.csv";
   EXPECT_EQ(CompleteShard(Squares(), rest, "squares"), 0);
   EXPECT_EQ(CsvTable::Load(files_ / "rest/squares.0-of-1.csv").rows(), 0u) << "all four are there";
+}
+
+/// 0 of 2 was stopped in its 14th row, and another shard of the folder has done some of them, too.
+TEST_F(Merge, AShardGoesOnWithItsOwnRowsAlsoIfHaveNamesItsTable) {
+  MakeShards(2);
+  const std::string whole = files_.Read("parts/squares.0-of-2.csv");
+  std::size_t end = 0;
+  for (int line = 0; line < 14; ++line) end = whole.find('\n', end) + 1;
+  files_.Write("parts/squares.0-of-2.csv", whole.substr(0, end + 3));
+  TableFlags flags = Flags(files_ / "parts", "0/2");
+  flags.have = files_ / "parts/*.csv";
+  EXPECT_EQ(CompleteShard(Squares(), flags, "squares"), 0);
+  EXPECT_EQ(files_.Read("parts/squares.0-of-2.csv").substr(0, end), whole.substr(0, end));
+  EXPECT_EQ(WithoutTimes(files_.Read("parts/squares.0-of-2.csv")), WithoutTimes(whole));
+  EXPECT_EQ(CompleteShard(Squares(), Flags(files_ / "parts", "2/5"), "squares"), 0);
+  EXPECT_EQ(CompleteShard(Squares(), flags, "squares"), 0);
+  EXPECT_EQ(WithoutTimes(files_.Read("parts/squares.0-of-2.csv")), WithoutTimes(whole));
+  flags.force = true;
+  EXPECT_EQ(CompleteShard(Squares(), flags, "squares"), 0);
+  tables_.push_back(files_ / "parts/squares.2-of-5.csv");
+  EXPECT_EQ(MergeTables(Squares(), kTimes, Command()), 0) << "no row is lost";
+}
+
+TEST_F(Merge, TheFolderOfASceneIsNotOfTheKey) {
+  EXPECT_EQ(CompleteShard(Squares(), Flags(files_ / "one.csv"), "squares"), 0);
+  MakeShards(1);
+  const std::string parts = files_ / "parts/";
+  for (const auto& [folder, shard] : {std::pair("here/and", "0/2"), std::pair("there", "1/2")}) {
+    EXPECT_EQ(CompleteShard(Squares("abc", folder), Flags(parts, shard), "squares"), 0);
+  }
+  tables_ = {parts + "squares.0-of-2.csv", parts + "squares.0-of-1.csv",
+             parts + "squares.1-of-2.csv"};
+  EXPECT_EQ(Refusal(Squares(), Command()), "");
+  EXPECT_EQ(WithoutTimes(files_.Read("whole.csv")), WithoutTimes(files_.Read("one.csv")))
+      << "with the paths of the sweep that is merged";
+  TableFlags rest = Flags(files_ / "rest", "0/1");
+  rest.have = parts + "squares.0-of-2.csv";
+  EXPECT_EQ(CompleteShard(Squares(), rest, "squares"), 0);
+  EXPECT_LT(CsvTable::Load(files_ / "rest/squares.0-of-1.csv").rows(), 30u);
+  TableFlags again = Flags(parts, "0/2");
+  EXPECT_EQ(CompleteShard(Squares("abc", "elsewhere"), again, "squares"), 0) << "goes on";
 }
 
 TEST_F(Merge, TablesThatDisagreeAreRefusedInOneLineAndNothingIsWritten) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "common/base/random.h"
 #include "tests/lab/experiment/csv_table.h"
 #include "tests/lab/experiment/jobs.h"
+#include "tests/lab/experiment/key_index.h"
 #include "tests/lab/experiment/shard.h"
 #include "tests/lab/experiment/values.h"
 
@@ -33,10 +33,10 @@ class Merged {
         key_columns_(CsvFields(experiment.key_columns).size()),
         times_(times),
         lines_(experiment.keys.size()),
-        from_(experiment.keys.size()) {
-    for (std::size_t i = 0; i < experiment.keys.size(); ++i) {
-      rows_.emplace(CsvFields(experiment.keys[i]), i);
-    }
+        from_(experiment.keys.size()),
+        keys_(experiment.keys),
+        rows_(CsvFields(experiment.key_columns)) {
+    for (std::size_t i = 0; i < keys_.size(); ++i) rows_.Add(CsvFields(keys_[i]), i);
   }
 
   /// Adds the rows of a table. Throws OperatorError, which names file and line.
@@ -69,27 +69,28 @@ class Merged {
     Fields fields;
     for (const std::string& column : header_) fields.push_back(table.Text(row, column));
     const std::string where = fmt::format("{}: row {}", table.path(), row + 1);
-    const auto found = rows_.find(KeyOf(fields));
-    if (found == rows_.end()) throw OperatorError(where + WhyForeign(fields));
-    std::string& there = lines_[found->second];
+    const std::optional<std::size_t> found = rows_.Find(KeyOf(fields));
+    if (!found) throw OperatorError(where + WhyForeign(fields));
+    std::string& there = lines_[*found];
+    const Fields key = CsvFields(keys_[*found]);  // the scene may have another folder here
+    std::copy(key.begin(), key.end(), fields.begin());
     const std::string line = CsvRow(fields);
     if (there.empty()) {
       there = line;
-      from_[found->second] = where;
+      from_[*found] = where;
       return;
     }
     const std::string column = Difference(there, line);
     if (column.empty()) return;
-    throw OperatorError(where + " and " + from_[found->second] +
-                        " are the same run, but differ in " + column +
-                        ": something is not deterministic");
+    throw OperatorError(where + " and " + from_[*found] + " are the same run, but differ in " +
+                        column + ": something is not deterministic");
   }
   Fields KeyOf(const Fields& fields) const {
     return Fields(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(key_columns_));
   }
   /// Returns why no row of the experiment has the key: another build, by name, or another sweep.
   std::string WhyForeign(const Fields& fields) const {
-    const Fields& ours = rows_.begin()->first;
+    const Fields ours = CsvFields(keys_.front());
     for (std::size_t c = 0; c < key_columns_; ++c) {
       const bool build =
           header_[c] == "version" || header_[c] == "commit" || header_[c] == "numerics";
@@ -103,9 +104,10 @@ class Merged {
   const Fields header_;
   const std::size_t key_columns_;
   const std::set<std::string>& times_;
-  std::map<Fields, std::size_t> rows_;  // by key
-  std::vector<std::string> lines_;      // by row; empty: missing
-  std::vector<std::string> from_;       // by row: file and row
+  std::vector<std::string> lines_;  // by row; empty: missing
+  std::vector<std::string> from_;   // by row: file and row
+  const std::vector<std::string>& keys_;
+  KeyIndex rows_;
 };
 
 /// Returns N if every name ends with ".I-of-N.csv" with the same N; else 0.

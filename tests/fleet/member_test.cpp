@@ -1,0 +1,114 @@
+/// A server as a member of a fleet, with a directory in a file.
+
+#include "server/fleet/member.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/base/check.h"
+#include "common/base/version.h"
+#include "tests/support/program.h"
+
+namespace seam {
+namespace member_test {
+
+FleetServer ServerOf(const std::string& id) {
+  FleetServer server;
+  server.id = id;
+  server.address = "127.0.0.1:" + std::to_string(7000 + id.back());
+  server.version = kVersion;
+  server.protocol = kProtocolVersion;
+  server.capacity = 8;
+  return server;
+}
+
+/// The room "red" lost its server, which was "dead"; its state is in the folder.
+class Member : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.Write("red-000000000060.snapshot", "");
+    Directory dead(OpenKeyStore(text_), "main");
+    ASSERT_TRUE(dead.Register(ServerOf("dead")).ok());
+    std::int32_t epoch = 0;
+    bool saved = false;
+    ASSERT_TRUE(dead.Claim("red", kSpec, 1, &epoch).ok());
+    ASSERT_TRUE(dead.SaveState("red", epoch, kSpec, &saved).ok());
+    ASSERT_TRUE(dead.Leave().ok());
+  }
+  FleetMember::Config ConfigOf(const std::string& id) const {
+    FleetMember::Config config;
+    config.directory = text_;
+    config.fleet = "main";
+    config.me = ServerOf(id);
+    config.folder = folder_.path();
+    config.takes = true;
+    return config;
+  }
+  FleetMember::Prepare Plans() {
+    return [this](const std::string& room, std::int32_t epoch) {
+      ++plans_;
+      RoomPlan plan;
+      plan.config.room = room;
+      plan.config.epoch = epoch;
+      return plan;
+    };
+  }
+  FleetRoom Red() const {
+    Directory directory(OpenKeyStore(text_), "main");
+    FleetListing listing;
+    EXPECT_TRUE(directory.List(&listing).ok());
+    return *listing.FindRoom("red");
+  }
+  template <class Condition>
+  static bool WaitFor(const Condition& condition) {
+    for (int i = 0; i < 2000; ++i, usleep(10000)) {
+      if (condition()) return true;
+    }
+    return false;
+  }
+
+  const std::string kSpec = R"({"folder": "/rooms"})";
+  Workspace folder_;
+  const std::string text_ = "file:" + folder_.path();
+  std::atomic<int> plans_{0};
+};
+
+TEST_F(Member, ARoomThatCannotBeOpenedIsGivenBackOnceAndAnotherServerMayTry) {
+  FleetMember member(ConfigOf("a"), Plans());
+  member.Start();
+  std::vector<RoomPlan> ready;
+  ASSERT_TRUE(WaitFor([&] { return ready = member.TakeReady(), !ready.empty(); }));
+  EXPECT_EQ(ready.front().config.epoch, 2);
+  ASSERT_TRUE(Red().holder);
+  member.GiveBack("red", 2, "this is no saved room");
+  ASSERT_TRUE(WaitFor([&] { return !Red().holder; }));
+  EXPECT_EQ(Red().state, kSpec) << "it stays";
+  usleep(1500000);
+  EXPECT_FALSE(Red().holder) << "not taken again at once";
+  EXPECT_EQ(plans_, 1);
+  EXPECT_EQ(member.TakeReports(),
+            std::vector<std::string>{
+                "room red cannot go on here, its state stays: this is no saved room"});
+  FleetMember other(ConfigOf("b"), Plans());
+  other.Start();
+  ASSERT_TRUE(WaitFor([&] { return ready = other.TakeReady(), !ready.empty(); }));
+  EXPECT_EQ(Red().holder->server, "b");
+  EXPECT_EQ(Red().epoch, 3);
+}
+
+TEST_F(Member, ARoomWithoutAPlanIsGivenBackLikewise) {
+  FleetMember member(ConfigOf("a"), [this](const std::string&, std::int32_t) -> RoomPlan {
+    ++plans_;
+    throw OperatorError("no such scene");
+  });
+  member.Start();
+  ASSERT_TRUE(WaitFor([&] { return plans_ > 0 && !Red().holder; }));
+  usleep(1000000);
+  EXPECT_EQ(plans_, 1);
+  EXPECT_EQ(Red().epoch, 2);
+  EXPECT_EQ(member.TakeReports(),
+            std::vector<std::string>{"room red cannot go on here, its state stays: no such scene"});
+}
+
+}  // namespace member_test
+}  // namespace seam
