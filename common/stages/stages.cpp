@@ -3,7 +3,6 @@
 #include "common/physics/stage.h"
 #include "common/scene/bricks.h"
 #include "common/scene/character.h"
-#include "common/scene/connectors.h"
 #include "common/scene/forces.h"
 #include "common/scene/grouping.h"
 #include "common/scene/joint_kinds.h"
@@ -16,8 +15,9 @@ namespace seam {
 
 bool ProposesEdits(const Scene& scene) {
   const auto grips = [](const Character& c) { return c.active && c.grip; };
-  return std::any_of(scene.joints.begin(), scene.joints.end(), IsBreakableGlue) ||
-         HasConnectors(scene) || scene.grouping->after > 0 ||
+  const auto breaks = [](const Joint& joint) { return !joint.gone && IsBreakableGlue(joint); };
+  return std::any_of(scene.joints.begin(), scene.joints.end(), breaks) || HasConnectors(scene) ||
+         scene.grouping->after > 0 ||
          std::any_of(scene.characters.begin(), scene.characters.end(), grips);
 }
 
@@ -46,8 +46,7 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (screws && !world.scene.waters.empty()) {
     stages.push_back(MakePropellerStage(world));
   }
-  const bool joins =
-      any_left(world.scene.parts, [](const Part& p) { return !p.connectors->empty(); });
+  const bool joins = HasConnectors(world.scene);
   if (joins || any_left(world.scene.joints, IsBreakableGlue))
     stages.push_back(MakeGlueStage(world));
   if (joins) stages.push_back(MakeJoinStage(world));

@@ -38,7 +38,7 @@ bool Joined(const FreeConnector& x, const FreeConnector& y) {
 
 bool HasConnectors(const Scene& scene) {
   return std::any_of(scene.parts.begin(), scene.parts.end(),
-                     [](const Part& part) { return !part.connectors->empty(); });
+                     [](const Part& part) { return !part.gone && !part.connectors->empty(); });
 }
 
 std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition& composition) {

@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// Returns true if any part has connectors.
+/// Returns true if any part that is there has connectors.
 bool HasConnectors(const Scene& scene);
 
 struct FreeConnector {

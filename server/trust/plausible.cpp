@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/physics/part_places.h"
+#include "common/scene/character.h"
 #include "common/scene/mechanism_ids.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/state_arithmetic.h"
@@ -43,6 +45,14 @@ float DistanceFrom(const Vec2& point, const Vec2& a, const Vec2& b) {
   const float length = along.squaredNorm();
   const float share = length > 0 ? std::clamp((point - a).dot(along) / length, 0.0f, 1.0f) : 0;
   return (point - a - share * along).norm();
+}
+
+/// A character's step is no part of its states: a copy that follows told states lacks it.
+bool IsOfCharacter(const World& world, int body) {
+  const auto& all = world.scene().characters;
+  return std::any_of(all.begin(), all.end(), [&](const Character& character) {
+    return MechanismOf(world, character.parts[kTorso]) == world.mechanism(body);
+  });
 }
 
 float Way(const BodyState& off) { return off.position.norm() + kArm * std::fabs(off.angle); }
@@ -220,7 +230,8 @@ bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state,
   const bool believed = memory.moved + way <= kAllowed && memory.kicked + kick <= kAllowedVelocity;
   if (believed) memory.moved += way, memory.kicked += kick;
   if (believed && rough) return true;
-  NoteDoubt(body, tick, state, Minus(state, off), !believed);
+  NoteDoubt(body, tick, state, Minus(state, off), !believed,
+            rough && IsOfCharacter(replica_.world(), body));
   return believed;
 }
 

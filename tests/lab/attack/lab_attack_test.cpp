@@ -42,58 +42,6 @@ TEST(Attack, AGrossLiarLosesItsBodiesWithinFiveSeconds) {
   }
 }
 
-/// A script that makes and removes a crate far from the liar, `every` ticks apart.
-std::string FarEdits(int every, const std::string& place) {
-  return R"(
-[[script]]
-name = "spawner"
-code = '''
-function on_tick()
-  if world.tick() % )" +
-         std::to_string(every) + R"( ~= 0 then return end
-  room.n = (room.n or 0) + 1
-  if room.n % 2 == 1 then
-    world.add_part{name = "x" .. room.n, box = {0.3, 0.4}, position = )" +
-         place + R"(}
-  else
-    pcall(world.remove_part, "x" .. (room.n - 1))
-  end
-end
-'''
-)";
-}
-
-TEST(Attack, ALiarIsFoundWhereOthersBodiesAreMadeAndRemovedAllTheTime) {
-  for (const int every : {15, 30}) {
-    SCOPED_TRACE(every);
-    ClusterConfig config = Room("perfect", 1);
-    config.scene_text += FarEdits(every, "{200, 30}");
-    config.drive = Drive::kBot;
-    config.duration_s = 33;
-    const AttackOutcome outcome = RunAttack(config, "x1.05");
-    EXPECT_LT(ActedAfterS(outcome), 30);
-    EXPECT_EQ(outcome.others_step, 0);
-  }
-}
-
-TEST(Attack, AnHonestClientKeepsItsBodiesWhereOthersAreMadeAndRemovedAllTheTime) {
-  for (const char* impair : {"3g", "4g", "terrible"}) {
-    for (const int seed : SoakSeeds(1, 2)) {
-      SCOPED_TRACE(std::string(impair) + " " + std::to_string(seed));
-      ClusterConfig config;
-      config.scene = "crossing";
-      config.scene_text = LoadScene("scenes/crossing.toml").text + FarEdits(7, "{-120, 6}");
-      config.impair = impair;
-      config.seed = seed;
-      config.drive = Drive::kBot;
-      config.duration_s = 20;
-      const HonestOutcome outcome = RunHonest(config, true);
-      EXPECT_GT(outcome.judged, 100);
-      EXPECT_LE(outcome.step, static_cast<int>(TrustStep::kNoted));
-    }
-  }
-}
-
 TEST(Attack, ATeleportWinsNoCoin) {
   for (const char* attack : {"silence", "firstword"}) {
     for (const char* impair : {"perfect", "demo", "terrible"}) {
