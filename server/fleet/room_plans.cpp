@@ -13,6 +13,7 @@
 #include "common/sync/method.h"
 #include "server/saved/old_segments.h"
 #include "server/saved/resumed_room.h"
+#include "server/saved/trial_load.h"
 
 namespace seam {
 namespace {
@@ -134,11 +135,7 @@ RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string&
   RoomPlan plan;
   plan.scene = resumed->saved->scene();
   ServerConfig& config = plan.config;
-  config.sync = MakeSyncConfig(MethodNames{room.mode, room.reconcile, room.predict});
-  config.sync.input_delay_ticks = room.input_delay_ticks;
-  config.sync.tick_hz = room.tick_hz;
-  config.sync.send_hz = room.send_hz;
-  config.sync.seed = config.seed = room.seed;
+  config = ConfigOf(room);
   config.room = name;
   config.epoch = resumed->epoch;
   FinishPlan(f, f.impair == kNotGiven.impair ? room.impair : f.impair, index, rooms, &plan);

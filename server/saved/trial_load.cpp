@@ -2,7 +2,6 @@
 
 #include "common/net/memory.h"
 #include "common/sync/method.h"
-#include "server/server.h"
 
 namespace seam {
 namespace {
@@ -15,14 +14,18 @@ class Unheard : public Recorder {
 
 }  // namespace
 
-Status CanLoad(const SavedRoom& saved) {
-  const Room& room = saved.room();
+ServerConfig ConfigOf(const Room& room) {
   ServerConfig config;
   config.sync = MakeSyncConfig(MethodNames{room.mode, room.reconcile, room.predict});
   config.sync.input_delay_ticks = room.input_delay_ticks;
   config.sync.tick_hz = room.tick_hz;
   config.sync.send_hz = room.send_hz;
   config.sync.seed = config.seed = room.seed;
+  return config;
+}
+
+Status CanLoad(const SavedRoom& saved) {
+  ServerConfig config = ConfigOf(saved.room());
   config.publish = Publish::kNone;
   MemoryNetwork network;
   const std::unique_ptr<Net> net = network.Attach({1, 1});

@@ -4,9 +4,12 @@
 
 #include "common/base/status.h"
 #include "server/room_state.h"
+#include "server/server.h"
 
 namespace seam {
 
+/// Returns the settings with which a server continues a room: its method and rates.
+ServerConfig ConfigOf(const Room& room);
 /// Loads the room into a server of its own that nobody hears. Returns why it cannot be continued.
 Status CanLoad(const SavedRoom& saved);
 
