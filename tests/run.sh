@@ -14,8 +14,8 @@ logs=$bin/test-logs
 rm -rf "$logs" && mkdir -p "$logs" || exit 2
 export SEAM_BIN=$bin
 
-# Suites that start programs or wait for datagrams: a busy processor makes them late.
-timed=$(sed -nE 's/^TEST(_F|_P)?\((\w+),.*/\2.*/p' tests/process/*.cpp tests/net/net_udp_test.cpp \
+# Suites that go by the clock of the wall: a busy processor makes them late.
+timed=$(sed -nE 's/^TEST(_F|_P)?\((\w+),.*/\2.*/p' tests/process/timed/*.cpp tests/net/net_udp_test.cpp \
   tests/record/slow/bus_test.cpp tests/render/slow/render_live_test.cpp | sort -u | paste -sd:)
 
 pids=()

@@ -97,7 +97,7 @@ TEST_F(PythonModule, EachExampleRunsAndPrintsWhatItSays) {
   for (const auto& file : fs::directory_iterator(Root() / "docs/examples")) {
     examples += file.path().extension() == ".py" ? 1 : 0;
   }
-  // The examples of robots, which need the bus, are run by tests/process/lcm_test.cpp.
+  // The examples of robots, which need the bus, are run by tests/process/timed/lcm_test.cpp.
   EXPECT_EQ(examples, 3 + 2) << "each example is run by a test";
 }
 
