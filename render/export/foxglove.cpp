@@ -162,7 +162,7 @@ std::string ErrorsOf(const ExportSession& session, const View& view,
   MeanSquare all;
   double largest = 0;
   ProtoMessage errors;
-  errors.Varint(1, static_cast<std::uint64_t>(view.tick));
+  errors.Bytes(1, ExportViewName(session, view.peer));
   for (const ExportRow& row : rows) {
     if (!row.error_m) continue;
     all.Add(*row.error_m * *row.error_m);
@@ -177,13 +177,20 @@ std::string ErrorsOf(const ExportSession& session, const View& view,
   return errors.bytes();
 }
 
-std::string InputOf(std::int64_t tick, const Inputs& message, std::size_t i) {
-  ProtoMessage input;
-  input.Varint(1, static_cast<std::uint64_t>(tick));
-  input.Float(2, static_cast<float>(message.drive[i]) / 127);
-  input.Float(3, static_cast<float>(message.lift[i]) / 127);
-  input.Varint(4, static_cast<std::uint64_t>(std::int64_t{message.buttons[i]}));
-  return input.bytes();
+std::string ErrorsOf(std::int64_t tick, const std::vector<std::string>& views) {
+  ProtoMessage errors;
+  errors.Varint(1, static_cast<std::uint64_t>(tick));
+  for (const std::string& view : views) errors.Bytes(2, view);
+  return errors.bytes();
+}
+
+std::string InputOf(std::int64_t tick, const Input& input) {
+  ProtoMessage message;
+  message.Varint(1, static_cast<std::uint64_t>(tick));
+  message.Float(2, static_cast<float>(input.drive) / 127);
+  message.Float(3, static_cast<float>(input.lift) / 127);
+  message.Varint(4, static_cast<std::uint64_t>(std::int64_t{input.buttons}));
+  return message.bytes();
 }
 
 std::string LogOf(const ExportSession& session, const Event& event) {

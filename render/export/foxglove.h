@@ -10,14 +10,14 @@
 
 namespace seam {
 
-/// Names of the messages in ExportSchemas.
+/// Names of the messages.
 constexpr const char *kFramesSchema = "foxglove.FrameTransforms",
                      *kSceneSchema = "foxglove.SceneUpdate", *kCloudSchema = "foxglove.PointCloud",
                      *kLogSchema = "foxglove.Log", *kErrorsSchema = "seam2d.Errors",
                      *kInputSchema = "seam2d.Input";
 
-/// Returns the google.protobuf.FileDescriptorSet of all messages.
-const std::string& ExportSchemas();
+/// Returns the google.protobuf.FileDescriptorSet of the message of that name.
+std::string ExportSchema(const std::string& name);
 
 /// The peer of the view that OracleView makes.
 constexpr int kOraclePeer = -1;
@@ -30,7 +30,8 @@ std::string ExportViewName(const ExportSession& session, int peer);
 /// Returns the time of a tick, ns from the session's tick 0; 0 for earlier ones.
 std::uint64_t TimeNs(const ExportSession& session, std::int64_t tick);
 /// foxglove.FrameTransforms: the pose of each body of the rows, rounded to 1/4096 m and 1/32768 of
-/// a quaternion. Frames are "VIEW/BODY".
+/// a quaternion. Frames are "VIEW/BODY". Those of several views, one after the other, are one
+/// message as well.
 std::string FramesOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows);
 /// foxglove.SceneUpdate: the outlines of all bodies in the rows, fixed to their frames; replaces
@@ -48,11 +49,13 @@ std::vector<NamedMessage> CloudsOf(const ExportSession& session, const View& vie
 std::string GroundCloudOf(const ExportSession& session);
 /// foxglove.SceneUpdate: the outlines of bodies that never move, in the frame "world".
 std::string GroundOf(const ExportSession& session);
-/// seam2d.Errors: rms_m, max_m, and error_m by body, of the bodies that the oracle has.
+/// seam2d.ViewErrors: rms_m, max_m, and error_m by body, of the bodies that the oracle has.
 std::string ErrorsOf(const ExportSession& session, const View& view,
                      const std::vector<ExportRow>& rows);
-/// seam2d.Input of element `i` of a message.
-std::string InputOf(std::int64_t tick, const Inputs& message, std::size_t i);
+/// seam2d.Errors: those of all views of a tick.
+std::string ErrorsOf(std::int64_t tick, const std::vector<std::string>& views);
+/// seam2d.Input.
+std::string InputOf(std::int64_t tick, const Input& input);
 /// foxglove.Log of an event.
 std::string LogOf(const ExportSession& session, const Event& event);
 

@@ -1,6 +1,9 @@
 /// The schemas of https://docs.foxglove.dev/docs/sdk/schemas as protocol buffers, with the used
 /// fields only, and seam2d's own.
 
+#include <algorithm>
+#include <set>
+
 #include "render/export/foxglove.h"
 #include "render/export/protobuf.h"
 
@@ -91,11 +94,13 @@ std::vector<ProtoSchema> FoxgloveMessages() {
 std::vector<ProtoSchema> OwnMessages() {
   using Type = ProtoType;
   return {{"BodyError", {{"body", 1, Type::kString}, {"error_m", 2, Type::kFloat}}},
-          {"Errors",
-           {{"tick", 1, Type::kInt64},
+          {"ViewErrors",
+           {{"view", 1, Type::kString},
             {"rms_m", 2, Type::kFloat},
             {"max_m", 3, Type::kFloat},
             {"bodies", 4, Type::kMessage, ".seam2d.BodyError", true}}},
+          {"Errors",
+           {{"tick", 1, Type::kInt64}, {"views", 2, Type::kMessage, ".seam2d.ViewErrors", true}}},
           {"Input",
            {{"tick", 1, Type::kInt64},
             {"drive", 2, Type::kFloat},
@@ -103,17 +108,37 @@ std::vector<ProtoSchema> OwnMessages() {
             {"buttons", 4, Type::kInt32}}}};
 }
 
+/// Removes messages that no field of message `name`, or of what that is made of, is of.
+std::vector<ProtoSchema> NeededBy(const std::string& name, std::vector<ProtoSchema> all) {
+  std::set<std::string> needed{"." + name};
+  const std::string package = "." + name.substr(0, name.find('.') + 1);
+  for (std::size_t before = 0; before != needed.size();) {
+    before = needed.size();
+    for (const ProtoSchema& schema : all) {
+      if (needed.count(package + schema.name) == 0) continue;
+      for (const ProtoField& field : schema.fields) needed.insert(field.of);
+    }
+  }
+  all.erase(
+      std::remove_if(all.begin(), all.end(),
+                     [&](const ProtoSchema& s) { return needed.count(package + s.name) == 0; }),
+      all.end());
+  return all;
+}
+
 }  // namespace
 
-const std::string& ExportSchemas() {
+std::string ExportSchema(const std::string& name) {
   constexpr const char *kTimeFile = "google/protobuf/timestamp.proto",
                        *kDurationFile = "google/protobuf/duration.proto";
-  static const std::string set =
-      DescriptorSet({{kTimeFile, "google.protobuf", {}, {SecondsAndNanos("Timestamp")}},
-                     {kDurationFile, "google.protobuf", {}, {SecondsAndNanos("Duration")}},
-                     {"foxglove.proto", "foxglove", {kTimeFile, kDurationFile}, FoxgloveMessages()},
-                     {"seam2d.proto", "seam2d", {}, OwnMessages()}});
-  return set;
+  const std::string package = name.substr(0, name.find('.')), file = name + ".proto";
+  if (package == "seam2d") {
+    return DescriptorSet({{file.c_str(), "seam2d", {}, NeededBy(name, OwnMessages())}});
+  }
+  return DescriptorSet(
+      {{kTimeFile, "google.protobuf", {}, {SecondsAndNanos("Timestamp")}},
+       {kDurationFile, "google.protobuf", {}, {SecondsAndNanos("Duration")}},
+       {file.c_str(), "foxglove", {kTimeFile, kDurationFile}, NeededBy(name, FoxgloveMessages())}});
 }
 
 }  // namespace seam

@@ -1,6 +1,7 @@
 /// Chooses the messages of a session for an MCAP file, and their times.
 
 #include <algorithm>
+#include <map>
 
 #include "common/base/version.h"
 #include "render/export/formats.h"
@@ -12,7 +13,7 @@ namespace {
 
 /// The channels of one view.
 struct ViewChannels {
-  std::uint16_t frames = 0, shapes = 0, errors = 0;
+  std::uint16_t shapes = 0;
   std::map<std::string, std::uint16_t> clouds;  ///< by the body's name
   int shapes_of = -1;  ///< RevisionHistory::Key of the shapes that were written last
 };
@@ -29,7 +30,16 @@ struct Timed {
 };
 
 std::uint16_t AddSchema(McapWriter* file, const char* name) {
-  return file->AddSchema(name, ExportSchemas());
+  return file->AddSchema(name, ExportSchema(name));
+}
+
+/// Tells whether an input is that of the tick before and of the tick after: a plot needs no point.
+bool IsHeld(const std::map<std::int64_t, Input>& inputs, std::int64_t tick, const Input& input) {
+  const auto same = [&](std::int64_t other) {
+    const auto found = inputs.find(other);
+    return found != inputs.end() && found->second == input;
+  };
+  return same(tick - 1) && same(tick + 1);
 }
 
 std::vector<Timed> InputsOf(const ExportSession& session, McapWriter* file) {
@@ -38,12 +48,16 @@ std::vector<Timed> InputsOf(const ExportSession& session, McapWriter* file) {
   const std::uint16_t schema = AddSchema(file, kInputSchema);
   for (const auto& [player, messages] : session.recording.inputs) {
     const std::uint16_t channel = file->AddChannel(schema, "/inputs/" + session.PlayerName(player));
+    std::map<std::int64_t, Input> inputs;
     for (const auto& [first_tick, message] : messages) {
       for (std::size_t i = 0; i < message.drive.size(); ++i) {
         const std::int64_t tick = first_tick + static_cast<std::int64_t>(i);
         if (!session.range.Holds(tick, session.recording.room.tick_hz)) continue;
-        all.push_back({tick, channel, InputOf(tick, message, i)});
+        inputs.emplace(tick, Input{message.drive[i], message.lift[i], message.buttons[i]});
       }
+    }
+    for (const auto& [tick, input] : inputs) {
+      if (!IsHeld(inputs, tick, input)) all.push_back({tick, channel, InputOf(tick, input)});
     }
   }
   return all;
@@ -61,9 +75,7 @@ std::vector<Timed> TimedOf(const ExportSession& session, McapWriter* file) {
 }
 
 std::map<int, ViewChannels> AddViews(const ExportSession& session, McapWriter* file) {
-  const std::uint16_t frames = AddSchema(file, kFramesSchema);
   const std::uint16_t shapes = AddSchema(file, kSceneSchema);
-  const std::uint16_t errors = AddSchema(file, kErrorsSchema);
   const std::uint16_t clouds = AddSchema(file, kCloudSchema);
   const std::uint64_t begin_ns = TimeNs(session, session.recording.first_tick);
   file->AddMessage(file->AddChannel(shapes, "/ground"), begin_ns, GroundOf(session));
@@ -74,15 +86,12 @@ std::map<int, ViewChannels> AddViews(const ExportSession& session, McapWriter* f
   std::map<int, ViewChannels> channels;
   for (const int peer : peers) {
     const std::string name = "/" + ExportViewName(session, peer);
-    channels[peer].frames = file->AddChannel(frames, name + "/poses");
     channels[peer].shapes = file->AddChannel(shapes, name + "/shapes");
     if (peers.size() * session.bodies.size() <= kCloudChannelsMax) {
       for (const ExportBody& body : session.bodies) {
         channels[peer].clouds[body.name] = file->AddChannel(clouds, name + "/points/" + body.name);
       }
     }
-    if (!session.oracle || peer == kOraclePeer) continue;
-    channels[peer].errors = file->AddChannel(errors, name + "/errors");
   }
   return channels;
 }
@@ -92,12 +101,24 @@ std::map<int, ViewChannels> AddViews(const ExportSession& session, McapWriter* f
 void WriteMcapExport(const ExportSession& session, OutputFile* out) {
   McapWriter file(out, std::string("seam-export ") + kVersion);
   std::map<int, ViewChannels> channels = AddViews(session, &file);
+  const std::uint16_t poses = file.AddChannel(AddSchema(&file, kFramesSchema), "/poses");
+  const std::uint16_t errors = file.AddChannel(AddSchema(&file, kErrorsSchema), "/errors");
   const std::vector<Timed> timed = TimedOf(session, &file);
   auto next = timed.begin();
-  const auto write_until = [&](std::int64_t tick) {
-    for (; next != timed.end() && next->tick <= tick; ++next) {
+  std::int64_t tick = -1;                // of the newest view
+  std::string frames;                    // of the views of that tick
+  std::vector<std::string> view_errors;  // likewise
+  // The index of messages is not compressed: so there is one for all views.
+  const auto end_tick = [&](std::int64_t next_tick) {
+    const std::uint64_t time_ns = TimeNs(session, tick);
+    if (!frames.empty()) file.AddMessage(poses, time_ns, frames);
+    if (!view_errors.empty()) file.AddMessage(errors, time_ns, ErrorsOf(tick, view_errors));
+    frames.clear();
+    view_errors.clear();
+    for (; next != timed.end() && next->tick <= next_tick; ++next) {
       file.AddMessage(next->channel, TimeNs(session, next->tick), next->message);
     }
+    tick = next_tick;
   };
   const auto write = [&](const View& view) {
     const std::vector<ExportRow> rows = RowsOf(session, view);
@@ -113,17 +134,19 @@ void WriteMcapExport(const ExportSession& session, OutputFile* out) {
         }
       }
     }
-    file.AddMessage(its.frames, time_ns, FramesOf(session, view, rows));
-    if (its.errors != 0) file.AddMessage(its.errors, time_ns, ErrorsOf(session, view, rows));
+    frames += FramesOf(session, view, rows);
+    if (session.oracle && view.peer != kOraclePeer) {
+      view_errors.push_back(ErrorsOf(session, view, rows));
+    }
   };
-  std::int64_t truth_tick = -1;  // the newest tick of which the oracle was written
   ForEachView(session, [&](const View& view) {
-    write_until(view.tick);
-    if (session.oracle && view.tick > truth_tick) write(OracleView(session, view));
-    truth_tick = view.tick;
+    if (view.tick != tick) {
+      end_tick(view.tick);
+      if (session.oracle) write(OracleView(session, view));
+    }
     write(view);
   });
-  write_until(std::numeric_limits<std::int64_t>::max());
+  end_tick(std::numeric_limits<std::int64_t>::max());
   file.Finish();
 }
 
