@@ -38,10 +38,13 @@ std::shared_ptr<const Secret> KeyOfLogs(const Flags& f) {
 }
 
 /// Describes the end of the session for people.
-std::string Ending(double duration_s) {
-  if (duration_s <= 0) return "; Ctrl-C ends it";
+std::string Ending(const RoomPlan& plan) {
+  if (plan.last_tick == 0) return "; Ctrl-C ends it";
+  const std::int64_t tick = plan.resumed == nullptr ? 0 : plan.resumed->tick();
+  const auto ticks = static_cast<double>(std::max<std::int64_t>(0, plan.last_tick - tick));
   char text[80];
-  std::snprintf(text, sizeof text, "; then %g s (--duration 0: until Ctrl-C)", duration_s);
+  std::snprintf(text, sizeof text, "; then %g s (--duration 0: until Ctrl-C)",
+                ticks / plan.scene.solver.tick_hz);
   return text;
 }
 
@@ -105,7 +108,7 @@ void Announce(const Flags& f, const std::vector<RoomPlan>& plans, const Address&
                variant.c_str(), plans[0].config.impair.c_str(), ToString(local).c_str(),
                key.c_str(), f.resume.empty() ? "waiting for" : "goes on, waiting for",
                plans[0].config.wait_players, rooms == 1 ? "" : " in the first",
-               Ending(DurationOf(f, plans[0].scene)).c_str());
+               Ending(plans[0]).c_str());
 }
 
 int Serve(const Flags& f) {

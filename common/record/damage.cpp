@@ -25,7 +25,7 @@ std::string PartText(const DamagedRange& part) {
     text += " is ";
   }
   if (!part.to_the_end) text += part.missing ? "missing" : "damaged";
-  if (part.forged) text += ": changed, or not written with this key";
+  if (part.forged) text += kForgedWords;
   std::size_t named = 0;
   for (const std::string& channel : part.channels) {
     if (named == kChannelsNamed) break;

@@ -9,6 +9,9 @@
 
 namespace seam {
 
+/// What is said of a part whose checksums are right, but for those of the key.
+constexpr const char* kForgedWords = ": changed, or not written with this key";
+
 /// Returns true if bytes of the log are not as they were written. Missing messages alone are none:
 /// a logger may miss some.
 bool IsDamaged(const Recording& recording);

@@ -61,7 +61,8 @@ void FinishPlan(const Flags& f, const std::string& impair, int index, int rooms,
   plan->config.publish = ParsePublish(f.publish);
   plan->config.trust = ParseTrustMode(f.trust);
   if (!f.budget.empty()) plan->config.client_bytes_per_s = ParseBudget(f.budget);
-  plan->last_tick = LastTick(DurationOf(f, plan->scene), plan->scene.solver.tick_hz);
+  const double duration_s = f.duration_s < 0 ? plan->scene.duration_s : f.duration_s;
+  plan->last_tick = LastTick(duration_s, plan->scene.solver.tick_hz);
   plan->profile = FindProfile(impair);
   const bool on_bus = rooms == 1 || f.bus_rooms == "all" || (f.bus_rooms == "first" && index == 0);
   plan->lcm_url = on_bus ? f.lcm_url : "none";
@@ -124,10 +125,6 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
 
 }  // namespace
 
-double DurationOf(const ServerFlags& f, const Scene& scene) {
-  return f.duration_s < 0 ? scene.duration_s : f.duration_s;
-}
-
 RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string& name, int index,
                        int rooms, std::int32_t epoch) {
   auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, log_key, epoch));
@@ -139,6 +136,15 @@ RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string&
   config.room = name;
   config.epoch = resumed->epoch;
   FinishPlan(f, f.impair == kNotGiven.impair ? room.impair : f.impair, index, rooms, &plan);
+  if (plan.last_tick != 0 && plan.last_tick <= resumed->tick()) {
+    if (f.duration_s < 0) {
+      plan.last_tick = 0;  // it had another duration than the scene's, which nobody knows now
+    } else {
+      resumed->notes.push_back("room " + name + " is over: it is " +
+                               std::to_string(resumed->tick() / plan.scene.solver.tick_hz) +
+                               " s old, and --duration counts from its tick 0");
+    }
+  }
   plan.state = f.resume;
   plan.record = resumed->log;
   plan.resumed = std::move(resumed);

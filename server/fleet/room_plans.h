@@ -12,8 +12,6 @@
 
 namespace seam {
 
-/// Returns the duration of a room of this scene, s; 0: until stopped.
-double DurationOf(const ServerFlags& flags, const Scene& scene);
 /// Returns the plan of a room that goes on from the folder of --resume, the one of `index` of so
 /// many rooms. `epoch`: in which it goes on; 0: in its own. Throws OperatorError if it cannot.
 RoomPlan PlanOfResumed(const ServerFlags& flags, const Secret* log_key, const std::string& name,

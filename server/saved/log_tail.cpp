@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/codec/codec.h"
+#include "common/record/damage.h"
 #include "common/record/log_file.h"
 
 namespace seam {
@@ -54,7 +55,10 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
     const LogSeal* const seal = AsSeal(any);
     if (!good) {
       if (seal == nullptr) continue;
-      return damaged("is damaged after tick " + std::to_string(tick));
+      const std::vector<DamagedRange> parts = log->damage();
+      const bool forged = !parts.empty() && parts.back().forged;
+      return damaged("is damaged after tick " + std::to_string(tick) +
+                     (forged ? kForgedWords : ""));
     }
     if (seal == nullptr) {
       if (ours && PublisherOfChannel(event.channel) == 0) splitter.Add(std::move(any));

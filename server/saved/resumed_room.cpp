@@ -53,6 +53,7 @@ std::vector<std::string> RoomsIn(const std::string& folder, bool may_none) {
     const std::string name = stem.substr(0, stem.find('.'));
     if (path.extension() == kLogEnding && IsName(name)) names.insert(name);
   }
+  for (const SnapshotName& file : ListSnapshots(folder, "")) names.insert(file.room);
   if (error) throw OperatorError(folder + ": cannot be read: " + error.message());
   if (names.empty() && !may_none)
     throw OperatorError(folder + ": no room in it (--state keeps one there)");

@@ -1,6 +1,7 @@
 #pragma once
 /// Finds the rooms in a folder of --state, and all that a server needs to go on with them.
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct ResumedRoom {
   /// later ones, cannot be gone on with and were put aside.
   bool new_log = false;
   std::vector<std::string> notes;  ///< lines for the operator: what is damaged, what is lost
+
+  /// Returns the last tick that is known of it.
+  std::int64_t tick() const { return std::max(saved_tick, tail.end.tick); }
 };
 
 /// Returns the path of a room's log in such a folder, for one epoch.

@@ -85,6 +85,23 @@ Status WriteWhole(const std::string& path, ByteView a, ByteView b) {
   return error == 0 ? Status::Ok() : failed(error);
 }
 
+/// Reads "ROOM-TICK.snapshot" or "ROOM.eEPOCH-TICK.snapshot"; false if it is none.
+bool ParseName(const fs::path& path, SnapshotName* file) {
+  const std::string name = path.stem().string(), mark = kEpochMark;
+  const std::size_t dash = name.rfind('-');
+  if (path.extension() != kSnapshotEnding || dash == std::string::npos) return false;
+  const std::size_t dot = std::min(name.find(mark), dash);
+  std::int64_t epoch = 1;
+  if (dot < dash) {
+    const std::string digits = name.substr(dot + mark.size(), dash - dot - mark.size());
+    if (!ReadDigits(digits, &epoch) || epoch <= 1 || epoch > INT32_MAX) return false;
+  }
+  file->path = path.string();
+  file->room = name.substr(0, dot);
+  file->epoch = static_cast<std::int32_t>(epoch);
+  return IsName(file->room) && ReadDigits(name.substr(dash + 1), &file->tick);
+}
+
 }  // namespace
 
 std::string StemOf(const std::string& room, std::int32_t epoch) {
@@ -96,22 +113,8 @@ std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::st
   std::vector<SnapshotName> all;
   std::error_code ignored;
   for (const fs::path& path : ListFolder(folder, error != nullptr ? *error : ignored)) {
-    if (path.extension() != kSnapshotEnding) continue;
-    const std::string name = path.stem().string();
-    const std::size_t dash = name.rfind('-');
-    if (dash == std::string::npos || name.rfind(room, 0) != 0) continue;
     SnapshotName file;
-    file.path = path.string();
-    const std::string mark = kEpochMark;
-    const std::string between =
-        dash < room.size() ? "-" : name.substr(room.size(), dash - room.size());
-    std::int64_t epoch = 1;
-    const bool marked =
-        between.rfind(mark, 0) == 0 && ReadDigits(between.substr(mark.size()), &epoch);
-    const bool ours = between.empty() || (marked && epoch > 1 && epoch <= INT32_MAX);
-    if (!ours || !ReadDigits(name.substr(dash + 1), &file.tick)) continue;
-    file.epoch = static_cast<std::int32_t>(epoch);
-    all.push_back(file);
+    if (ParseName(path, &file) && (room.empty() || file.room == room)) all.push_back(file);
   }
   std::sort(all.begin(), all.end(), [](const SnapshotName& a, const SnapshotName& b) {
     return std::tie(a.epoch, a.tick) > std::tie(b.epoch, b.tick);

@@ -31,6 +31,7 @@ struct RoomSnapshot {
 
 /// A snapshot's file.
 struct SnapshotName {
+  std::string room;
   std::int32_t epoch = 1;  ///< of the room when it was written
   std::int64_t tick = 0;
   std::string path;
@@ -40,8 +41,8 @@ struct SnapshotName {
 /// server that does not know yet that another one has the room writes into no file of that one.
 std::string StemOf(const std::string& room, std::int32_t epoch);
 
-/// Returns the snapshots of a room in a folder, the latest epoch first, and its newest first.
-/// `error`: set if the folder could not be read to its end.
+/// Returns the snapshots of a room in a folder, or of all (""): the latest epoch first, of each the
+/// newest first. `error`: set if the folder could not be read to its end.
 std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::string& room,
                                         std::error_code* error = nullptr);
 /// Writes a snapshot that appears whole or not at all (a file of its own, fsync, rename), and

@@ -266,6 +266,40 @@ TEST_F(Resume, ARoomRunsOnWithoutAStoreThatCannotBeWritten) {
   EXPECT_NE(server.errors().find("120 ticks"), std::string::npos) << server.Story();
 }
 
+/// A room of 0.5 s that --duration 0 has kept for longer.
+TEST_F(Resume, ARoomThatIsOlderThanItsScenesDurationGoesOn) {
+  SEAM_INSIDE_ONLY();
+  folder_.Write("short.toml", "duration = 0.5\n" + std::string(kYard));
+  const auto without_duration = [&](std::vector<std::string> words) {
+    const auto flag = std::find(words.begin(), words.end(), "--duration");
+    words.erase(flag, flag + 2);
+    return words;
+  };
+  const auto older_than = [&](std::size_t sessions, std::int64_t tick) {
+    return WaitForLog([&](const Recording& r) {
+      const View* const view = LastView(r, 0);
+      return r.sessions.size() == sessions && view != nullptr && view->tick > tick;
+    });
+  };
+  Program first(Server({folder_ / "short.toml", "--state", State(), "--wait", "0"}));
+  ASSERT_TRUE(older_than(1, 60)) << first.Story();
+  first.Signal(SIGKILL);
+  ASSERT_TRUE(first.Wait(kPatience));
+  Program second(without_duration(Server({"--resume", State()})));
+  ASSERT_TRUE(older_than(2, 150)) << second.Story();
+  second.Signal(SIGTERM);
+  ASSERT_TRUE(second.Wait(kPatience));
+  EXPECT_EQ(second.status(), 0) << second.Story();
+  EXPECT_NE(second.errors().find("Ctrl-C ends it"), std::string::npos) << second.Story();
+  auto words = Server({"--resume", State()});
+  *(std::find(words.begin(), words.end(), "--duration") + 1) = "1";
+  Program third(words);
+  ASSERT_TRUE(third.Wait(kPatience));
+  EXPECT_EQ(third.status(), 0) << third.Story();
+  EXPECT_NE(third.errors().find("room main is over"), std::string::npos) << third.Story();
+  EXPECT_NE(third.errors().find("; then 0 s"), std::string::npos) << third.Story();
+}
+
 TEST_F(Resume, MistakesAreOneLine) {
   SEAM_INSIDE_ONLY();
   folder_.Write("yard.toml", kYard);

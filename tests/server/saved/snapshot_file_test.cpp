@@ -39,6 +39,7 @@ TEST(SnapshotFile, TheLastTwoAreKept) {
   EXPECT_EQ(files[0].tick, 240);
   EXPECT_EQ(files[1].tick, 180);
   EXPECT_TRUE(ListSnapshots(folder.path(), "mai").empty());
+  EXPECT_EQ(ListSnapshots(folder.path(), "").size(), 2u);
   for (const std::string& name : folder.Content()) {
     EXPECT_EQ(name.find(".tmp"), std::string::npos);
   }
@@ -125,7 +126,30 @@ TEST(SnapshotFile, ALogThatIsGoneOrShorterIsBegunAnew) {
   ASSERT_EQ(shorter.notes.size(), 1u);
   EXPECT_FALSE(std::filesystem::exists(log));
   EXPECT_TRUE(std::filesystem::exists(log + ".damaged-1")) << "nothing is thrown away";
+  EXPECT_EQ(RoomsIn(folder.path()), std::vector<std::string>{"main"});
   EXPECT_TRUE(ReadResumedRoom(folder.path(), "main").new_log);
+}
+
+TEST(SnapshotFile, AnotherKeyOfTheLogIsSaid) {
+  Workspace folder;
+  Secret key, other;
+  other.data()[0] = 1;
+  {
+    LoneRoom room(Arena());
+    RoomLog log(StateLogOf(folder.path(), "main"), true, nullptr, &key);
+    LogSeal chain;
+    chain.session = 5;
+    for (chain.tick = 1; chain.tick <= 70; ++chain.tick) {
+      log.EndTick("SEAM.main.chain.0", chain, true);
+      if (chain.tick != 60) continue;
+      room.StepTo(60);
+      ASSERT_TRUE(WriteSnapshot(folder.path(), "main", {60, log.Pin(), room.Save()}).ok());
+    }
+  }
+  EXPECT_TRUE(ReadResumedRoom(folder.path(), "main", &key).notes.empty());
+  const ResumedRoom room = ReadResumedRoom(folder.path(), "main", &other);
+  ASSERT_EQ(room.notes.size(), 1u);
+  EXPECT_NE(room.notes[0].find("not written with this key"), std::string::npos) << room.notes[0];
 }
 
 TEST(SnapshotFile, AFolderWithARoomIsNotWrittenOver) {
