@@ -268,7 +268,11 @@ void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
     return;
   }
   // Our own earlier session may still hold the name: retry for a while.
-  if (refused_us_ < 0) refused_us_ = now_us;
+  if (refused_us_ < 0) {
+    refused_us_ = now_us;
+    // Whoever was in a room waits for it.
+    if (epoch_ > 0) notice_ = ToString(config_.server) + " refuses: " + reason + "; asking on";
+  }
   if (!other.empty()) {
     fatal_ = other;
   } else if (now_us - refused_us_ > (moving_ ? kInsistMovingUs : kInsistUs)) {

@@ -17,6 +17,9 @@ TEST_F(ClientEpoch, AWelcomeOfALowerEpochThanItHasSeenIsRefused) {
     EXPECT_EQ(client_.peer(), -1) << epoch;
   }
   EXPECT_EQ(client_.fatal(), "");
+  EXPECT_EQ(client_.TakeNotice(),
+            "0.0.0.1:7777 refuses: it has epoch 4 of the room, which has gone on elsewhere to 5; "
+            "asking on");
   ASSERT_NE(LetIn(5), 0u);
   EXPECT_EQ(client_.peer(), 1) << "the same epoch";
 }
