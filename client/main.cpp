@@ -234,7 +234,12 @@ int Play(const Flags& f) {
     }
     if (lcm != nullptr) lcm->Report("seam-client", line);
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
-    if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
+    if (f.duration_s > 0 && elapsed_s > f.duration_s) {
+      if (client.sessions() > 0) break;
+      throw OperatorError(
+          (waiting.empty() ? "no answer from " + ToString(client.server()) : waiting) +
+          " (--duration " + SecondsText(f.duration_s) + ")");
+    }
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
       if (rooms != nullptr && !holder && f.server.empty())
         throw OperatorError("--directory " + f.directory + ": " + rooms->trouble());

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/check.h"
+#include "common/base/entropy.h"
 #include "common/base/plain_file.h"
 #include "common/base/process.h"
 #include "common/fleet/folder_lock.h"
@@ -29,7 +30,9 @@ struct FileLease {
 };
 
 struct FileState {
-  std::int64_t revision = 0, leases_given = 0;
+  /// Of the last change, and the number of the last lease. A new file begins at a random one: then
+  /// nobody takes a lease for the one that had its number in a file that was lost.
+  std::int64_t revision = 0;
   std::map<std::int64_t, FileLease> leases;
   std::map<std::string, KeyValue> keys;
 };
@@ -41,10 +44,7 @@ bool FromJson(const Json& all, FileState* state) {
     *value = found->get<std::int64_t>();
     return *value >= 0;
   };
-  if (!all.is_object() || !whole(all, "revision", &state->revision) ||
-      !whole(all, "leases_given", &state->leases_given)) {
-    return false;
-  }
+  if (!all.is_object() || !whole(all, "revision", &state->revision)) return false;
   const auto leases = all.find("leases"), keys = all.find("keys");
   if (leases == all.end() || keys == all.end() || !leases->is_array() || !keys->is_object()) {
     return false;
@@ -73,7 +73,7 @@ bool FromJson(const Json& all, FileState* state) {
 }
 
 std::string ToText(const FileState& state) {
-  Json all{{"revision", state.revision}, {"leases_given", state.leases_given}};
+  Json all{{"revision", state.revision}};
   all["leases"] = Json::array();
   all["keys"] = Json::object();
   for (const auto& [id, lease] : state.leases) {
@@ -145,7 +145,7 @@ class FileStore : public KeyStore {
   Status Grant(int ttl_s, std::int64_t* lease) override {
     return Change([&](FileState* state, bool* changed) {
       *changed = true;
-      *lease = ++state->leases_given;
+      *lease = ++state->revision;
       const std::int64_t ttl_us = std::int64_t{ttl_s} * 1000000;
       state->leases[*lease] = {ttl_us, WallClockUs() + ttl_us};
       return Status::Ok();
@@ -213,7 +213,10 @@ class FileStore : public KeyStore {
     std::error_code unknown;
     const bool there = fs::exists(path_, unknown);
     if (unknown) return Status::Error(path_ + ": cannot be read: " + unknown.message());
-    if (!there) return Status::Ok();
+    if (!there) {
+      state->revision = static_cast<std::int64_t>(OsEntropy().Next() >> 2);
+      return Status::Ok();
+    }
     std::string text;
     try {
       text = ReadPlainFile(path_, kStoreBytesMax);

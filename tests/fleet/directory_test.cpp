@@ -332,6 +332,28 @@ TEST(DirectoryFile, ADamagedFileIsOneErrorAndStaysAsItIs) {
   }
 }
 
+TEST(DirectoryFile, OneThatIsLostGivesNobodyTheLeaseOfAnother) {
+  Workspace folder;
+  const auto open = [&] {
+    return std::make_unique<Directory>(OpenKeyStore("file:" + folder.path()), "test");
+  };
+  const auto a = open(), b = open();
+  ASSERT_TRUE(a->Register(ServerOf("a")).ok());
+  ASSERT_TRUE(b->Register(ServerOf("b")).ok());
+  std::filesystem::remove(folder / "directory.json");
+  bool kept = true;
+  ASSERT_TRUE(b->Renew(&kept).ok());
+  EXPECT_FALSE(kept);
+  ASSERT_TRUE(b->Register(ServerOf("b")).ok());  // the first lease of the new file
+  ASSERT_TRUE(a->Renew(&kept).ok());
+  EXPECT_FALSE(kept) << "a had the first lease of the old one";
+  ASSERT_TRUE(a->Register(ServerOf("a")).ok());
+  FleetListing listing;
+  ASSERT_TRUE(a->List(&listing).ok());
+  EXPECT_NE(listing.FindServer("a"), nullptr);
+  EXPECT_NE(listing.FindServer("b"), nullptr);
+}
+
 TEST(DirectoryEtcd, OneThatIsNotThereIsOneErrorInTime) {
   Directory directory(OpenKeyStore("etcd:127.0.0.1:1,127.0.0.1:2"), "test");
   const std::int64_t begin_us = SteadyClockUs();

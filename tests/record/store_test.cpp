@@ -155,6 +155,12 @@ TEST(SessionWriter, EventsAreALineOfJsonEach) {
   EXPECT_NE(lines.find("\"tick\":90,\"time_s\":1.5,\"kind\":\"script\""), std::string::npos)
       << lines;
   EXPECT_NE(lines.find("it\\u0027s \\u0022gold\\u0022"), std::string::npos) << lines;
+  // A writer that was killed left half a line.
+  folder.Write("cut.json", "{\"room\":");
+  const auto third = WriteEvents(folder / "cut.json");
+  third->Put(part);
+  third->Finish();
+  EXPECT_EQ(folder.Read("cut.json").rfind("{\"room\":\n{\"room\":\"main\"", 0), 0u);
   const auto nowhere = WriteEvents(folder / "none/events.json");
   nowhere->Put(part);
   nowhere->Finish();

@@ -10,6 +10,17 @@
 #include "common/record/events/event_text.h"
 
 namespace seam {
+namespace {
+
+/// True if a file ends in the middle of a line: its writer was killed, or had a full disk.
+bool IsCut(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file || file.tellg() <= 0) return false;
+  file.seekg(-1, std::ios::end);
+  return file.get() != '\n';
+}
+
+}  // namespace
 
 SessionWriter::SessionWriter(std::function<Write()> open) {
   thread_->Do([shared = shared_, open = std::move(open)] {
@@ -51,8 +62,10 @@ std::shared_ptr<SessionWriter> WriteIntoStore(const std::string& path) {
 
 std::shared_ptr<SessionWriter> WriteEvents(const std::string& path) {
   return std::make_shared<SessionWriter>([path] {
+    const bool cut = IsCut(path);
     const auto file = std::make_shared<std::ofstream>(path, std::ios::app | std::ios::binary);
     if (!*file) throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
+    if (cut) *file << '\n';
     return [file, path](const StoredSession& part) {
       const std::string where =
           "{\"room\":" + JsonText(part.room) + ",\"scene\":" + JsonText(part.scene) + ",";
