@@ -60,7 +60,7 @@ Join JoinOffers::Make(std::int64_t now_us, std::int64_t place_key) const {
   join.exchange.assign(offer.terms.client.begin(), offer.terms.client.end());
   const SealedKey sealed = offer.secrets.CloseKey(place_key);
   join.exchange.insert(join.exchange.end(), sealed.begin(), sealed.end());
-  join.pass = offer.terms.pass;
+  join.grant = offer.terms.pass;
   join.epoch = offer.terms.epoch;
   join.proof = offer.terms.proof;
   return join;

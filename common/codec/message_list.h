@@ -23,7 +23,7 @@
   X(Hello, hello_t, kEdge, "", m.utime, m.protocol, m.name)                                        \
   X(Challenge, challenge_t, kEdge, "", m.utime, m.token, m.keys)                                   \
   X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.name, m.room, m.exchange, m.epoch,    \
-    m.proof, m.pass)                                                                               \
+    m.proof, m.grant)                                                                              \
   X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key, m.epoch,        \
     m.proof)                                                                                       \
   X(Redirect, redirect_t, kEdge, "", m.utime, m.address, m.room, m.epoch)                          \

@@ -19,7 +19,7 @@
 namespace seam {
 
 /// Raised when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 16;
+constexpr std::int32_t kProtocolVersion = 17;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 
@@ -46,7 +46,7 @@ struct Join {
   std::string room;        ///< name of the room, or "": the server's first
   std::int32_t epoch = 0;  ///< highest of the room that the client has seen; 0: none
   std::int64_t proof = 0;  ///< Welcome::proof of that epoch; 0: none
-  std::vector<std::uint8_t> exchange, pass;  ///< a public and a sealed key; a connect token
+  std::vector<std::uint8_t> exchange, grant;  ///< a public and a sealed key; a connect token
 };
 
 /// Server -> client, reliable. The Room follows in Chunks.

@@ -67,7 +67,7 @@ bool Valid(const Challenge& m) { return Time(m.utime) && m.keys.size() == kChall
 
 bool Valid(const Join& m) {
   return Time(m.utime) && IsName(m.name) && (m.room.empty() || IsName(m.room)) &&
-         m.exchange.size() == kJoinExchangeBytes && m.epoch >= 0 && m.pass.size() <= kPassBytesMax;
+         m.exchange.size() == kJoinExchangeBytes && m.epoch >= 0 && m.grant.size() <= kPassBytesMax;
 }
 
 bool Valid(const Ready& m) { return Time(m.utime); }

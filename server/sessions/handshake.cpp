@@ -89,7 +89,7 @@ Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, s
   std::copy_n(join.exchange.begin(), terms.client.size(), terms.client.begin());
   terms.ephemeral = ephemeral->open;
   terms.identity = identity_.open;
-  terms.pass = join.pass;
+  terms.pass = join.grant;
   terms.epoch = join.epoch;
   terms.proof = join.proof;
   SealedKey sealed{};
@@ -135,16 +135,16 @@ void Handshake::AnswerByRedirect(std::int64_t now_us, const Address& to, const J
 
 std::string Handshake::ReadPass(std::int64_t now_us, const Join& join, JoinRequest* request,
                                 TokenGrant* grant) const {
-  if (join.pass.empty()) return "";
+  if (join.grant.empty()) return "";
   if (door_.key == nullptr) return "no tokens are taken here: join without --token";
   TokenNeed need;
   need.protocol = static_cast<std::uint32_t>(kProtocolVersion);
   need.room = door_.room;
   need.name = join.name;
   need.now_s = now_us / 1000000;
-  const Status status = OpenPass(join.pass, *door_.key, need, grant);
+  const Status status = OpenPass(join.grant, *door_.key, need, grant);
   if (!status.ok()) return status.why();
-  request->token_tag = UsedOnce::TagOf(TagOfPass(join.pass));
+  request->token_tag = UsedOnce::TagOf(TagOfPass(join.grant));
   if (used_.Has(request->token_tag)) return "the token was used before";
   request->token = true;
   request->may_play = grant->may_play;

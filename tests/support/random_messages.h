@@ -36,7 +36,7 @@ class RandomMessages {
     Common(m), m.protocol = Int32(), m.token = static_cast<std::int64_t>(random_.Next());
     m.name = Name(), m.room = Name(), Vector(m.exchange, kJoinExchangeBytes, 0, 255);
     Set(m.epoch, 0, INT32_MAX), m.proof = static_cast<std::int64_t>(random_.Next());
-    Vector(m.pass, Count(0, kPassBytesMax), 0, 255);
+    Vector(m.grant, Count(0, kPassBytesMax), 0, 255);
   }
   void Fill(Ready& m) { Common(m); }
   void Fill(Welcome& m) {

@@ -1,9 +1,7 @@
 #pragma once
 /// Writes and reads numbers as bits, most significant bit first: fixed widths and exponential
-/// Golomb codes (Teuhola, "A Compression Method for Clustered Bit-Vectors", 1978) with an adaptive
-/// parameter.
+/// Golomb codes (Teuhola, "A Compression Method for Clustered Bit-Vectors", 1978).
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -111,23 +109,6 @@ class BitReader {
   std::uint64_t held_ = 0;  // the lowest bits_ are not returned yet
   int bits_ = 0;            // below 8 between calls
   bool ok_ = true;
-};
-
-/// An adaptive Golomb parameter that follows the median width of the coded numbers, so that a rare
-/// large one hardly moves it. Writer and reader adapt identically.
-class AdaptiveGolomb {
- public:
-  explicit AdaptiveGolomb(int k) : quarters_(4 * k + 2) {}
-  int k() const { return quarters_ / 4; }
-  void Note(std::uint32_t value) {
-    const int width = BitWidth(value), now = k();
-    if (width > now) quarters_ = std::min(quarters_ + 1, 4 * kParameterMax + 3);
-    if (width < now) --quarters_;
-  }
-
- private:
-  static constexpr int kParameterMax = 16;
-  int quarters_;
 };
 
 }  // namespace seam

@@ -23,6 +23,19 @@ std::int16_t Low(std::int64_t value) {
 
 }  // namespace
 
+PackedContext::PackedContext()
+    : calm{NumberModel(50, 6), NumberModel(60, 4), NumberModel(80, 4),
+           NumberModel(40, 1), NumberModel(40, 1), NumberModel(40, 2)},
+      stirred{NumberModel(15, 6), NumberModel(25, 4), NumberModel(20, 7),
+              NumberModel(10, 5), NumberModel(15, 4), NumberModel(10, 7)},
+      fresh{NumberModel(20, 9), NumberModel(20, 7), NumberModel(20, 8),
+            NumberModel(5, 11), NumberModel(5, 9),  NumberModel(10, 13)} {}
+
+const PackedContext& FreshContext() {
+  static const PackedContext context;
+  return context;
+}
+
 PackedMotion::PackedMotion(float x, float y, int hz) : tick_hz(std::max(1, hz)) {
   const auto fine = [&](float g) {
     const double per_tick = static_cast<double>(g) * kQuantaPerSpeed * kFine / std::max(1, hz);

@@ -13,45 +13,9 @@ constexpr std::size_t kSentMost = 256;
 constexpr std::int64_t kResendUs = 100000, kResendUsMax = 400000;
 /// Most emptied records kept for reuse of their memory.
 constexpr std::size_t kSpareMost = 16;
-/// Most bytes of an entry, a group's header and all end marks together.
-constexpr std::size_t kEntryBytesMost = 64;
-
-/// Joins successive codes into one Put. Its bits stay in registers, while those of BitWriter are in
-/// memory; this requires that every function is inlined.
-class Run {
- public:
-  explicit Run(BitWriter* bits) : bits_(bits) {}
-  /// Like BitWriter::Put, but `value` must have no more than `width` bits.
-  __attribute__((always_inline)) void Put(std::uint64_t value, int width) {
-    if (width_ + width > 32) End();
-    held_ = held_ << width | value;
-    width_ += width;
-  }
-  __attribute__((always_inline)) void PutGolomb(std::uint32_t value, int k) {
-    const std::uint64_t shifted = value + (std::uint64_t{1} << k);
-    const int width = 2 * BitWidth(shifted) - 1 - k;
-    if (__builtin_expect(width <= 32, 1)) return Put(shifted, width);
-    End();
-    PutLong(bits_, value, k);
-  }
-  __attribute__((always_inline)) void End() {
-    PutAll(bits_, held_, width_);
-    held_ = 0;
-    width_ = 0;
-  }
-
- private:
-  __attribute__((noinline)) static void PutAll(BitWriter* bits, std::uint64_t held, int width) {
-    bits->Put(held, width);
-  }
-  __attribute__((noinline)) static void PutLong(BitWriter* bits, std::uint32_t value, int k) {
-    bits->PutGolomb(value, k);
-  }
-
-  BitWriter* const bits_;
-  std::uint64_t held_ = 0;
-  int width_ = 0;  // at most 32
-};
+/// Most bytes of an entry, a group's header and all end marks together: 11 numbers and 16 bits. A
+/// bit costs at most 10, where its model is surest of the other; a number has 7 such, and 30 raw.
+constexpr std::size_t kEntryBytesMost = (11 * (7 * 10 + 30) + 16 * 10) / 8 + 1;
 
 std::int32_t Difference(std::int16_t a, std::int16_t b) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
@@ -83,34 +47,30 @@ void StatesPacker::Begin(const StatesHeader& header) {
   open_ = true;
   ++number_;
   if (sent_.size() >= kSentMost) {
-    Spare(&sent_.front());
+    Spare(&sent_.front().bodies);
     sent_.pop_front();
   }
   sent_.emplace_back();
   if (!spare_.empty()) {
-    sent_.back().swap(spare_.back());
+    sent_.back().bodies.swap(spare_.back());
     spare_.pop_back();
   }
-  context_ = PackedContext();
-  revision_ = header.revision;
-  composition_ = header.composition;
-  const auto composition = static_cast<std::uint64_t>(header.composition);
-  bits_.Put(static_cast<std::uint64_t>(number_), 16);
-  bits_.PutGolomb(static_cast<std::uint32_t>(header.revision), 4);
-  bits_.Put(composition >> 32, 32);
-  bits_.Put(composition, 32);
-  bits_.Put(static_cast<std::uint64_t>(header.tick) >> 20, 20);
-  bits_.Put(static_cast<std::uint64_t>(header.tick), 20);
+  context_ = FreshContext();
+  header_ = {number_, header.revision, header.composition, header.tick};
+  sent_.back().header = header_;
+  bits_.Raw(static_cast<std::uint64_t>(number_), 16);
+  CodeHeader(
+      arrived_, [&](std::int64_t) { return &arrived_; }, &context_, &bits_, &header_);
   context_.tick = header.tick;
 }
 
 void StatesPacker::BeginGroup(const StatesHeader& header) {
   group_ = true;
   peer_ = header.peer;
-  bits_.Put(1, 1);
-  bits_.PutGolomb(static_cast<std::uint32_t>(header.peer), 4);
+  bits_.Code(true, &context_.another_group);
+  bits_.Code(static_cast<std::uint32_t>(header.peer), &context_.peer);
   const std::int64_t ticks = header.tick - context_.tick;
-  bits_.PutGolomb(ZigZag(static_cast<std::int32_t>(ticks)), 0);
+  bits_.Code(ZigZag(static_cast<std::int32_t>(ticks)), &context_.ticks);
   context_.tick = header.tick;
   context_.id = -1;
   context_.id_gap = 0;
@@ -122,79 +82,51 @@ bool StatesPacker::Continues(const StatesHeader& header, std::int32_t id) const 
 
 void StatesPacker::End() {
   if (!open_) return;
-  bits_.Put(0, group_ ? 2 : 1);
+  if (group_) bits_.Code(false, &context_.another_body);
+  bits_.Code(false, &context_.another_group);
+  bits_.Raw(context_.entries, kEntriesBits);
   open_ = group_ = false;
   Message message;
   message.number = number_;
-  message.bodies = sent_.back().size();
+  message.bodies = sent_.back().bodies.size();
   message.packed.data = bits_.Finish();
   ready_.push_back(std::move(message));
 }
 
-void StatesPacker::PutDifferences(const WireBody& state, const WireBody& guess,
-                                  std::array<AdaptiveGolomb, kPackedFields>* learned) {
-  Run run(&bits_);
-  const auto put = [&](PackedField field, std::int32_t difference) __attribute__((always_inline)) {
-    AdaptiveGolomb& with = (*learned)[field];
-    const std::uint32_t code = ZigZag(difference);
-    run.PutGolomb(code, with.k());
-    with.Note(code);
-  };
-  put(kPackedVx, Difference(state.vx, guess.vx));
-  put(kPackedVy, Difference(state.vy, guess.vy));
-  put(kPackedSpin, Difference(state.spin, guess.spin));
-  put(kPackedX, static_cast<std::int32_t>(state.x - guess.x));
-  put(kPackedY, static_cast<std::int32_t>(state.y - guess.y));
-  put(kPackedAngle, Difference(state.angle, guess.angle));
-  run.End();
-}
-
 void StatesPacker::AddBody(const WireBody& state) {
-  Run run(&bits_);
-  run.Put(1, 1);
+  bits_.Code(true, &context_.another_body);
   const std::int32_t gap = state.id - context_.id;
-  if (gap == context_.id_gap) {
-    run.Put(1, 1);
-  } else {
-    if (context_.id_gap > 0) run.Put(0, 1);
-    run.PutGolomb(static_cast<std::uint32_t>(gap - 1), context_.id < 0 ? 8 : 2);
+  const bool other_gap = gap != context_.id_gap;
+  if (context_.id_gap > 0) bits_.Code(other_gap, &context_.other_gap);
+  if (other_gap) {
+    bits_.Code(static_cast<std::uint32_t>(gap - 1),
+               context_.id < 0 ? &context_.first_id : &context_.gap);
   }
   context_.id_gap = context_.id < 0 ? 1 : gap;
   context_.id = state.id;
   Known& known = KnownOf(state.id);
   const bool kept = known.number >= 0 && known.sent - known.count < kPackedKept;
   const auto back = kept ? static_cast<std::uint32_t>(number_ - known.number) : 0;
-  run.Put(back == context_.back ? 1 : 0, 1);
-  if (back != context_.back) run.PutGolomb(back, 4);
+  if (bits_.Code(back != context_.back, &context_.other_back)) bits_.Code(back, &context_.back_by);
   context_.back = back;
   const WireBody& before = kept ? known.state : context_.last;
-  const bool same = state.epoch == before.epoch && state.flags == before.flags;
-  run.Put(same ? 1 : 0, 1);
-  if (!same) {
-    run.PutGolomb(static_cast<std::uint32_t>(state.epoch), 4);
-    run.Put(static_cast<std::uint64_t>(state.flags) & 7, 3);
+  const bool other = state.epoch != before.epoch || state.flags != before.flags;
+  if (bits_.Code(other, &context_.other_owner)) {
+    bits_.Code(static_cast<std::uint32_t>(state.epoch), &context_.epoch);
+    bits_.Raw(static_cast<std::uint64_t>(state.flags), kFlagBits);
   }
+  bool falls = false;
   if (kept) {
-    // Chooses the better prediction: free fall or constant velocity.
+    // The better prediction: free fall or constant velocity.
     const WireBody fallen = PredictVelocity(motion_, before, state.tick, true);
-    const bool falls = VelocityError(state, fallen) < VelocityError(state, before);
-    run.Put(falls ? 1 : 0, 1);
-    run.End();
-    WireBody now = state;
-    PredictPose(motion_, before, &now);
-    now.vx = falls ? fallen.vx : before.vx;
-    now.vy = falls ? fallen.vy : before.vy;
-    now.spin = before.spin;
-    PutDifferences(state, now, &context_.known);
-  } else {
-    run.End();
-    WireBody guess;
-    guess.x = context_.last.x;
-    guess.y = context_.last.y;
-    PutDifferences(state, guess, &context_.fresh);
+    falls = VelocityError(state, fallen) < VelocityError(state, before);
+    bits_.Code(falls, &context_.falls);
   }
+  WireBody coded = state;
+  CodeFields(motion_, kept ? &before : nullptr, falls, &context_, &bits_, &coded);
   context_.last = state;
-  sent_.back().push_back({state, ++known.sent});
+  ++context_.entries;
+  sent_.back().bodies.push_back({state, ++known.sent});
 }
 
 void StatesPacker::AddEntry(const StatesHeader& header, const WireBody& state, bool* begun) {
@@ -204,7 +136,7 @@ void StatesPacker::AddEntry(const StatesHeader& header, const WireBody& state, b
     *begun = false;
   }
   if (!*begun) {
-    if (group_) bits_.Put(0, 1);
+    if (group_) bits_.Code(false, &context_.another_body);
     BeginGroup(header);
     *begun = true;
   }
@@ -213,7 +145,8 @@ void StatesPacker::AddEntry(const StatesHeader& header, const WireBody& state, b
 
 void StatesPacker::Add(const States& states) {
   const StatesHeader header = HeaderOf(states);
-  const bool other = header.revision != revision_ || header.composition != composition_;
+  const bool other =
+      header.revision != header_.revision || header.composition != header_.composition;
   if (open_ && other) End();
   bool begun = !states.id.empty() && Continues(header, states.id.front());
   for (std::size_t i = 0; i < states.id.size(); ++i) {
@@ -222,7 +155,8 @@ void StatesPacker::Add(const States& states) {
 }
 
 void StatesPacker::Add(const StatesHeader& header, const WireBody* begin, const WireBody* end) {
-  const bool other = header.revision != revision_ || header.composition != composition_;
+  const bool other =
+      header.revision != header_.revision || header.composition != header_.composition;
   if (open_ && other) End();
   bool begun = begin != end && Continues(header, begin->id);
   for (; begin != end; ++begin) AddEntry(header, *begin, &begun);
@@ -235,7 +169,7 @@ std::vector<StatesPacker::Message> StatesPacker::Take(std::int64_t now_us) {
   return std::exchange(ready_, {});
 }
 
-std::vector<StatesPacker::Sent>* StatesPacker::StatesSentIn(std::int64_t number) {
+StatesPacker::SentMessage* StatesPacker::Find(std::int64_t number) {
   const std::int64_t age = number_ - number;
   if (age < 0 || age >= static_cast<std::int64_t>(sent_.size())) return nullptr;
   return &sent_[sent_.size() - 1 - static_cast<std::size_t>(age)];
@@ -244,9 +178,9 @@ std::vector<StatesPacker::Sent>* StatesPacker::StatesSentIn(std::int64_t number)
 void StatesPacker::FindLostStates(std::int64_t until_us) {
   const std::size_t before = owed_.size();
   for (; !in_flight_.empty() && in_flight_.front().sent_us <= until_us; in_flight_.pop_front()) {
-    const std::vector<Sent>* const bodies = StatesSentIn(in_flight_.front().number);
-    if (bodies == nullptr) continue;
-    for (const Sent& sent : *bodies) {
+    const SentMessage* const message = Find(in_flight_.front().number);
+    if (message == nullptr) continue;
+    for (const Sent& sent : message->bodies) {
       const std::int32_t id = sent.state.id;
       if (KnownOf(id).count < sent.count) owed_.push_back({id, sent.count, 0, kResendUs});
     }
@@ -293,6 +227,7 @@ void StatesPacker::Reset(std::uint16_t number) {
   const std::int64_t refused = number_ + static_cast<std::int16_t>(ahead);
   if (refused > number_ - (open_ ? 1 : 0) || refused <= refused_) return;
   refused_ = refused;
+  if (arrived_.number <= refused) arrived_ = PackedHeader();
   for (std::size_t id = 0; id < place_.size(); ++id) {
     if (place_[id] < 0) continue;
     Known& known = known_[static_cast<std::size_t>(place_[id])];
@@ -306,16 +241,17 @@ void StatesPacker::Reset(std::uint16_t number) {
 
 void StatesPacker::Acknowledge(std::int64_t number) {
   if (number <= refused_) return;
-  std::vector<Sent>* const bodies = StatesSentIn(number);
-  if (bodies == nullptr) return;
-  for (const Sent& sent : *bodies) {
+  SentMessage* const message = Find(number);
+  if (message == nullptr) return;
+  if (number > arrived_.number) arrived_ = message->header;
+  for (const Sent& sent : message->bodies) {
     Known& known = KnownOf(sent.state.id);
     if (number < known.number) continue;
     known.number = number;
     known.count = sent.count;
     known.state = sent.state;
   }
-  Spare(bodies);
+  Spare(&message->bodies);
 }
 
 }  // namespace seam

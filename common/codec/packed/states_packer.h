@@ -49,6 +49,10 @@ class StatesPacker {
     WireBody state;
     std::int32_t count = 0;  // number of the state among those sent of the body, from 1
   };
+  struct SentMessage {
+    PackedHeader header;
+    std::vector<Sent> bodies;  // empty once acknowledged
+  };
   /// A message in flight or lost.
   struct InFlight {
     std::int64_t number = 0, sent_us = 0;
@@ -74,11 +78,9 @@ class StatesPacker {
   void End();
   void Spare(std::vector<Sent>* bodies);
   void AddBody(const WireBody& state);
-  void PutDifferences(const WireBody& state, const WireBody& guess,
-                      std::array<AdaptiveGolomb, kPackedFields>* learned);
   Known& KnownOf(std::int32_t id);
-  /// Returns the states in a message, empty once acknowledged; nullptr if no longer recorded.
-  std::vector<Sent>* StatesSentIn(std::int64_t number);
+  /// Returns a message that was sent; nullptr if no longer recorded.
+  SentMessage* Find(std::int64_t number);
   /// Adds to owed_ the unacknowledged states that were sent by `until_us`.
   void FindLostStates(std::int64_t until_us);
   void MergeOwed();
@@ -89,12 +91,12 @@ class StatesPacker {
   std::int64_t refused_ = -1;  // no acknowledgement up to this message counts
   bool open_ = false;         // a message is being written
   bool group_ = false;        // the open message has an open group
-  BitWriter bits_;
+  RangeWriter bits_;
   PackedContext context_;
   std::int32_t peer_ = 0;  // of the open group
-  std::int32_t revision_ = 0;
-  std::int64_t composition_ = 0;
-  std::deque<std::vector<Sent>> sent_;    // states in successive messages up to number_
+  PackedHeader header_;    // of the open message, else of the last
+  PackedHeader arrived_;   // of the newest message that is acknowledged
+  std::deque<SentMessage> sent_;          // successive messages up to number_
   std::deque<InFlight> in_flight_;        // oldest first, until checked for loss
   std::vector<Owed> owed_;                // ascending by id
   std::vector<std::vector<Sent>> spare_;  // empty vectors for reuse

@@ -15,10 +15,6 @@ namespace {
 /// the same state or a newer one, so that older states are dropped only after this many.
 constexpr std::int64_t kOvertaken = 64;
 
-std::int16_t Low(std::uint32_t value) {
-  return static_cast<std::int16_t>(static_cast<std::uint16_t>(value & 0xffffu));
-}
-
 /// Returns true if the coordinate is within the range of origins.
 bool InRange(std::uint32_t coordinate) {
   constexpr std::int64_t kCoordinateMax = std::int64_t{kOriginMax} * kQuantaPerMetre;
@@ -67,16 +63,18 @@ void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
   body.marked_from = entry.from;
 }
 
-bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry) {
+bool StatesUnpacker::TakeBody(RangeReader* bits, std::int64_t number, Entry* entry) {
   PackedContext& context = context_;
-  const bool as_before = context.id_gap > 0 && bits->Get(1) != 0;
-  const std::int64_t gap =
-      as_before ? context.id_gap : std::int64_t{bits->GetGolomb(context.id < 0 ? 8 : 2)} + 1;
+  const bool other_gap = context.id_gap == 0 || bits->Code(false, &context.other_gap);
+  std::int64_t gap = context.id_gap;
+  if (other_gap) {
+    gap = std::int64_t{bits->Code(0, context.id < 0 ? &context.first_id : &context.gap)} + 1;
+  }
   const std::int64_t id = context.id + gap;
   if (id >= ids_) return false;
   context.id_gap = context.id < 0 ? 1 : static_cast<std::int32_t>(gap);
   context.id = static_cast<std::int32_t>(id);
-  if (bits->Get(1) == 0) context.back = bits->GetGolomb(4);
+  if (bits->Code(false, &context.other_back)) context.back = bits->Code(0, &context.back_by);
   const WireBody* from = nullptr;
   if (context.back > 0) {
     entry->from = number - context.back;
@@ -89,39 +87,14 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   state.id = context.id;
   state.epoch = before.epoch;
   state.flags = before.flags;
-  if (bits->Get(1) == 0) {
-    state.epoch = static_cast<std::int32_t>(bits->GetGolomb(4));
-    state.flags = static_cast<std::int8_t>(bits->Get(3));
+  if (bits->Code(false, &context.other_owner)) {
+    state.epoch = static_cast<std::int32_t>(bits->Code(0, &context.epoch));
+    state.flags = static_cast<std::int8_t>(bits->Raw(0, kFlagBits));
   }
-  std::array<AdaptiveGolomb, kPackedFields>& learned =
-      from != nullptr ? context.known : context.fresh;
-  const auto get = [&](PackedField field) {
-    const std::uint32_t code = bits->GetGolomb(learned[field].k());
-    learned[field].Note(code);
-    return static_cast<std::uint32_t>(UnZigZag(code));
-  };
-  const auto add = [&](PackedField field, std::int16_t* value) {
-    *value = Low(static_cast<std::uint32_t>(*value) + get(field));
-  };
-  if (from != nullptr) {
-    const WireBody guess = PredictVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
-    state.vx = guess.vx;
-    state.vy = guess.vy;
-    state.spin = guess.spin;
-  }
-  add(kPackedVx, &state.vx);
-  add(kPackedVy, &state.vy);
-  add(kPackedSpin, &state.spin);
-  if (from != nullptr) {
-    PredictPose(motion_, *from, &state);
-  } else {
-    state.x = context.last.x;
-    state.y = context.last.y;
-  }
-  state.x += get(kPackedX);
-  state.y += get(kPackedY);
-  add(kPackedAngle, &state.angle);
+  const bool falls = from != nullptr && bits->Code(false, &context.falls);
+  CodeFields(motion_, from, falls, &context, bits, &state);
   context.last = entry->state = state;
+  ++context.entries;
   return bits->ok() && InRange(state.x) && InRange(state.y);
 }
 
@@ -147,35 +120,39 @@ States* StatesUnpacker::Begin(const States& header, const WireBody& first) {
 }
 
 Reset StatesUnpacker::Refusal(const PackedStates& packed) {
-  BitReader bits(ByteView(packed.data));
-  return {static_cast<std::int16_t>(static_cast<std::uint16_t>(bits.Get(16)))};
+  RangeReader bits(ByteView(packed.data));
+  return {static_cast<std::int16_t>(static_cast<std::uint16_t>(bits.Raw(0, 16)))};
 }
 
 const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed, std::int32_t ids) {
   ids_ = std::min(ids, kIdsMax);
-  BitReader bits(ByteView(packed.data));
+  RangeReader bits(ByteView(packed.data));
   const auto low = static_cast<std::uint16_t>(newest_);
-  const auto wire = static_cast<std::uint16_t>(bits.Get(16));
-  const std::int64_t number =
-      newest_ + static_cast<std::int16_t>(static_cast<std::uint16_t>(wire - low));
+  const auto wire = static_cast<std::uint16_t>(bits.Raw(0, 16));
+  PackedHeader common;
+  common.number = newest_ + static_cast<std::int16_t>(static_cast<std::uint16_t>(wire - low));
+  const std::int64_t number = common.number;
+  context_ = FreshContext();
+  const auto find = [&](std::int64_t of) -> const PackedHeader* {
+    const PackedHeader& header = headers_[static_cast<std::size_t>(of) % headers_.size()];
+    return of >= 0 && header.number == of ? &header : nullptr;
+  };
+  if (!CodeHeader(PackedHeader(), find, &context_, &bits, &common)) return nullptr;
   States header;
-  header.revision = static_cast<std::int32_t>(bits.GetGolomb(4));
-  const std::uint64_t high = bits.Get(32);
-  header.composition = static_cast<std::int64_t>(high << 32 | bits.Get(32));
-  context_ = PackedContext();
-  const std::int64_t tick_high = bits.Get(20);
-  context_.tick = tick_high << 20 | bits.Get(20);
+  header.revision = common.revision;
+  header.composition = common.composition;
+  context_.tick = common.tick;
   std::move(told_.begin(), told_.end(), std::back_inserter(spare_));
   told_.clear();
   entries_.clear();
-  while (bits.Get(1) != 0) {
-    header.peer = static_cast<std::int32_t>(bits.GetGolomb(4));
-    context_.tick += UnZigZag(bits.GetGolomb(0));
+  while (bits.Code(false, &context_.another_group)) {
+    header.peer = static_cast<std::int32_t>(bits.Code(0, &context_.peer));
+    context_.tick += UnZigZag(bits.Code(0, &context_.ticks));
     header.tick = context_.tick;
     context_.id = -1;
     context_.id_gap = 0;
     States* states = nullptr;
-    while (bits.Get(1) != 0) {
+    while (bits.Code(false, &context_.another_body)) {
       Entry entry;
       if (!TakeBody(&bits, number, &entry)) return nullptr;
       if (states == nullptr || !Fits(*states, entry.state)) states = Begin(header, entry.state);
@@ -184,11 +161,14 @@ const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed, std:
     }
     if (states == nullptr || !bits.ok()) return nullptr;
   }
+  constexpr std::uint32_t kMask = (1u << kEntriesBits) - 1;
+  if (bits.Raw(0, kEntriesBits) != (context_.entries & kMask)) return nullptr;
   const auto valid = [](const States& states) { return Valid(states); };
   if (!bits.AtEnd() || told_.empty() || !std::all_of(told_.begin(), told_.end(), valid)) {
     return nullptr;
   }
   newest_ = std::max(newest_, number);
+  if (number >= 0) headers_[static_cast<std::size_t>(number) % headers_.size()] = common;
   for (const Entry& entry : entries_) Keep(number, entry);
   return &told_;
 }

@@ -42,7 +42,7 @@ class StatesUnpacker {
     WireBody state;
   };
   States* Begin(const States& header, const WireBody& first);
-  bool TakeBody(BitReader* bits, std::int64_t number, Entry* entry);
+  bool TakeBody(RangeReader* bits, std::int64_t number, Entry* entry);
   const WireBody* Find(std::int32_t id, std::int64_t number) const;
   void Keep(std::int64_t number, const Entry& entry);
 
@@ -50,6 +50,8 @@ class StatesUnpacker {
   PackedContext context_;
   std::int32_t ids_ = kIdsMax;       // ids in this message are below
   std::int64_t newest_ = 0;          // largest message number so far
+  /// Of the newest messages, each at its number modulo kPackedHeadersKept.
+  std::vector<PackedHeader> headers_ = std::vector<PackedHeader>(kPackedHeadersKept);
   std::vector<std::int32_t> place_;  // by id: index in kept_; -1: nothing came
   std::vector<Body> kept_;
   // Contents of the last message. A client takes one in every tick, so their memory is reused.

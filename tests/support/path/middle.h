@@ -97,7 +97,7 @@ class Middle {
     terms.cookie = join->token;
     terms.name = join->name;
     terms.room = join->room;
-    terms.pass = join->pass;
+    terms.pass = join->grant;
     terms.epoch = join->epoch;
     terms.proof = join->proof;
     SealedKey sealed{};
