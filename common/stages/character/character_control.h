@@ -134,6 +134,8 @@ class CharacterControl {
   // character_air.cpp
   void Jump(const CharacterSense& s);
   void Air(const CharacterSense& s);
+  float LandingAhead(const CharacterSense& s) const;
+  float FlightTurning(const CharacterSense& s) const;
 
   // character_rise.cpp
   void Fall(const CharacterSense& s);
