@@ -12,7 +12,7 @@ std::string Milliseconds(std::int64_t us) {
   return us < 0 ? "-" : fmt::format("{:.0f} ms", static_cast<double>(us) * 1e-3);
 }
 
-std::string Percent(std::int64_t ppm) {
+std::string PercentText(std::int64_t ppm) {
   return ppm < 0 ? "-" : fmt::format("{:.1f} %", static_cast<double>(ppm) * 1e-4);
 }
 
@@ -46,7 +46,7 @@ std::string ServerProgress(const Server& server, std::int64_t last_tick,
   const Stats& stats = server.stats();
   return fmt::format("{}, {}, rtt {}, loss {}, tick p99 {:.2f} ms, {} drops; Ctrl-C stops",
                      Time(server.tick(), last_tick, server.scene().solver.tick_hz), who,
-                     Milliseconds(stats.rtt_us), Percent(stats.loss_ppm),
+                     Milliseconds(stats.rtt_us), PercentText(stats.loss_ppm),
                      static_cast<double>(ticks.PercentileUs(0.99)) * 1e-3, Dropped(stats));
 }
 

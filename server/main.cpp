@@ -1,8 +1,11 @@
 /// seam-server: one room or several over UDP. `seam-server --help`.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 
 #include "common/base/command_line.h"
@@ -19,11 +22,11 @@
 #include "common/sync/method.h"
 #include "server/fleet/agones.h"
 #include "server/fleet/fleet_host.h"
+#include "server/fleet/room_plans.h"
 #include "server/hub/hub.h"
 #include "server/hub/hub_door.h"
 #include "server/hub/progress.h"
 #include "server/metrics_page.h"
-#include "server/fleet/room_plans.h"
 #include "server/server_flags.h"
 
 namespace {
@@ -48,6 +51,20 @@ std::string Ending(const RoomPlan& plan) {
   return text;
 }
 
+/// Notes in a folder of kept rooms that they demand tokens. Throws OperatorError if they do and no
+/// key is given: a slip would open them to anybody.
+void KeepTokenRule(const std::string& folder, bool demands) {
+  const std::string mark = folder + "/tokens";
+  const bool demanded = access(mark.c_str(), F_OK) == 0;
+  if (demanded && !demands) {
+    throw OperatorError("the rooms in " + folder + " demand tokens: --token-key FILE (or remove " +
+                        mark + ": then anybody may join)");
+  }
+  if (demands && !demanded) {
+    std::ofstream(mark) << "--token-key was given: see docs/persistence.md\n";
+  }
+}
+
 /// The same for all rooms of the server.
 struct Shared {
   std::shared_ptr<const KeyPair> identity;
@@ -67,8 +84,12 @@ Shared MakeShared(const Flags& f) {
   OsEntropy entropy;
   // A kept room's clients give the keys of their places to the same server alone.
   const std::string folder = f.state.empty() ? f.resume : f.state;
+  if (!folder.empty()) KeepTokenRule(folder, !f.token_key.empty());
   std::string file = f.identity;
   if (file.empty() && !folder.empty()) file = folder + "/identity";
+  if (!f.resume.empty() && access(file.c_str(), F_OK) != 0) {
+    PrintError("seam-server", file + ": is missing, and is made anew: players lose their places");
+  }
   shared.identity = std::make_shared<const KeyPair>(
       file.empty() ? Secret(entropy) : KeepSecretFile("--identity", file, entropy));
   shared.log_key = KeyOfLogs(f);
@@ -125,7 +146,9 @@ int Serve(const Flags& f) {
   };
   if (fleet) member = std::make_unique<FleetMember>(MemberOf(f, udp.local()), prepare);
   PrepareFolders(f);
-  std::vector<RoomPlan> plans = MakePlans(f, KeyOfLogs(f).get(), member.get());
+  std::vector<std::string> left_out;
+  std::vector<RoomPlan> plans = MakePlans(f, KeyOfLogs(f).get(), member.get(), &left_out);
+  for (const std::string& line : left_out) PrintError("seam-server", line);
   if (!f.summary.empty()) RequireOutput(f.summary, f.force, f.scenes);
   shared = std::make_shared<const Shared>(MakeShared(f));
   for (RoomPlan& plan : plans) {
@@ -175,7 +198,7 @@ int Serve(const Flags& f) {
   hub.Close();
   member.reset();
   for (const auto& writer : shared->writers) writer->Finish();
-  return ReportEnd(hub, f.summary);
+  return std::max(ReportEnd(hub, f.summary), left_out.empty() ? 0 : 1);
 }
 
 }  // namespace

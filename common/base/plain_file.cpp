@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "common/base/check.h"
+#include "common/base/files_read.h"
 
 namespace seam {
 namespace {
@@ -73,6 +74,7 @@ void RequireOutput(const std::string& path, bool force, const std::vector<std::s
   for (const std::string& source : read) {
     if (SameFile(path, source)) throw OperatorError(path + ": is read, it cannot be written");
   }
+  if (WasFileRead(path)) throw OperatorError(path + ": is read, it cannot be written");
   if (!force && access(path.c_str(), F_OK) == 0) {
     throw OperatorError(path + ": exists (--force replaces it)");
   }

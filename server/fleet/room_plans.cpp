@@ -10,9 +10,11 @@
 #include "common/base/names.h"
 #include "common/base/plain_file.h"
 #include "common/net/impair.h"
+#include "common/record/recording.h"
 #include "common/sync/method.h"
 #include "server/saved/old_segments.h"
 #include "server/saved/resumed_room.h"
+#include "server/saved/snapshot_file.h"
 #include "server/saved/trial_load.h"
 
 namespace seam {
@@ -123,6 +125,22 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   return plan;
 }
 
+/// A kept room that still waited for its players has no snapshot: it begins anew, with the scene
+/// and the method of its log, which is put aside.
+RoomPlan PlanOfUnbegun(const Flags& f, const std::string& name, int index, int rooms) {
+  const Room room = ReadRecording(StateLogOf(f.resume, name), name).room;
+  RoomPlan plan;
+  plan.scene = ParseScene(room.scene_text, room.scene_name);
+  plan.config = ConfigOf(room);
+  plan.config.room = name;
+  plan.config.wait_players = PlayersToWaitFor(f, room.scene_name, plan.scene);
+  FinishPlan(f, f.impair == kNotGiven.impair ? room.impair : f.impair, index, rooms, &plan);
+  PrepareStateFolder(f.resume, name, false);
+  plan.state = f.resume;
+  plan.record = StateLogOf(f.resume, name);
+  return plan;
+}
+
 }  // namespace
 
 RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string& name, int index,
@@ -151,7 +169,23 @@ RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string&
   return plan;
 }
 
-std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key, FleetMember* member) {
+namespace {
+
+RoomPlan PlanOfKept(const Flags& f, const Secret* log_key, const std::string& name, int index,
+                    int rooms, FleetMember* member) {
+  if (ListSnapshots(f.resume, name).empty() && member == nullptr) {
+    return PlanOfUnbegun(f, name, index, rooms);
+  }
+  RoomPlan plan = PlanOfResumed(f, log_key, name, index, rooms);
+  if (member == nullptr) return plan;
+  const std::int32_t epoch = member->Claim(name, plan.config.epoch + 1);
+  return PlanOfResumed(f, log_key, name, index, rooms, epoch);
+}
+
+}  // namespace
+
+std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key, FleetMember* member,
+                                std::vector<std::string>* left_out) {
   std::vector<RoomPlan> plans;
   if (f.gateway) return plans;
   if (!f.resume.empty()) {
@@ -161,11 +195,14 @@ std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key, FleetMemb
     for (int r = 0; r < rooms; ++r) {
       const std::string& name = names[static_cast<std::size_t>(r)];
       if (member != nullptr && member->Knows(name)) continue;  // its thread takes it over
-      plans.push_back(PlanOfResumed(f, log_key, name, r, rooms));
-      if (member == nullptr) continue;
-      const std::int32_t epoch = member->Claim(name, plans.back().config.epoch + 1);
-      plans.back() = PlanOfResumed(f, log_key, name, r, rooms, epoch);
+      try {
+        plans.push_back(PlanOfKept(f, log_key, name, r, rooms, member));
+      } catch (const OperatorError& error) {
+        if (rooms == 1) throw;
+        left_out->push_back(std::string(error.what()) + "; the other rooms go on");
+      }
     }
+    if (plans.empty() && !left_out->empty()) throw OperatorError(left_out->front());
     return plans;
   }
   if (f.scenes.empty()) throw OperatorError(WhichScene());

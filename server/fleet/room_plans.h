@@ -18,7 +18,8 @@ RoomPlan PlanOfResumed(const ServerFlags& flags, const Secret* log_key, const st
                        int index, int rooms, std::int32_t epoch = 0);
 /// Returns the plans of all rooms that begin or go on at once, claimed from `member` (nullptr: no
 /// fleet). Throws OperatorError for flags that do not go together, and if a room cannot be.
+/// `left_out`: a line for each room of the folder of --resume that cannot go on, while others can.
 std::vector<RoomPlan> MakePlans(const ServerFlags& flags, const Secret* log_key,
-                                FleetMember* member);
+                                FleetMember* member, std::vector<std::string>* left_out);
 
 }  // namespace seam

@@ -108,6 +108,42 @@ TEST(PackedReset, BodiesFarApartNeedNoMoreThanThoseTogether) {
   EXPECT_EQ(of_many.Take(0).front().packed.data, of_one.Take(0).front().packed.data);
 }
 
+/// A message names an earlier one that has come instead of revision, composition and tick.
+TEST(PackedReset, AHeaderIsSaidOnceUntilAReset) {
+  States states;
+  states.revision = 7;
+  states.composition = 0x0102030405060708;
+  states.id = {5};
+  states.epoch = {0};
+  states.flags = {0};
+  states.x = states.y = states.angle = states.vx = states.vy = states.spin = {0};
+  StatesPacker packer(kMotion);
+  StatesUnpacker unpacker(kMotion);
+  const auto size_at = [&](std::int64_t tick, StatesUnpacker* receiver) {
+    states.tick = tick;
+    packer.Add(states);
+    const StatesPacker::Message message = packer.Take(0).front();
+    const std::vector<States>* const told = receiver->Take(message.packed);
+    EXPECT_TRUE(told != nullptr && told->front().tick == tick &&
+                told->front().revision == states.revision &&
+                told->front().composition == states.composition)
+        << tick;
+    return std::make_pair(message.number, message.packed.data.size());
+  };
+  const auto [first, whole] = size_at(1000, &unpacker);
+  packer.Acknowledge(first);
+  const auto [second, named] = size_at(1002, &unpacker);
+  EXPECT_LE(named + 10, whole);
+  states.revision = 8;  // another: said whole
+  EXPECT_GE(size_at(1004, &unpacker).second, named + 8);
+  packer.Acknowledge(second);
+  states.revision = 7;
+  EXPECT_LE(size_at(1006, &unpacker).second, named + 1);
+  packer.Reset(static_cast<std::uint16_t>(second));
+  StatesUnpacker anew(kMotion);
+  EXPECT_GE(size_at(1008, &anew).second + 2, whole);
+}
+
 TEST(PackedReset, TheExampleOfTheProtocolPageIsWritten) {
   States one;
   one.peer = 3;
@@ -121,9 +157,8 @@ TEST(PackedReset, TheExampleOfTheProtocolPageIsWritten) {
   one.angle = one.vx = one.vy = one.spin = {0};
   StatesPacker packer(kMotion);
   packer.Add(one);
-  const Bytes expected = {0x00, 0x00, 0x80, 0x08, 0x10, 0x18, 0x20, 0x28, 0x30,
-                          0x38, 0x40, 0x00, 0x00, 0x00, 0x1f, 0x46, 0x7c, 0x17,
-                          0x80, 0x20, 0x08, 0x02, 0x00, 0x3f, 0xfc, 0x00, 0x00};
+  const Bytes expected = {0x00, 0x00, 0x00, 0x0f, 0x79, 0xe4, 0x4e, 0xb9, 0x23, 0x8d, 0xf7, 0xd8,
+                          0x00, 0x00, 0x3c, 0x09, 0x64, 0x5e, 0x88, 0x56, 0x70, 0xa1, 0x3a};
   EXPECT_EQ(packer.Take(0).front().packed.data, expected);
 }
 

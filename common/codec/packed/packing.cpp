@@ -17,6 +17,12 @@ std::int64_t Ticks(std::int64_t from, std::int64_t to) {
   return std::clamp<std::int64_t>(to - from, -kTicksMost, kTicksMost);
 }
 
+/// Divides and rounds to the nearest, halves up.
+std::int64_t Quotient(std::int64_t value, std::int64_t by) {
+  const std::int64_t twice = 2 * value + by, whole = twice / (2 * by);
+  return whole - (twice % (2 * by) < 0 ? 1 : 0);
+}
+
 std::int16_t Low(std::int64_t value) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(value & 0xffff));
 }
@@ -51,8 +57,8 @@ WireBody PredictVelocity(const PackedMotion& motion, const WireBody& from, std::
   to.tick = tick;
   if (!falls) return to;
   const std::int64_t ticks = Ticks(from.tick, tick);
-  to.vx = Low(from.vx + motion.gravity_x * ticks / static_cast<std::int64_t>(kFine));
-  to.vy = Low(from.vy + motion.gravity_y * ticks / static_cast<std::int64_t>(kFine));
+  to.vx = Low(from.vx + Quotient(motion.gravity_x * ticks, static_cast<std::int64_t>(kFine)));
+  to.vy = Low(from.vy + Quotient(motion.gravity_y * ticks, static_cast<std::int64_t>(kFine)));
   return to;
 }
 
@@ -61,12 +67,12 @@ void PredictPose(const PackedMotion& motion, const WireBody& from, WireBody* to)
   // Positions are in 1/512 m and velocities in 1/256 m/s, so the sum of two velocities is their
   // mean in position units per second.
   const auto moved = [&](int v0, int v1) {
-    return static_cast<std::uint32_t>((v0 + v1) * ticks / motion.tick_hz);
+    return static_cast<std::uint32_t>(Quotient((v0 + v1) * ticks, motion.tick_hz));
   };
   to->x = from.x + moved(from.vx, to->vx);
   to->y = from.y + moved(from.vy, to->vy);
   const std::int64_t turned =
-      (from.spin + to->spin) * ticks * kTurnPerQuantum / motion.tick_hz / 65536;
+      Quotient((from.spin + to->spin) * ticks * kTurnPerQuantum, motion.tick_hz * 65536);
   to->angle = Low(from.angle + turned);
 }
 

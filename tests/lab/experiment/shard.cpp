@@ -45,8 +45,18 @@ void AddRowsOf(const CsvTable& table, const std::vector<std::string>& columns,
   }
 }
 
+/// The same of a file; a last line that is half written is no row.
+void AddWholeRowsOf(const std::string& path, const std::vector<std::string>& columns,
+                    const KeyIndex& index, std::set<std::size_t>* rows) {
+  const std::string text = ReadPlainFile(path, kTableBytesMax);
+  const std::size_t end = text.rfind('\n');
+  if (end != std::string::npos) {
+    AddRowsOf(CsvTable::Parse(text.substr(0, end + 1), path), columns, index, rows);
+  }
+}
+
 /// Returns the rows of the experiment that others have: those in the tables of --have without those
-/// in `own`, whose half-written last line does not count.
+/// in `own`.
 std::set<std::size_t> RowsHad(const std::string& have, const std::string& own, bool force,
                               const Experiment& experiment,
                               const std::vector<std::string>& columns) {
@@ -58,13 +68,10 @@ std::set<std::size_t> RowsHad(const std::string& have, const std::string& own, b
   std::set<std::size_t> had, done;
   for (const std::string& path : FilesLike(have)) {
     if (fs::equivalent(path, own, unknown)) continue;
-    AddRowsOf(CsvTable::Load(path), columns, index, &had);
+    AddWholeRowsOf(path, columns, index, &had);
   }
   if (force || !fs::exists(own, unknown)) return had;
-  const std::string text = ReadPlainFile(own, kTableBytesMax);
-  const std::size_t end = text.rfind('\n');
-  if (end == std::string::npos) return had;
-  AddRowsOf(CsvTable::Parse(text.substr(0, end + 1), own), columns, index, &done);
+  AddWholeRowsOf(own, columns, index, &done);
   for (const std::size_t row : done) had.erase(row);
   return had;
 }

@@ -253,6 +253,68 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
   EXPECT_EQ(measure.status(), 0) << measure.Story();
 }
 
+/// Of two rooms one plays and one waits for its players.
+TEST_F(Resume, ARoomThatWaitsOrIsDamagedKeepsNoOtherOut) {
+  SEAM_INSIDE_ONLY();
+  folder_.Write("yard.toml", kYard);
+  const auto snapshots = [&](const std::string& room) {
+    std::vector<std::string> found;
+    std::error_code error;
+    for (const auto& file : std::filesystem::directory_iterator(State(), error)) {
+      const std::string name = file.path().filename().string();
+      if (name.rfind(room + "-0", 0) == 0 && file.path().extension() == ".snapshot")
+        found.push_back(file.path().string());
+    }
+    return found;
+  };
+  const auto wait_for = [](const auto& done) {
+    for (int i = 0; i < kPatience * 20 && !done(); ++i) usleep(50000);
+    return done();
+  };
+  auto server = std::make_unique<Program>(
+      Server({folder_ / "yard.toml", folder_ / "yard.toml", "--state", State()}));
+  Program ann(Client("ann")), bob(Client("bob"));
+  ASSERT_TRUE(wait_for([&] { return !snapshots("main-1").empty(); })) << server->Story();
+  EXPECT_TRUE(snapshots("main-2").empty());
+  server->Signal(SIGKILL);
+  ASSERT_TRUE(server->Wait(kPatience));
+  const std::size_t before = snapshots("main-1").size();
+  server = std::make_unique<Program>(Server({"--resume", State()}));
+  ASSERT_TRUE(wait_for([&] {
+    return server->errors().find("resumed at tick") != std::string::npos;
+  })) << server->Story();
+  EXPECT_EQ(before, 1u);
+  server->Signal(SIGTERM);
+  ASSERT_TRUE(server->Wait(kPatience));
+  EXPECT_EQ(server->status(), 0) << server->Story();
+  for (const std::string& file : snapshots("main-1")) std::filesystem::resize_file(file, 1000);
+  server = std::make_unique<Program>(Server({"--resume", State()}));
+  ASSERT_TRUE(wait_for([&] {
+    return server->errors().find("no snapshot that can be read") != std::string::npos;
+  })) << server->Story();
+  usleep(500000);
+  server->Signal(SIGTERM);
+  ASSERT_TRUE(server->Wait(kPatience));
+  EXPECT_EQ(server->status(), 1) << server->Story();
+  EXPECT_NE(server->errors().find("the other rooms go on"), std::string::npos) << server->Story();
+}
+
+TEST_F(Resume, RoomsThatDemandedTokensAreNotOpenedByASlip) {
+  SEAM_INSIDE_ONLY();
+  folder_.Write("yard.toml", kYard);
+  Program keys({BuiltProgram("seam-token"), "--make-key", "--key", folder_ / "op.key"});
+  ASSERT_TRUE(keys.Wait(kPatience) && keys.status() == 0) << keys.Story();
+  Program server(Server({folder_ / "yard.toml", "--state", State(), "--wait", "0", "--token-key",
+                         folder_ / "op.key"}));
+  ASSERT_TRUE(WaitForLog([](const Recording& r) { return r.last_tick > 10; })) << server.Story();
+  server.Signal(SIGTERM);
+  ASSERT_TRUE(server.Wait(kPatience));
+  Program open(Server({"--resume", State()}));
+  ASSERT_TRUE(open.Wait(kPatience));
+  EXPECT_EQ(open.status(), 2) << open.Story();
+  EXPECT_NE(open.errors().find("demand tokens: --token-key"), std::string::npos) << open.Story();
+}
+
 TEST_F(Resume, ARoomRunsOnWithoutAStoreThatCannotBeWritten) {
   SEAM_INSIDE_ONLY();
   folder_.Write("cats.db", std::string(3000, 'c'));
