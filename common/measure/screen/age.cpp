@@ -49,20 +49,15 @@ ViewAges::ViewAges(const BodyPath& shown, const BodyPath& truth, double radius, 
     const std::int64_t last = std::min(first + length_ - 1, shown.last());
     spans_.push_back(FitAge(shown, truth, radius, first, last, tick_hz));
   }
-  // Any age fits a body that stands: it keeps the age that it had, or first gets.
-  const auto stands = [&](const ViewAge& age) {
-    return age.way * tick_hz < kAgeSpeedMin * static_cast<double>(length_);
-  };
+  // Any age fits a body that stands: it keeps the age that it had when it moved.
   std::optional<double> known;
   for (ViewAge& age : spans_) {
-    if (!stands(age))
+    if (age.way * tick_hz >= kAgeSpeedMin * static_cast<double>(length_)) {
       known = age.ticks;
-    else if (known)
+    } else if (known) {
       age.ticks = *known;
+    }
   }
-  const auto moves = std::find_if_not(spans_.begin(), spans_.end(), stands);
-  if (moves == spans_.end()) return;
-  for (auto age = spans_.begin(); age != moves; ++age) age->ticks = moves->ticks;
 }
 
 ViewAge FitAge(const BodyPath& shown, const BodyPath& truth, double radius, std::int64_t first,
