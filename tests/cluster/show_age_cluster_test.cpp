@@ -11,6 +11,7 @@
 #include "client/embed/cluster.h"
 #include "common/base/bytes.h"
 #include "common/measure/measure.h"
+#include "common/measure/revisions.h"
 #include "common/sync/show/show_age.h"
 
 namespace seam {
