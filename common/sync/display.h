@@ -81,6 +81,7 @@ class Display {
   /// Returns the state that is displayed of a body but for its visual offset: now, or in the past.
   BodyState Base(int body) const;
   BodyState PastAt(const Roles& roles, int body, double moment) const;
+  float FastestPoint(int mechanism) const;
   void ShowPast(const Roles& roles, int body, double due);
   void HidePastMoves(int body);
   void ShowPresent(int body);

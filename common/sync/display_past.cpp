@@ -79,8 +79,21 @@ BodyState Display::PastAt(const Roles& roles, int body, double moment) const {
   return PlusScaled(*before, Minus(after, *before), static_cast<float>(moment - low));
 }
 
-/// Moves on a body's moment to `due` ticks ago, or as near to that as its glide lets it. Hides the
-/// change of its past since the last tick.
+/// Returns the speed of a mechanism's fastest point, on the screen or now, m/s.
+float Display::FastestPoint(int mechanism) const {
+  float fastest = 0;
+  for (const int body : joints_.bodies(mechanism)) {
+    const auto [low, high] = world_.Bounds(body);
+    const float radius = (high - low).norm() / 2;
+    for (const BodyState& state : {Base(body), world_.Read(body)}) {
+      fastest = std::max(fastest, state.velocity.norm() + std::fabs(state.spin) * radius);
+    }
+  }
+  return fastest;
+}
+
+/// Moves on a body's moment to `due` ticks ago, or as near to that as its glide lets it. The other
+/// bodies of its mechanism follow the first one. Hides the change of its past since the last tick.
 void Display::ShowPast(const Roles& roles, int body, double due) {
   Shown& shown = shown_[body];
   const auto now = static_cast<double>(world_.tick());
@@ -91,8 +104,9 @@ void Display::ShowPast(const Roles& roles, int body, double due) {
     jump = Minus(PastAt(roles, body, shown.moment), shown.then);
     // A body that was not shown before waits for its age. Any other glides.
     const bool is_new = shown.moment == static_cast<double>(shown.since);
-    if (!is_new || now - shown.moment > due) {
-      shown.moment = ShowAge::Glide(shown.moment, now, due);
+    const int m = world_.mechanism(body);
+    if (joints_.bodies(m).front() == body && (!is_new || now - shown.moment > due)) {
+      shown.moment = ShowAge::Glide(shown.moment, now, due, double{FastestPoint(m)});
     }
     shown.moment = std::min(std::max(shown.moment, known), now);
   } else {
@@ -102,6 +116,9 @@ void Display::ShowPast(const Roles& roles, int body, double due) {
   }
   shown.past = true;
   jump.angle = WrapAngle(jump.angle);
+  // The past that is displayed from now on has its own, right velocity.
+  jump.velocity.setZero();
+  jump.spin = 0;
   smoother_.Moved(body, Visible(body, jump));
 }
 

@@ -83,6 +83,16 @@ TEST(Seen, FindsNothingInTheOracleOrItsDelayedView) {
   EXPECT_EQ(Compare(Delayed(0), Delayed(0.1)).seen, 0);
 }
 
+TEST(Seen, FindsNothingInADelayedViewOfABodyThatStops) {
+  const auto stopping = [](double delay_s) {
+    return [delay_s](std::int64_t tick) {
+      const double stop = 150 * kH, s = std::max(0.0, static_cast<double>(tick) * kH - delay_s);
+      return State(3 * std::min(s, stop), 0, s < stop ? 3 : 0, 0, 0);
+    };
+  };
+  EXPECT_EQ(Compare(stopping(0), stopping(0.1)).seen, 0);
+}
+
 TEST(Seen, IgnoresMillimetresOfNoise) {
   const Path noisy = [](std::int64_t tick) {
     BodyState state = Delayed(0)(tick);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/measure/screen/thresholds.h"
 #include "tests/support/scripted_world.h"
 
 namespace seam {
@@ -19,8 +20,18 @@ TEST(ShowAge, IsTheTimeForWhichInputsAreMissingAndAtMostWhatIsAsked) {
   config.show_age_ticks = 12;
   for (const auto& [missing, due] : {std::pair{8, 8}, std::pair{40, 12}, std::pair{0, 0}}) {
     ShowAge ages(config);
-    ages.Look(missing);
+    for (std::size_t tick = 0; tick < RecentAges::kAgesKept; ++tick) ages.Look(missing);
     EXPECT_EQ(ages.due(), due);
+  }
+}
+
+TEST(ShowAge, BeginsWithTheGreatestSoThatItNeedNotRise) {
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.show_age_ticks = 8;
+  ShowAge ages(config);
+  for (int tick = 1; tick <= 30; ++tick) {
+    ages.Look(std::min(tick, 7));  // the first inputs arrive in tick 7
+    EXPECT_EQ(ages.due(), 8);
   }
 }
 
@@ -32,10 +43,17 @@ TEST(ShowAge, IsNotThatOfARareLateInput) {
   EXPECT_EQ(ages.due(), 6);
 }
 
-TEST(ShowAge, GlidesAtTheRatesOfItsLimits) {
-  EXPECT_EQ(ShowAge::Glide(90, 100, 9), 91) << "it has its age";
-  EXPECT_NEAR(ShowAge::Glide(90, 100, 0), 91 + double{kAgeFall}, 1e-6);
-  EXPECT_NEAR(ShowAge::Glide(90, 100, 30), 91 - double{kAgeRise}, 1e-6);
+TEST(ShowAge, GlidesByAsMuchOfTheSpeedAsNobodyNotices) {
+  EXPECT_EQ(ShowAge::Glide(90, 100, 9, 5), 91) << "it has its age";
+  EXPECT_NEAR(ShowAge::Glide(90, 100, 0, 5), 91 + kUnseenShare, 1e-6);
+  EXPECT_NEAR(ShowAge::Glide(90, 100, 30, 5), 91 - kUnseenShare, 1e-6);
+  EXPECT_NEAR(ShowAge::Glide(90, 100, 30, 2 * kUnseenSpeed), 90.5, 1e-6);
+  EXPECT_NEAR(ShowAge::Glide(90, 100, 30, 0), 90, 1e-6) << "it stands: no moment differs";
+}
+
+TEST(ShowAge, GlidesAtRatesThatTheMeasuresDoNotTakeForNoticed) {
+  EXPECT_LT(kUnseenShare, kVelocityShareLong);
+  EXPECT_LT(kUnseenSpeed, kVelocityFloor);
 }
 
 /// Boxes of 1 m in a row along x at tick 100, without gravity: each touches the next. Each moves at
@@ -82,16 +100,16 @@ class Row {
 };
 
 TEST(KeepApart, ShowsWhatIsPushedSoLateThatTheOverlapIsNotNoticed) {
-  // At 6 m/s a body moves by 10 cm in a tick: 3 cm in .3 ticks. Moments go by quarters.
-  const std::vector<double> ages = Row({6, 6}).Ages({0, 8});
+  // At 5 m/s a body moves by 8.3 cm in a tick: 4.5 cm in .54 ticks. Moments go by quarters.
+  const std::vector<double> ages = Row({5, 5}).Ages({0, 8});
   EXPECT_EQ(ages[0], 0);
-  EXPECT_NEAR(ages[1], 0.25, 0.01);
+  EXPECT_NEAR(ages[1], 0.5, 0.01);
 }
 
 TEST(KeepApart, PassesOnFromEachMechanismToTheNext) {
-  const std::vector<double> ages = Row({6, 6, 6}).Ages({0, 8, 8});
-  EXPECT_NEAR(ages[1], 0.25, 0.01);
-  EXPECT_NEAR(ages[2], 0.5, 0.01) << "3 cm in the one that is 3 cm in the first";
+  const std::vector<double> ages = Row({5, 5, 5}).Ages({0, 8, 8});
+  EXPECT_NEAR(ages[1], 0.5, 0.01);
+  EXPECT_NEAR(ages[2], 1, 0.01) << "4 cm in the one that is 4 cm in the first";
 }
 
 TEST(KeepApart, LeavesWhatComesNearerAndWhatStandsOrTurnsItsBack) {

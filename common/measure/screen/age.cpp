@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/base/check.h"
 
@@ -47,6 +48,15 @@ ViewAges::ViewAges(const BodyPath& shown, const BodyPath& truth, double radius, 
   for (std::int64_t first = first_; first <= shown.last(); first += length_) {
     const std::int64_t last = std::min(first + length_ - 1, shown.last());
     spans_.push_back(FitAge(shown, truth, radius, first, last, tick_hz));
+  }
+  // Any age fits a body that stands: it keeps the age that it had when it moved.
+  std::optional<double> known;
+  for (ViewAge& age : spans_) {
+    if (age.way * tick_hz >= kAgeSpeedMin * static_cast<double>(length_)) {
+      known = age.ticks;
+    } else if (known) {
+      age.ticks = *known;
+    }
   }
 }
 

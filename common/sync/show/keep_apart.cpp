@@ -11,8 +11,8 @@ namespace seam {
 namespace {
 
 /// Depth by which displayed bodies may overlap, beyond their overlap now, m: less than the measures
-/// take for noticed (kOverlapFloor).
-constexpr float kUnseenDepth = 0.03f;
+/// take for noticed (kOverlapFloor). Every centimetre less makes moments jump more often.
+constexpr float kUnseenDepth = 0.045f;
 /// Step in which a moment is looked for, ticks.
 constexpr double kMomentStep = 0.25;
 

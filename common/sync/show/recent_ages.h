@@ -11,11 +11,14 @@ namespace seam {
 /// Keeps the last kAgesKept ages.
 class RecentAges {
  public:
+  static constexpr std::size_t kAgesKept = 90;
   /// Records an age, ticks. Ages below 0 count as 0.
   void Add(std::int64_t ticks) {
     ages_.push_back(std::max<std::int64_t>(0, ticks));
     if (ages_.size() > kAgesKept) ages_.pop_front();
   }
+  /// Acts like kAgesKept ages of `ticks`.
+  void Fill(std::int64_t ticks) { ages_.assign(kAgesKept, ticks); }
   bool empty() const { return ages_.empty(); }
   /// Returns the age that 19 of 20 do not exceed, ticks. Requires an age.
   std::int64_t Most() const {
@@ -26,7 +29,6 @@ class RecentAges {
   }
 
  private:
-  static constexpr std::size_t kAgesKept = 90;
   std::deque<std::int64_t> ages_;
 };
 

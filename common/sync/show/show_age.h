@@ -18,11 +18,13 @@
 
 namespace seam {
 
-/// Greatest rates at which an age falls and rises, ticks a tick: the body is displayed faster, or
-/// slower, by that share.
-constexpr float kAgeFall = 0.2f, kAgeRise = 0.2f;
+/// An age changes so slowly that nobody notices it (kVelocityShareLong, kVelocityFloor of the
+/// measures): the body is displayed faster, or slower, by at most this share of its speed, or by
+/// this speed, m/s, if that is more.
+constexpr double kUnseenShare = 0.06, kUnseenSpeed = 0.05;
 
-/// The age at which inputs are complete.
+/// The age at which inputs are complete. Before it is known it is the greatest that is allowed:
+/// bodies wait for it once, and it need not rise while they move.
 class ShowAge {
  public:
   /// `config` must outlive this.
@@ -33,8 +35,8 @@ class ShowAge {
   /// Returns the age that displayed poses are to have, ticks.
   double due() const { return due_; }
   /// Returns the moment to display at tick `now` after `moment` at the tick before: as near to
-  /// `due` ticks ago as the rates let it.
-  static double Glide(double moment, double now, double due);
+  /// `due` ticks ago as nobody notices. `speed`: of the body's fastest point, m/s.
+  static double Glide(double moment, double now, double due, double speed);
 
  private:
   const SyncConfig& config_;
