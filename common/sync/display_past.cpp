@@ -106,7 +106,9 @@ void Display::ShowPast(const Roles& roles, int body, double due) {
     const bool is_new = shown.moment == static_cast<double>(shown.since);
     const int m = world_.mechanism(body);
     if (joints_.bodies(m).front() == body && (!is_new || now - shown.moment > due)) {
-      shown.moment = ShowAge::Glide(shown.moment, now, due, double{FastestPoint(m)});
+      const bool has_its_age = shown.moment + 1 == now - due;
+      const double speed = has_its_age ? 0 : double{FastestPoint(m)};
+      shown.moment = ShowAge::Glide(shown.moment, now, due, speed);
     }
     shown.moment = std::min(std::max(shown.moment, known), now);
   } else {
