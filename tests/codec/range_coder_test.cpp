@@ -74,12 +74,12 @@ TEST(RangeCoder, CarriesThroughBytesThatAreWritten) {
   for (std::uint32_t last = 0; last < 2; ++last) {
     RangeWriter writer;
     for (int i = 0; i < 6; ++i) writer.Raw(0xffff, 16);
-    BitModel sure(BitModel::kLeast);
+    BitModel sure(BitModel::kProbabilityLeast);
     for (int i = 0; i < 40; ++i) writer.Code(last == 1, &sure);
     const Bytes bytes = writer.Finish();
     RangeReader reader(ByteView(bytes.data(), bytes.size()));
     for (int i = 0; i < 6; ++i) ASSERT_EQ(reader.Raw(0, 16), 0xffffu);
-    BitModel like(BitModel::kLeast);
+    BitModel like(BitModel::kProbabilityLeast);
     for (int i = 0; i < 40; ++i) ASSERT_EQ(reader.Code(false, &like), last == 1);
     EXPECT_TRUE(reader.AtEnd());
     carried += bytes[0] == 0xff ? 1 : 0;

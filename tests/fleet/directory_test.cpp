@@ -14,21 +14,12 @@
 #include "common/codec/messages.h"
 #include "common/fleet/directory_values.h"
 #include "tests/fleet/etcd_here.h"
+#include "tests/fleet/server_of.h"
 
 namespace seam {
 namespace directory_test {
 
 const char* const kSpec = R"({"folder": "/var/rooms"})";
-
-FleetServer ServerOf(const std::string& id) {
-  FleetServer server;
-  server.id = id;
-  server.address = "127.0.0.1:" + std::to_string(7000 + id.back());
-  server.version = "0.27.0";
-  server.protocol = kProtocolVersion;
-  server.capacity = 8;
-  return server;
-}
 
 /// `GetParam()`: file or etcd.
 class EachDirectory : public ::testing::TestWithParam<const char*> {
@@ -319,39 +310,6 @@ TEST_P(EachDirectory, ValuesThatAreWrongAreIgnoredAndNamedOnce) {
     ASSERT_TRUE(store->Commit({}, {{"/seam/test/" + key, std::nullopt, 0}}, &done).ok());
   }
   EXPECT_EQ(Listed(*a).refused, "");
-}
-
-TEST(DirectoryFile, ADamagedFileIsOneErrorAndStaysAsItIs) {
-  Workspace folder;
-  for (const char* text : {"{", "[]", R"({"revision": 1})", R"({"revision": "1"})"}) {
-    folder.Write("directory.json", text);
-    Directory directory(OpenKeyStore("file:" + folder.path()), "test");
-    const Status status = directory.Register(ServerOf("a"));
-    EXPECT_EQ(status.why(), folder / "directory.json" + ": is damaged");
-    EXPECT_EQ(ReadPlainFile(folder / "directory.json", 100), text);
-  }
-}
-
-TEST(DirectoryFile, OneThatIsLostGivesNobodyTheLeaseOfAnother) {
-  Workspace folder;
-  const auto open = [&] {
-    return std::make_unique<Directory>(OpenKeyStore("file:" + folder.path()), "test");
-  };
-  const auto a = open(), b = open();
-  ASSERT_TRUE(a->Register(ServerOf("a")).ok());
-  ASSERT_TRUE(b->Register(ServerOf("b")).ok());
-  std::filesystem::remove(folder / "directory.json");
-  bool kept = true;
-  ASSERT_TRUE(b->Renew(&kept).ok());
-  EXPECT_FALSE(kept);
-  ASSERT_TRUE(b->Register(ServerOf("b")).ok());  // the first lease of the new file
-  ASSERT_TRUE(a->Renew(&kept).ok());
-  EXPECT_FALSE(kept) << "a had the first lease of the old one";
-  ASSERT_TRUE(a->Register(ServerOf("a")).ok());
-  FleetListing listing;
-  ASSERT_TRUE(a->List(&listing).ok());
-  EXPECT_NE(listing.FindServer("a"), nullptr);
-  EXPECT_NE(listing.FindServer("b"), nullptr);
 }
 
 TEST(DirectoryEtcd, OneThatIsNotThereIsOneErrorInTime) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 
 #include "tests/support/program.h"
@@ -14,9 +15,10 @@ namespace measure_terminal_test {
 /// Two logs of one setting.
 class MeasureAtATerminal : public ::testing::Test {
  protected:
-  static std::string Log(int seed) { return folder_ / (std::to_string(seed) + ".lcm"); }
+  static std::string Log(int seed) { return *folder_ / (std::to_string(seed) + ".lcm"); }
 
-  void SetUp() override {
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<Workspace>();
     for (const int seed : {1, 2}) {
       Program lab({BuiltProgram("seam-lab"), "run", "crossing", "--duration", "3", "--no-floor",
                    "--force", "--seed", std::to_string(seed), "-o", Log(seed)},
@@ -35,7 +37,8 @@ class MeasureAtATerminal : public ::testing::Test {
     return program.output();
   }
 
-  inline static const Workspace folder_;
+  static void TearDownTestSuite() { folder_.reset(); }
+  inline static std::unique_ptr<const Workspace> folder_;
 };
 
 TEST_F(MeasureAtATerminal, PrintsMeasuresDownwardsAndThePipeARow) {

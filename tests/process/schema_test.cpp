@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -33,17 +34,19 @@ Words Scenes() {
 class Schema : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
+    folder_ = std::make_unique<Workspace>();
     Words words{BuiltProgram("seam-lab"), "schema"};
     for (const std::string& scene : Scenes()) words.push_back(scene);
     Program lab(words, Root().string());
     ASSERT_TRUE(lab.Wait(120) && lab.status() == 0) << lab.Story();
     text_ = lab.output();
-    folder_.Write("seam.schema.json", text_);
+    folder_->Write("seam.schema.json", text_);
   }
+  static void TearDownTestSuite() { folder_.reset(); }
   /// Returns the validator's complaints about these files.
   static std::string Complaints(const Words& files) {
     Words words{"/usr/bin/python3", (Root() / "tests/process/check_schema.py").string(),
-                folder_ / "seam.schema.json"};
+                *folder_ / "seam.schema.json"};
     words.insert(words.end(), files.begin(), files.end());
     Program check(words);
     EXPECT_TRUE(check.Wait(120));
@@ -51,11 +54,11 @@ class Schema : public ::testing::Test {
     return check.output();
   }
   static std::string ComplaintAbout(const std::string& scene) {
-    folder_.Write("s.toml", scene);
-    return Complaints({folder_ / "s.toml"});
+    folder_->Write("s.toml", scene);
+    return Complaints({*folder_ / "s.toml"});
   }
 
-  inline static const Workspace folder_;
+  inline static std::unique_ptr<const Workspace> folder_;
   inline static std::string text_;
 };
 

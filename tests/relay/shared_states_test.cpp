@@ -99,20 +99,21 @@ TEST(SharedStates, AMessageThatThePathDidNotCarryCountsAsLostAtOnce) {
 }
 
 TEST(SharedStates, LongListsAreSplitAndEachPartIsFoundAgain) {
+  constexpr std::int32_t kBodies = 9000;
   SharedStates shared(kMotion);
   Receiver receiver;
   std::vector<std::int32_t> ids;
-  for (std::int32_t id = 0; id < 300; ++id) ids.push_back(id);
-  for (std::int32_t first = 0; first < 300; first += 30) {
+  for (std::int32_t id = 0; id < kBodies; ++id) ids.push_back(id);
+  for (std::int32_t first = 0; first < kBodies; first += 30) {
     shared.Add(At(2, {ids.begin() + first, ids.begin() + first + 30}));
   }
   const auto messages = shared.Take(0);
   ASSERT_GT(messages.size(), 1u);
   for (std::size_t i = 0; i < messages.size(); ++i) receiver.Take(messages[i], 0, i != 1);
   const std::vector<std::int32_t> lost = receiver.sent.TakeLost(1000000, 150000, shared);
-  EXPECT_EQ(lost.size() + receiver.newest.size(), 300u);
+  EXPECT_EQ(lost.size() + receiver.newest.size(), static_cast<std::size_t>(kBodies));
   for (const auto& message : shared.Again(1000000, lost)) receiver.Take(message, 1000000);
-  EXPECT_EQ(receiver.newest.size(), 300u);
+  EXPECT_EQ(receiver.newest.size(), static_cast<std::size_t>(kBodies));
 }
 
 }  // namespace shared_states_test

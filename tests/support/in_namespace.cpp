@@ -32,10 +32,11 @@ SuiteRun RunInside(const ::testing::TestSuite& suite, const std::string& network
     const ::testing::TestInfo& test = *suite.GetTestInfo(i);
     if (test.should_run()) filter += std::string(suite.name()) + "." + test.name() + ":";
   }
-  Program inside({"unshare", "-rn", "env", std::string(kInside) + "=1", "LCM_DEFAULT_URL=", "sh",
-                  "-c", network + "; exec \"$@\"", "sh",
-                  std::filesystem::read_symlink("/proc/self/exe").string(), filter,
-                  "--gtest_color=no"});
+  // The filter says which tests; a part of them (tests/run.sh) is no longer to be taken.
+  Program inside(
+      {"unshare", "-rn", "env", "-u", "GTEST_TOTAL_SHARDS", "-u", "GTEST_SHARD_INDEX",
+       std::string(kInside) + "=1", "LCM_DEFAULT_URL=", "sh", "-c", network + "; exec \"$@\"", "sh",
+       std::filesystem::read_symlink("/proc/self/exe").string(), filter, "--gtest_color=no"});
   const bool ended = inside.Wait(kSuiteSecondsMax);
   run.text = inside.output();
   if (!ended || (inside.status() != 0 && inside.status() != 1)) {

@@ -16,7 +16,8 @@ constexpr std::array<std::uint32_t, 16> kWeights{1024, 676, 446, 294, 194, 128, 
 }  // namespace
 
 BitModel::BitModel(std::uint32_t zero)
-    : zero_(static_cast<std::uint16_t>(std::clamp(zero, kLeast, kWhole - kLeast))) {}
+    : zero_(static_cast<std::uint16_t>(
+          std::clamp(zero, kProbabilityLeast, kCertain - kProbabilityLeast))) {}
 
 NumberModel::NumberModel(int percent, int bits)
     : zero(Percent(static_cast<std::uint32_t>(percent))) {

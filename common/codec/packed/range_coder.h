@@ -16,30 +16,32 @@ namespace seam {
 class BitModel {
  public:
   BitModel() = default;
-  /// `zero`: the probability that is assumed at first, in parts of kWhole.
+  /// `zero`: the probability that is assumed at first, in parts of kCertain.
   explicit BitModel(std::uint32_t zero);
   std::uint32_t zero() const { return zero_; }
   void Note(bool bit) {
     const int rate = kRates[seen_];
     if (seen_ + 1u < kRates.size()) ++seen_;
     if (bit) {
-      zero_ = static_cast<std::uint16_t>(zero_ - ((zero_ - kLeast) >> rate));
+      zero_ = static_cast<std::uint16_t>(zero_ - ((zero_ - kProbabilityLeast) >> rate));
     } else {
-      zero_ = static_cast<std::uint16_t>(zero_ + ((kWhole - kLeast - zero_) >> rate));
+      zero_ = static_cast<std::uint16_t>(zero_ + ((kCertain - kProbabilityLeast - zero_) >> rate));
     }
   }
 
-  /// Probabilities are in parts of this, and at least kLeast of them.
-  static constexpr std::uint32_t kWhole = 65536, kLeast = 64;
+  /// Probabilities are in parts of this, and at least kProbabilityLeast of them.
+  static constexpr std::uint32_t kCertain = 65536, kProbabilityLeast = 64;
 
  private:
   static constexpr std::array<std::uint8_t, 8> kRates{2, 3, 3, 4, 4, 4, 5, 5};
-  std::uint16_t zero_ = kWhole / 2;
+  std::uint16_t zero_ = kCertain / 2;
   std::uint8_t seen_ = 0;
 };
 
 /// Returns a probability for BitModel.
-constexpr std::uint32_t Percent(std::uint32_t percent) { return percent * BitModel::kWhole / 100; }
+constexpr std::uint32_t Percent(std::uint32_t percent) {
+  return percent * BitModel::kCertain / 100;
+}
 
 /// The distribution of a number: whether it is 0, how many bits it has, and the first of these
 /// behind the leading one.

@@ -161,8 +161,8 @@ const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed, std:
     }
     if (states == nullptr || !bits.ok()) return nullptr;
   }
-  constexpr std::uint32_t kMask = (1u << kEntriesBits) - 1;
-  if (bits.Raw(0, kEntriesBits) != (context_.entries & kMask)) return nullptr;
+  constexpr std::uint32_t kEntriesMask = (1u << kEntriesBits) - 1;
+  if (bits.Raw(0, kEntriesBits) != (context_.entries & kEntriesMask)) return nullptr;
   const auto valid = [](const States& states) { return Valid(states); };
   if (!bits.AtEnd() || told_.empty() || !std::all_of(told_.begin(), told_.end(), valid)) {
     return nullptr;

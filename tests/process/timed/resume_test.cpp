@@ -12,118 +12,17 @@
 #include "common/base/process.h"
 #include "common/record/damage.h"
 #include "common/record/log_file.h"
-#include "tests/support/in_namespace.h"
-#include "tests/support/live_session.h"
+#include "tests/process/timed/kept_rooms.h"
 
 namespace seam {
 namespace resume_test {
 
-constexpr double kPatience = 60;
-constexpr const char* kPort = "7801";
+constexpr double kPatience = kKeptPatience;
 
-/// Two cars, a gate that one of them passes, and a script that counts seconds and makes parts.
-constexpr const char* kYard = R"(title = "A yard"
-[[player]]
-name = "ann"
-vehicle = "car"
-[[player]]
-name = "bob"
-vehicle = "cart"
-[[part]]
-name = "ground"
-chain = [[-300, 0], [300, 0]]
-friction = 0.9
-[[part]]
-name = "car"
-box = [3, 0.6]
-position = [-8, 0.9]
-velocity = [3, 0]
-owner = "ann"
-[[part]]
-name = "cart"
-box = [2, 0.6]
-position = [8, 0.9]
-owner = "bob"
-[[part]]
-name = "crate"
-box = [0.6, 0.6]
-position = [0, 0.3]
-repeat = {count = [1, 3], step = [0, 0.6]}
-[[trigger]]
-name = "gate"
-kind = "area"
-position = [-6, 0.5]
-box = [2, 3]
-score = 7
-once = true
-[[script]]
-name = "keeper"
-code = '''
-function on_tick()
-  room.ticks = (room.ticks or 0) + 1
-  if room.ticks % 60 == 0 then
-    room.seconds = (room.seconds or 0) + 1
-    world.say("second " .. room.seconds)
-    if room.seconds % 2 == 0 then
-      world.add_part{name = "made" .. room.seconds, circle = 0.2, position = {20 + room.seconds, 3}}
-    end
-  end
-end
-'''
-)";
-
-class Resume : public InNamespace {
- protected:
-  std::vector<std::string> Server(const std::vector<std::string>& flags) const {
-    std::vector<std::string> words = {BuiltProgram("seam-server"),
-                                      "--bind",
-                                      "127.0.0.1",
-                                      "--port",
-                                      kPort,
-                                      "--lcm-url",
-                                      "none",
-                                      "--quiet",
-                                      "--duration",
-                                      "0"};
-    words.insert(words.end(), flags.begin(), flags.end());
-    return words;
-  }
-  std::vector<std::string> Client(const std::string& name) const {
-    return {BuiltProgram("seam-client"),
-            "127.0.0.1:" + std::string(kPort),
-            "--name",
-            name,
-            "--drive",
-            "none",
-            "--lcm-url",
-            "none",
-            "--key",
-            folder_ / (name + ".key"),
-            "--quiet"};
-  }
-  std::string State() const { return folder_ / "state"; }
-  std::string Log() const { return folder_ / "state/main.lcm"; }
-  /// Waits until the recording of the last session is `enough`.
-  template <class Enough>
-  bool WaitForLog(const Enough& enough) const {
-    for (int i = 0; i < kPatience * 20; ++i, usleep(50000)) {
-      try {
-        if (enough(ReadRecording(Log()))) return true;
-      } catch (const std::exception&) {
-      }  // not begun yet
-    }
-    return false;
-  }
-  Workspace folder_;
-};
+using Resume = KeptRooms;
 
 /// Returns the number of parts of kYard in the views of a tick: five, and what its script has made.
 std::size_t PartsAt(std::int64_t tick) { return 5 + static_cast<std::size_t>((tick - 1) / 120); }
-
-const View* LastView(const Recording& recording, int peer) {
-  const auto found = recording.views.find(peer);
-  return found == recording.views.end() ? nullptr : &found->second.rbegin()->second;
-}
 
 std::map<std::pair<int, int>, float> ValuesOf(const Recording& recording) {
   std::map<std::pair<int, int>, float> values;
@@ -253,68 +152,6 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
   EXPECT_EQ(measure.status(), 0) << measure.Story();
 }
 
-/// Of two rooms one plays and one waits for its players.
-TEST_F(Resume, ARoomThatWaitsOrIsDamagedKeepsNoOtherOut) {
-  SEAM_INSIDE_ONLY();
-  folder_.Write("yard.toml", kYard);
-  const auto snapshots = [&](const std::string& room) {
-    std::vector<std::string> found;
-    std::error_code error;
-    for (const auto& file : std::filesystem::directory_iterator(State(), error)) {
-      const std::string name = file.path().filename().string();
-      if (name.rfind(room + "-0", 0) == 0 && file.path().extension() == ".snapshot")
-        found.push_back(file.path().string());
-    }
-    return found;
-  };
-  const auto wait_for = [](const auto& done) {
-    for (int i = 0; i < kPatience * 20 && !done(); ++i) usleep(50000);
-    return done();
-  };
-  auto server = std::make_unique<Program>(
-      Server({folder_ / "yard.toml", folder_ / "yard.toml", "--state", State()}));
-  Program ann(Client("ann")), bob(Client("bob"));
-  ASSERT_TRUE(wait_for([&] { return !snapshots("main-1").empty(); })) << server->Story();
-  EXPECT_TRUE(snapshots("main-2").empty());
-  server->Signal(SIGKILL);
-  ASSERT_TRUE(server->Wait(kPatience));
-  const std::size_t before = snapshots("main-1").size();
-  server = std::make_unique<Program>(Server({"--resume", State()}));
-  ASSERT_TRUE(wait_for([&] {
-    return server->errors().find("resumed at tick") != std::string::npos;
-  })) << server->Story();
-  EXPECT_EQ(before, 1u);
-  server->Signal(SIGTERM);
-  ASSERT_TRUE(server->Wait(kPatience));
-  EXPECT_EQ(server->status(), 0) << server->Story();
-  for (const std::string& file : snapshots("main-1")) std::filesystem::resize_file(file, 1000);
-  server = std::make_unique<Program>(Server({"--resume", State()}));
-  ASSERT_TRUE(wait_for([&] {
-    return server->errors().find("no snapshot that can be read") != std::string::npos;
-  })) << server->Story();
-  usleep(500000);
-  server->Signal(SIGTERM);
-  ASSERT_TRUE(server->Wait(kPatience));
-  EXPECT_EQ(server->status(), 1) << server->Story();
-  EXPECT_NE(server->errors().find("the other rooms go on"), std::string::npos) << server->Story();
-}
-
-TEST_F(Resume, RoomsThatDemandedTokensAreNotOpenedByASlip) {
-  SEAM_INSIDE_ONLY();
-  folder_.Write("yard.toml", kYard);
-  Program keys({BuiltProgram("seam-token"), "--make-key", "--key", folder_ / "op.key"});
-  ASSERT_TRUE(keys.Wait(kPatience) && keys.status() == 0) << keys.Story();
-  Program server(Server({folder_ / "yard.toml", "--state", State(), "--wait", "0", "--token-key",
-                         folder_ / "op.key"}));
-  ASSERT_TRUE(WaitForLog([](const Recording& r) { return r.last_tick > 10; })) << server.Story();
-  server.Signal(SIGTERM);
-  ASSERT_TRUE(server.Wait(kPatience));
-  Program open(Server({"--resume", State()}));
-  ASSERT_TRUE(open.Wait(kPatience));
-  EXPECT_EQ(open.status(), 2) << open.Story();
-  EXPECT_NE(open.errors().find("demand tokens: --token-key"), std::string::npos) << open.Story();
-}
-
 TEST_F(Resume, ARoomRunsOnWithoutAStoreThatCannotBeWritten) {
   SEAM_INSIDE_ONLY();
   folder_.Write("cats.db", std::string(3000, 'c'));
@@ -326,40 +163,6 @@ TEST_F(Resume, ARoomRunsOnWithoutAStoreThatCannotBeWritten) {
   EXPECT_NE(server.errors().find("not a database; the room runs on"), std::string::npos)
       << server.Story();
   EXPECT_NE(server.errors().find("120 ticks"), std::string::npos) << server.Story();
-}
-
-/// A room of 0.5 s that --duration 0 has kept for longer.
-TEST_F(Resume, ARoomThatIsOlderThanItsScenesDurationGoesOn) {
-  SEAM_INSIDE_ONLY();
-  folder_.Write("short.toml", "duration = 0.5\n" + std::string(kYard));
-  const auto without_duration = [&](std::vector<std::string> words) {
-    const auto flag = std::find(words.begin(), words.end(), "--duration");
-    words.erase(flag, flag + 2);
-    return words;
-  };
-  const auto older_than = [&](std::size_t sessions, std::int64_t tick) {
-    return WaitForLog([&](const Recording& r) {
-      const View* const view = LastView(r, 0);
-      return r.sessions.size() == sessions && view != nullptr && view->tick > tick;
-    });
-  };
-  Program first(Server({folder_ / "short.toml", "--state", State(), "--wait", "0"}));
-  ASSERT_TRUE(older_than(1, 60)) << first.Story();
-  first.Signal(SIGKILL);
-  ASSERT_TRUE(first.Wait(kPatience));
-  Program second(without_duration(Server({"--resume", State()})));
-  ASSERT_TRUE(older_than(2, 150)) << second.Story();
-  second.Signal(SIGTERM);
-  ASSERT_TRUE(second.Wait(kPatience));
-  EXPECT_EQ(second.status(), 0) << second.Story();
-  EXPECT_NE(second.errors().find("Ctrl-C ends it"), std::string::npos) << second.Story();
-  auto words = Server({"--resume", State()});
-  *(std::find(words.begin(), words.end(), "--duration") + 1) = "1";
-  Program third(words);
-  ASSERT_TRUE(third.Wait(kPatience));
-  EXPECT_EQ(third.status(), 0) << third.Story();
-  EXPECT_NE(third.errors().find("room main is over"), std::string::npos) << third.Story();
-  EXPECT_NE(third.errors().find("; then 0 s"), std::string::npos) << third.Story();
 }
 
 TEST_F(Resume, MistakesAreOneLine) {
