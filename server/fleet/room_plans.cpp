@@ -128,7 +128,12 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
 /// A kept room that still waited for its players has no snapshot: it begins anew, with the scene
 /// and the method of its log, which is put aside.
 RoomPlan PlanOfUnbegun(const Flags& f, const std::string& name, int index, int rooms) {
-  const Room room = ReadRecording(StateLogOf(f.resume, name), name).room;
+  const Recording log = ReadRecording(StateLogOf(f.resume, name), name);
+  const Room& room = log.room;
+  if (log.last_tick > 0) {
+    throw OperatorError(f.resume + ": room " + name + " has " + std::to_string(log.last_tick) +
+                        " ticks in its log, and no snapshot to go on from");
+  }
   RoomPlan plan;
   plan.scene = ParseScene(room.scene_text, room.scene_name);
   plan.config = ConfigOf(room);
