@@ -148,7 +148,9 @@ int Serve(const Flags& f) {
   PrepareFolders(f);
   std::vector<std::string> left_out;
   std::vector<RoomPlan> plans = MakePlans(f, KeyOfLogs(f).get(), member.get(), &left_out);
-  for (const std::string& line : left_out) PrintError("seam-server", line);
+  for (const std::string& line : left_out) {
+    PrintError("seam-server", line + "; the other rooms go on");
+  }
   if (!f.summary.empty()) RequireOutput(f.summary, f.force, f.scenes);
   shared = std::make_shared<const Shared>(MakeShared(f));
   for (RoomPlan& plan : plans) {

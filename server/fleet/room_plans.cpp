@@ -203,11 +203,10 @@ std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key, FleetMemb
       try {
         plans.push_back(PlanOfKept(f, log_key, name, r, rooms, member));
       } catch (const OperatorError& error) {
-        if (rooms == 1) throw;
-        left_out->push_back(std::string(error.what()) + "; the other rooms go on");
+        left_out->push_back(error.what());
       }
     }
-    if (plans.empty() && !left_out->empty()) throw OperatorError(left_out->front());
+    if (left_out->size() == names.size() && !names.empty()) throw OperatorError(left_out->front());
     return plans;
   }
   if (f.scenes.empty()) throw OperatorError(WhichScene());
