@@ -114,13 +114,18 @@ constexpr std::uint64_t kHashWithoutAges = 0x8e3b87bafb80c4b7;
 constexpr std::size_t kViewHeadBytes = 58, kViewBodyBytes = 31;
 /// The bytes of an age, the last field of each body.
 constexpr std::size_t kViewAgeBytes = 4;
+/// Type hash of views without `unmoved`, up to protocol 17, and the bytes of that, a view's last.
+constexpr std::uint64_t kHashWithoutUnmoved = 0xb8a9d0d37dae25e1;
+constexpr std::size_t kViewUnmovedBytes = 2;
 /// Type hash of events that are only a text, up to version 0.25.
 constexpr std::uint64_t kHashWithoutKind = 0x71e7d8d436202ff5;
 /// Bytes of the fields of an event after its text: kind, five ids, value.
 constexpr std::size_t kEventKindBytes = 1, kEventIdsBytes = 20, kEventValueBytes = 8;
 
 /// Bytes at a message's end that its form without a session lacks, too.
-std::size_t YoungerBytes(const View& view) { return kViewAgeBytes * view.id.size(); }
+std::size_t YoungerBytes(const View& view) {
+  return kViewAgeBytes * view.id.size() + kViewUnmovedBytes;
+}
 std::size_t YoungerBytes(const Event&) {
   return kEventKindBytes + kEventIdsBytes + kEventValueBytes;
 }
@@ -186,12 +191,16 @@ std::uint64_t WireHash() {
   return static_cast<std::uint64_t>(Wire<Message>::Type::getHash());
 }
 
-/// Puts ages of 0 behind the bodies of a view's message that has none. By the size: if the number
-/// of bodies that the message gives is another, it does not decode.
+/// Puts `unmoved` of 0 behind a view's message that has none.
+void AppendUnmoved(Bytes* view) { view->resize(view->size() + kViewUnmovedBytes, 0); }
+
+/// Puts ages of 0 behind the bodies of a view's message that has none, and `unmoved`. By the size:
+/// if the number of bodies that the message gives is another, it does not decode.
 void AppendAges(Bytes* view) {
   const std::size_t bodies =
       (std::max(view->size(), kViewHeadBytes) - kViewHeadBytes) / kViewBodyBytes;
   view->resize(view->size() + kViewAgeBytes * bodies, 0);
+  AppendUnmoved(view);
 }
 
 /// Puts kind 0, ids of -1 and value 0 behind the text of an event.
@@ -262,6 +271,8 @@ const Decoder* FindDecoder(ByteView bytes) {
     SEAM_MESSAGES(SEAM_MESSAGE_DECODER)
 #undef SEAM_MESSAGE_DECODER
     all[kHashWithoutAges] = {DecodeOlder<View, AppendAges>, true, true, kEncodedBytesMax<View>};
+    all[kHashWithoutUnmoved] = {DecodeOlder<View, AppendUnmoved>, true, true,
+                                kEncodedBytesMax<View>};
     all[kHashWithoutKind] = {DecodeOlder<Event, AppendKind>, true, true, kEncodedBytesMax<Event>};
     return all;
   }();

@@ -24,6 +24,7 @@ static_assert(58 + 35 * kViewBodiesMax <= kBusMessageBytesMax);
 
 /// Most parts of a view: 65 535 bodies in messages of kViewBodiesMax need 35.
 constexpr std::int32_t kViewPartsMax = 40;
+constexpr int kViewUnmovedMax = 960;  ///< View::unmoved; a second's at most
 static_assert(65535 <= kViewBodiesMax * kViewPartsMax);
 /// Most ticks in one Inputs message.
 constexpr std::size_t kInputsMax = 64;

@@ -60,7 +60,8 @@
   X(Meta, meta_t, kBusRoom, "meta", m.utime, m.session, m.sequence, m.tick, m.kind, m.id, m.key,   \
     m.value)                                                                                       \
   X(View, view_t, kBusPeer, "view", m.utime, m.session, m.sequence, m.peer, m.tick, m.revision,    \
-    m.part, m.parts, m.id, m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin, m.age)      \
+    m.part, m.parts, m.id, m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin, m.age,      \
+    m.unmoved)                                                                                     \
   X(Impacts, impacts_t, kBusPeer, "impacts", m.utime, m.session, m.sequence, m.peer, m.tick,       \
     m.id_a, m.id_b, m.x, m.y, m.dv)                                                                \
   X(Strands, strands_t, kBusPeer, "strands", m.utime, m.session, m.sequence, m.peer, m.tick,       \

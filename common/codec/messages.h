@@ -19,7 +19,7 @@
 namespace seam {
 
 /// Raised when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 17;
+constexpr std::int32_t kProtocolVersion = 18;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 
@@ -294,6 +294,7 @@ struct View {
   std::vector<float> x, y, angle;       ///< m, m, rad (unwrapped): as displayed
   std::vector<float> vx, vy, spin;      ///< m/s, m/s, rad/s: simulated
   std::vector<float> age;               ///< ticks, the pose is that of so long before `tick`
+  std::int16_t unmoved = 0;  ///< ticks just before `tick` that showed what the view before shows
 };
 constexpr std::int8_t kRoleRemote = 0, kRoleSecondary = 1, kRoleAuthority = 2;
 

@@ -213,7 +213,8 @@ bool Valid(const View& m) {
          Lengths(m.id.size(), m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin, m.age) &&
          Ascending(m.id) && AllWithin(m.role, kRoleRemote, kRoleAuthority) &&
          AllWithin(m.authority, 0, kPeersMax - 1) &&
-         Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin) && AllWithin(m.age, 0, kTickMax);
+         Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin) && AllWithin(m.age, 0, kTickMax) &&
+         Within(m.unmoved, 0, kViewUnmovedMax);
 }
 
 bool Valid(const Impacts& m) {

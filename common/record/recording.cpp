@@ -279,12 +279,31 @@ bool RecordingBuilder::KeepWhole(View& view) {
     ++recording_.undecodable;  // the parts do not fit together
     return false;
   }
+  KeepUnmoved(view);
   const bool first = recording_.last_tick < 0;
   recording_.first_tick = first ? view.tick : std::min(recording_.first_tick, view.tick);
   recording_.last_tick = std::max(recording_.last_tick, view.tick);
   if (heard_us_ >= 0) recording_.view_us[view.peer][view.tick] = heard_us_;
   recording_.views[view.peer][view.tick] = std::move(view);
   return true;
+}
+
+void RecordingBuilder::KeepUnmoved(const View& view) {
+  auto& views = recording_.views[view.peer];
+  const auto before = views.find(view.tick - view.unmoved - 1);
+  if (view.unmoved == 0 || before == views.end()) return;
+  auto& times = recording_.view_us[view.peer];
+  const auto heard = times.find(before->first);
+  for (int i = 1; i <= view.unmoved; ++i) {
+    View same = before->second;
+    same.tick += i;
+    same.utime += (view.utime - same.utime) * i / (view.unmoved + 1);
+    same.unmoved = 0;
+    if (heard != times.end() && heard_us_ >= 0) {
+      times[same.tick] = heard->second + (heard_us_ - heard->second) * i / (view.unmoved + 1);
+    }
+    views.emplace(same.tick, std::move(same));
+  }
 }
 
 Recording& RecordingBuilder::recording() {

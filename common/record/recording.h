@@ -126,6 +126,8 @@ class RecordingBuilder {
   bool Keep(Audit& audit);
   bool Keep(Divergence& divergence);
   bool KeepWhole(View& view);
+  /// Keeps the views before this one that were not sent, as they show what the last one does.
+  void KeepUnmoved(const View& view);
   void AddScene();
   void DropStrayTicks();
 

@@ -31,7 +31,7 @@ constexpr MessageBytes kMetaBytes{34, 10};
 constexpr MessageBytes kInputsBytes{38, 4};
 constexpr MessageBytes kChunkBytes{22, 1};
 constexpr MessageBytes kEditBytes{79, 1};  ///< per byte of text; it has at most five numbers
-constexpr MessageBytes kViewBytes{50, 35};
+constexpr MessageBytes kViewBytes{52, 35};
 constexpr MessageBytes kImpactsBytes{38, 20};
 constexpr MessageBytes kStrandsBytes{38, 10};
 constexpr MessageBytes kRoomBytes{83, 1};  ///< per byte of any of its texts

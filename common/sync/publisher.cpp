@@ -1,6 +1,7 @@
 #include "common/sync/publisher.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "common/record/chain_check.h"
@@ -9,6 +10,9 @@
 namespace seam {
 namespace {
 
+/// A view that shows what the one before it does is published after so long.
+constexpr std::int64_t kUnmovedUs = 1000000;
+
 /// Bytes of a seal in a log, without channel and ticks.
 constexpr std::size_t kSealBytes = kLogHeaderBytes + 58;
 
@@ -16,6 +20,14 @@ template <typename T>
 std::vector<T> Slice(const std::vector<T>& v, std::size_t first, std::size_t last) {
   return std::vector<T>(v.begin() + static_cast<std::ptrdiff_t>(first),
                         v.begin() + static_cast<std::ptrdiff_t>(last));
+}
+
+bool ShowsTheSame(const View& a, const View& b) {
+  const auto shown = [](const View& v) {
+    return std::tie(v.revision, v.id, v.role, v.authority, v.x, v.y, v.angle, v.vx, v.vy, v.spin,
+                    v.age);
+  };
+  return shown(a) == shown(b);
 }
 
 }  // namespace
@@ -49,6 +61,7 @@ void Publisher::NoteTick(std::uint64_t hash) {
 
 void Publisher::EndTick(std::int64_t utime, int peer, std::int64_t tick, bool keep) {
   if (!recorder_.listening()) return;
+  if (keep) PublishUnmoved();
   pending_ = false;
   // What came after the step is the last tick's; what came in a call without a step, the next
   // one's.
@@ -101,28 +114,54 @@ template void Publisher::Publish(Summary);
 
 void Publisher::Publish(const View& message) {
   if (!recorder_.listening()) return;
-  const std::size_t count = message.id.size();
+  const bool next = !shown_.id.empty() && message.tick == shown_.tick + unmoved_ + 1;
+  if (!next) PublishUnmoved();
+  if (next && ShowsTheSame(message, shown_) && message.utime - shown_.utime < kUnmovedUs &&
+      unmoved_ < kViewUnmovedMax) {
+    ++unmoved_;
+    unmoved_us_ = message.utime;
+    return;
+  }
+  View view = message;
+  view.unmoved = static_cast<std::int16_t>(next ? unmoved_ : 0);
+  PublishNow(view);
+}
+
+void Publisher::PublishUnmoved() {
+  if (unmoved_ == 0) return;
+  View view = shown_;
+  view.utime = unmoved_us_;
+  view.tick += unmoved_;
+  view.unmoved = static_cast<std::int16_t>(unmoved_ - 1);
+  PublishNow(view);
+}
+
+void Publisher::PublishNow(const View& view) {
+  shown_ = view;
+  unmoved_ = 0;
+  const std::size_t count = view.id.size();
   const std::size_t parts = std::max<std::size_t>(1, (count + kViewBodiesMax - 1) / kViewBodiesMax);
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t a = count * part / parts;
     const std::size_t b = count * (part + 1) / parts;
     View piece;
-    piece.utime = message.utime;
-    piece.peer = message.peer;
-    piece.tick = message.tick;
-    piece.revision = message.revision;
+    piece.utime = view.utime;
+    piece.peer = view.peer;
+    piece.tick = view.tick;
+    piece.revision = view.revision;
     piece.part = static_cast<std::int32_t>(part);
     piece.parts = static_cast<std::int32_t>(parts);
-    piece.id = Slice(message.id, a, b);
-    piece.role = Slice(message.role, a, b);
-    piece.authority = Slice(message.authority, a, b);
-    piece.x = Slice(message.x, a, b);
-    piece.y = Slice(message.y, a, b);
-    piece.angle = Slice(message.angle, a, b);
-    piece.vx = Slice(message.vx, a, b);
-    piece.vy = Slice(message.vy, a, b);
-    piece.spin = Slice(message.spin, a, b);
-    piece.age = Slice(message.age, a, b);
+    piece.id = Slice(view.id, a, b);
+    piece.role = Slice(view.role, a, b);
+    piece.authority = Slice(view.authority, a, b);
+    piece.x = Slice(view.x, a, b);
+    piece.y = Slice(view.y, a, b);
+    piece.angle = Slice(view.angle, a, b);
+    piece.vx = Slice(view.vx, a, b);
+    piece.vy = Slice(view.vy, a, b);
+    piece.spin = Slice(view.spin, a, b);
+    piece.age = Slice(view.age, a, b);
+    piece.unmoved = view.unmoved;
     Number(piece);
   }
 }

@@ -24,7 +24,8 @@ class Publisher {
   /// Requires a message that travels on the bus (message_list.h).
   template <class Message>
   void Publish(Message message);
-  /// Splits views of more than kViewBodiesMax bodies.
+  /// Splits views of more than kViewBodiesMax bodies. A view that shows what the last one published
+  /// does waits: the next that moves counts it (`unmoved`), and one a second is published.
   void Publish(const View& message);
   /// Notes that the next messages come after the beginning of a tick's step (server only).
   void NoteStep() { before_step_ = NewMessages(); }
@@ -33,6 +34,8 @@ class Publisher {
   /// Seals all that was published. The seal is kept when it is little beside the messages (or
   /// `keep`), and the next one is then of later messages only. `peer`: this one.
   void EndTick(std::int64_t utime, int peer, std::int64_t tick, bool keep = false);
+  /// Publishes the last view if it waits, before the peer leaves or pauses.
+  void PublishUnmoved();
   /// True if something was published since the last call of EndTick.
   bool pending() const { return pending_; }
 
@@ -42,6 +45,7 @@ class Publisher {
  private:
   template <class Message>
   void Number(Message& message);
+  void PublishNow(const View& view);
   /// Messages that belong to no tick yet.
   std::int32_t NewMessages() const { return seal_.messages - sealed_; }
 
@@ -49,6 +53,9 @@ class Publisher {
   std::string room_;
   std::int64_t session_;
   std::map<std::string, std::int64_t> sequence_;
+  View shown_;                     // the last view that was published; without ticks, none
+  int unmoved_ = 0;                // ticks since then that showed the same
+  std::int64_t unmoved_us_ = 0;    // time of the last of them
   LogSeal seal_;                   // of the messages since the last one that was kept
   std::size_t bytes_ = 0;          // of these in a log
   std::vector<SealedTick> ticks_;  // since then
