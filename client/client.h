@@ -71,6 +71,10 @@ class Client {
   /// Says where the room is now, as of the fleet's directory: the client goes there when it joins,
   /// or when its server is silent and `epoch` is later than that server's.
   void Suggest(const Address& server, std::int32_t epoch) { suggested_ = {server, epoch}; }
+  /// Publishes the last view if it waits (Publisher).
+  void PublishUnmoved() {
+    if (publisher_ != nullptr) publisher_->PublishUnmoved();
+  }
   /// Says goodbye; call Tick no more.
   void Shutdown(std::int64_t now_us);
 

@@ -51,6 +51,7 @@ void Client::Join(std::int64_t now_us) {
 }
 
 void Client::Forget(std::int64_t now_us) {
+  PublishUnmoved();
   link_.reset();
   unpacker_.reset();
   packer_.reset();

@@ -66,6 +66,7 @@ void Client::Flush(std::int64_t now_us) {
 }
 
 void Client::Shutdown(std::int64_t now_us) {
+  PublishUnmoved();
   if (link_ == nullptr || closed_) return;
   SayGoodbye(now_us, link_.get(), [&] { Flush(now_us); });
   net_.Flush();

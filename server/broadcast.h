@@ -49,6 +49,11 @@ class Broadcast {
   void Publish(const Message& message) {
     if (publisher_.listening() && !muted_) publisher_.Publish(message);
   }
+  /// Publishes on the bus what the log has already.
+  template <class Message>
+  void Repeat(const Message& message) {
+    if (publisher_.listening() && !muted_) publisher_.Repeat(message);
+  }
   /// Publishes what the server has taken from a client, or into its own table (peer 0).
   template <class Message>
   void NoteAccepted(std::int64_t now_us, int peer, int player, const Message& message) {
@@ -60,6 +65,7 @@ class Broadcast {
     accepted.data = Encode(message);
     publisher_.Publish(accepted);
   }
+  void PublishUnmoved() { publisher_.PublishUnmoved(); }
   /// While muted publishes nothing: a log has it already.
   void Mute(bool muted) { muted_ = muted; }
   bool muted() const { return muted_; }

@@ -16,13 +16,15 @@ class RoomFeed {
  public:
   explicit RoomFeed(const Room& room);
   /// Publishes what is due: the Room each second, and if its scene is too long for a message, the
-  /// scene's parts after it, one at a time, so that no burst overruns a logger. To be called often.
+  /// scene's parts after it, one at a time, so that no burst overruns a logger. One in ten is
+  /// logged. To be called often.
   void Publish(std::int64_t now_us, Broadcast& broadcast);
 
  private:
   Room room_;                     // without a scene that is too long
   std::vector<ScenePart> parts_;  // of that scene
   std::size_t next_ = 0;          // the part to publish next
+  int round_ = -1;                // how often all of them were published before
   std::int64_t room_us_ = -1000000000, part_us_ = -1000000000;
 };
 

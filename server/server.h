@@ -110,6 +110,8 @@ class Server {
   std::int64_t wake_us() const;  ///< the same; INT64_MAX also while it waits for inputs
   /// Publishes the room's load.
   void PublishLoad(const Load& load) { broadcast_.Publish(load); }
+  /// Publishes the last view if it waits (Publisher).
+  void PublishUnmoved() { broadcast_.PublishUnmoved(); }
   /// Says goodbye to everyone. Tick must not be called afterwards.
   void Shutdown(std::int64_t now_us, const std::string& reason);
   /// Gives the room away: what is saved from now on is of this epoch. Redirect or Forsake follows.

@@ -223,6 +223,14 @@ void Cluster::Run() {
   RunToTick(static_cast<std::int64_t>(seconds * scene_.solver.tick_hz));
 }
 
+const Recording& Cluster::recording() {
+  server_->PublishUnmoved();
+  for (const Peer& peer : clients_) {
+    if (peer.client != nullptr) peer.client->PublishUnmoved();
+  }
+  return recorder_.memory.builder.recording();
+}
+
 void Cluster::Kill(int client) {
   Peer& peer = clients_[static_cast<std::size_t>(client)];
   if (peer.client != nullptr) peer.key = peer.client->key();

@@ -93,7 +93,7 @@ class Cluster {
   std::int64_t key(int i) const { return clients_[static_cast<std::size_t>(i)].key; }
   int client_count() const { return static_cast<int>(clients_.size()); }
   std::int64_t now_us() const { return now_us_; }
-  const Recording& recording() { return recorder_.memory.builder.recording(); }
+  const Recording& recording();
   ImpairedNet& server_net() { return *server_net_; }
   const Scene& scene() const { return scene_; }
   /// Makes a raw endpoint of the network, for hostile tests.
@@ -138,6 +138,7 @@ class Cluster {
   ClusterConfig config_;
   Scene scene_;
   MemoryNetwork network_;
+  std::int64_t now_us_ = 1000000;
   Tap recorder_{*this};
   Address server_address_{0x7f000001, 7777};
   std::unique_ptr<Net> server_endpoint_;
@@ -147,7 +148,6 @@ class Cluster {
   std::unique_ptr<Server> server_;
   std::uint64_t server_restarts_ = 0;
   std::vector<Peer> clients_;
-  std::int64_t now_us_ = 1000000;
   std::uint16_t next_port_ = 20000;
   double server_cpu_us_ = 0, client_cpu_us_ = 0;
   std::int64_t server_busy_until_us_ = 0;

@@ -84,7 +84,7 @@ bool Valid(const Chunk& m) {
 }
 
 bool Valid(const Room& m) {
-  return Time(m.utime) && m.sequence >= 0 && IsPrintable(m.room, kLabelBytesMax) &&
+  return Time(m.utime) && m.sequence >= kSaidAgain && IsPrintable(m.room, kLabelBytesMax) &&
          IsPrintable(m.scene_name, kLabelBytesMax) &&
          IsPrintable(m.scene_text, kSceneTextBytesMax, true) &&
          IsPrintable(m.mode, kLabelBytesMax) && IsPrintable(m.reconcile, kLabelBytesMax) &&
@@ -95,8 +95,8 @@ bool Valid(const Room& m) {
 
 bool Valid(const ScenePart& m) {
   const bool last = m.part == m.parts - 1;
-  return Time(m.utime) && m.session != 0 && m.sequence >= 0 && Within(m.parts, 1, kScenePartsMax) &&
-         Within(m.part, 0, m.parts - 1) &&
+  return Time(m.utime) && m.session != 0 && m.sequence >= kSaidAgain &&
+         Within(m.parts, 1, kScenePartsMax) && Within(m.part, 0, m.parts - 1) &&
          Within(m.data.size(), last ? 1 : kScenePartBytes, kScenePartBytes);
 }
 

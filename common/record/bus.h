@@ -28,6 +28,9 @@ class Bus : public Recorder {
   /// Publishes a message. Drops and counts messages above kBusMessageBytesMax, channels above
   /// kChannelBytesMax, and failed sends. `utime` is not sent: LCM has no time on the wire.
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
+  void Repeat(const std::string& channel, std::int64_t utime, ByteView message) override {
+    Publish(channel, utime, message);
+  }
   /// Returns the number of unpublished messages plus handler calls that threw.
   std::int64_t failures() const override;
 

@@ -27,6 +27,16 @@ void AddRange(std::int64_t after_tick, std::int64_t tick, bool forged,
   all->push_back({first, std::max(first, tick), false, forged, false, channels});
 }
 
+/// True for a message that its publisher repeats, which is in no seal.
+bool IsSaidAgain(const LogEvent& event) {
+  if (event.channel.find(std::string(".") + MessageTraits<Room>::kKind) == std::string::npos)
+    return false;
+  const AnyMessage any = Decode(event.data);
+  if (const auto* room = std::get_if<Room>(&any)) return room->sequence == kSaidAgain;
+  const auto* part = std::get_if<ScenePart>(&any);
+  return part != nullptr && part->sequence == kSaidAgain;
+}
+
 }  // namespace
 
 std::int32_t ChainedCrc(std::int32_t crc, const std::string& channel, ByteView message) {
@@ -74,7 +84,7 @@ void ChainCheck::Note(ByteView header, const LogEvent& event) {
   if (keyed_) AddEvent(header, event, 0, &*keyed_);
   ++events_;
   channels_.insert(event.channel);
-  if (seal || room.empty()) return;
+  if (seal || room.empty() || IsSaidAgain(event)) return;
   const int peer = PublisherOfChannel(event.channel);
   Heard& heard = heard_[{room, SessionOf(event.data).value_or(0), peer}];
   ++heard.messages;

@@ -72,7 +72,8 @@ bool RecordingBuilder::Add(const std::string& channel, ByteView message, std::in
             ++recording_.foreign;
             return false;
           }
-          return !IsDuplicate(channel, m.sequence, message) && Keep(m);
+          const bool again = m.sequence == kSaidAgain;
+          return (again || !IsDuplicate(channel, m.sequence, message)) && Keep(m);
         }
       },
       any);
@@ -153,7 +154,7 @@ bool RecordingBuilder::Keep(Room& room) {
     ++recording_.foreign;
     return false;
   }
-  room_sequence_ = room.sequence;
+  room_sequence_ = std::max(room_sequence_, room.sequence);
   if (!has_room_) recording_.room = std::move(room);
   has_room_ = true;
   AddScene();

@@ -209,6 +209,7 @@ void RoomLog::Write(const std::string& channel, LogSeal seal, bool kept) {
     return;
   }
   tick_ = seal.tick;
+  unsynced_ = unsynced_ || !starts_.empty();
   const auto events = static_cast<std::int32_t>(starts_.size());
   for (std::int32_t i = 0; i < events; ++i) {
     SetEventNumber(&buffer_, starts_[static_cast<std::size_t>(i)], end_.number + i);
@@ -282,9 +283,10 @@ void RoomLog::Fail(int error) {
 void RoomLog::Sync(bool at_once) {
   if (disk_ == nullptr) return;
   const std::int64_t now_us = SteadyClockUs();
-  const bool due = now_us - synced_us_ >= kSyncUs && !syncs_->syncing.exchange(true);
+  const bool due = unsynced_ && now_us - synced_us_ >= kSyncUs && !syncs_->syncing.exchange(true);
   if (!due && !at_once) return;
   synced_us_ = now_us;
+  unsynced_ = false;
   KeepSeal();
   disk_->Do([file = file_, syncs = syncs_] {
     if (fdatasync(fileno(file.get())) != 0) syncs->error = errno;

@@ -69,8 +69,8 @@ class RoomLog : public Recorder {
   /// disk thread syncs it before its next job.
   LogPlace Pin();
 
-  /// Time between two syncs, us; they begin with a tick. More is lost with the power, less has more
-  /// seals in the log, 0.1 kB each.
+  /// Time between two syncs, us; they begin with a tick, and wait for an event. More is lost with
+  /// the power, less has more seals in the log, 0.1 kB each.
   static constexpr std::int64_t kSyncUs = 40000;
 
  private:
@@ -115,6 +115,7 @@ class RoomLog : public Recorder {
   std::int32_t own_seals_ = 0;
   std::int64_t last_utime_ = 0;
   std::int64_t synced_us_ = 0;
+  bool unsynced_ = false;  // events were written since then
   std::int64_t failures_ = 0;
 };
 

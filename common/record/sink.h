@@ -29,6 +29,9 @@ class Sink : public Recorder {
        std::int64_t segment_bytes = 0);
 
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
+  void Repeat(const std::string& channel, std::int64_t utime, ByteView message) override {
+    if (bus_ != nullptr) bus_->Repeat(channel, utime, message);
+  }
   /// Ends the tick on the bus and in the log, which is then with the operating system.
   void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override;
   std::int64_t failures() const override;

@@ -95,6 +95,18 @@ void Publisher::Publish(Message message) {
   Number(message);
 }
 
+template <class Message>
+void Publisher::Repeat(Message message) {
+  static_assert(MessageTraits<Message>::kTravels == Travels::kBusRoom);
+  if (!recorder_.listening()) return;
+  message.session = session_;
+  message.sequence = kSaidAgain;
+  recorder_.Repeat(ChannelName(room_, MessageTraits<Message>::kKind), message.utime,
+                   Encode(message));
+}
+
+template void Publisher::Repeat(Room);
+template void Publisher::Repeat(ScenePart);
 template void Publisher::Publish(Room);
 template void Publisher::Publish(ScenePart);
 template void Publisher::Publish(Inputs);

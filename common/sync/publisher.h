@@ -17,6 +17,10 @@ class Publisher {
   /// `room` and `session`: as in the room's Room message.
   Publisher(Recorder& recorder, std::string room, std::int64_t session)
       : recorder_(recorder), room_(std::move(room)), session_(session) {}
+  /// Publishes the view that waits.
+  ~Publisher() { PublishUnmoved(); }
+  Publisher(const Publisher&) = delete;
+  Publisher& operator=(const Publisher&) = delete;
 
   /// False if published messages reach no listener.
   bool listening() const { return recorder_.listening(); }
@@ -24,6 +28,9 @@ class Publisher {
   /// Requires a message that travels on the bus (message_list.h).
   template <class Message>
   void Publish(Message message);
+  /// Publishes a message once more, for listeners who came later: logs do not keep it.
+  template <class Message>
+  void Repeat(Message message);
   /// Splits views of more than kViewBodiesMax bodies. A view that shows what the last one published
   /// does waits: the next that moves counts it (`unmoved`), and one a second is published.
   void Publish(const View& message);
@@ -34,7 +41,7 @@ class Publisher {
   /// Seals all that was published. The seal is kept when it is little beside the messages (or
   /// `keep`), and the next one is then of later messages only. `peer`: this one.
   void EndTick(std::int64_t utime, int peer, std::int64_t tick, bool keep = false);
-  /// Publishes the last view if it waits, before the peer leaves or pauses.
+  /// Publishes the last view if it waits, so that all ticks until now can be read.
   void PublishUnmoved();
   /// True if something was published since the last call of EndTick.
   bool pending() const { return pending_; }

@@ -199,8 +199,8 @@ TEST(RoomLog, AFullDiskLeavesWholeTicks) {
   EXPECT_EQ(found.skipped_bytes, 0);
 }
 
-/// Writes the log as a stock logger would have heard it: with other numbers and times, and without
-/// the events that `lost` names.
+/// Writes the log as a stock logger would have heard it: with other numbers and times, without the
+/// events that `lost` names, and with the rooms that a server repeats.
 void Capture(const std::string& from, const std::string& to, const std::string& lost,
              std::int64_t flip_event) {
   LogReader reader(from);
@@ -210,6 +210,12 @@ void Capture(const std::string& from, const std::string& to, const std::string& 
     if (!lost.empty() && event.channel == lost && n % 7 == 0) continue;
     if (n == flip_event) event.data[40] ^= 4;
     writer.Publish(event.channel, 5000000 + n, event.data);
+    Room again;
+    again.session = SessionOf(event.data).value_or(0);
+    again.sequence = kSaidAgain;
+    if (n % 5 == 0 && again.session != 0) {
+      writer.Publish("SEAM.r.scene", 5000000 + n, Encode(again));
+    }
   }
 }
 
