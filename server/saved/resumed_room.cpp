@@ -8,6 +8,8 @@
 #include "common/base/check.h"
 #include "common/base/files/list_folder.h"
 #include "common/base/names.h"
+#include "common/codec/codec.h"
+#include "common/record/log_file.h"
 #include "common/record/room_log.h"
 #include "common/record/segments/log_segments.h"
 #include "server/saved/snapshot_file.h"
@@ -37,6 +39,23 @@ std::string PutAside(const std::string& log, std::int32_t from) {
     kept += "; " + PutAside(segment.path);
   }
   return kept;
+}
+
+/// True if a log is whole and has no tick: its room was killed while it waited for its players.
+bool OnlyWaited(const std::string& log) {
+  std::error_code error;
+  if (fs::file_size(log, error) == 0 && !error) return true;
+  try {
+    LogReader reader(log);
+    for (LogEvent event; reader.Next(&event);) {
+      const AnyMessage any = Decode(event.data);
+      const auto* seal = std::get_if<LogSeal>(&any);
+      if (seal != nullptr && seal->tick > 0) return false;
+    }
+    return reader.skipped_bytes() == 0 && reader.damage().empty();
+  } catch (const OperatorError&) {  // not a log
+    return false;
+  }
 }
 
 }  // namespace
@@ -151,8 +170,11 @@ void PrepareStateFolder(const std::string& folder, const std::string& room, bool
   }
   for (const SnapshotName& file : snapshots) fs::remove(file.path, error);
   for (const fs::path& log : logs) {
-    if (force) fs::remove(log, error);
-    if (!force) PutAside(log);
+    if (force || OnlyWaited(log.string())) {
+      fs::remove(log, error);
+    } else {
+      PutAside(log);
+    }
   }
 }
 

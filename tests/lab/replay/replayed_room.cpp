@@ -37,12 +37,15 @@ LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session) {
   const Room& room = logged.recording.room;
   LogReader reader(path);
   TickSplitter splitter;
-  bool accepts = false;  // as servers of 0.26 and later say
+  std::int64_t reading = 0;  // a session
+  bool accepts = false;      // as servers of 0.26 and later say
   for (LogEvent event; reader.Next(&event);) {
+    const std::int64_t of = SessionOf(event.data).value_or(0);
     const bool ours = RoomOfChannel(event.channel) == room.room &&
                       PublisherOfChannel(event.channel) == 0 &&
-                      SessionOf(event.data).value_or(0) == room.session;
+                      (session.empty() || of == room.session);
     if (!ours) continue;
+    if (std::exchange(reading, of) != of) splitter = TickSplitter();
     AnyMessage any = Decode(event.data);
     const auto* seal = std::get_if<LogSeal>(&any);
     accepts = accepts || std::holds_alternative<Accepted>(any);
@@ -50,8 +53,14 @@ LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session) {
       splitter.Add(std::move(any));
       continue;
     }
-    for (TickMessages& tick : splitter.End(*seal)) logged.ticks.push_back(std::move(tick));
+    for (TickMessages& tick : splitter.End(*seal)) {
+      // A server that goes on with a room begins a session with the next tick; another room,
+      // with 1.
+      if (tick.tick == 1) logged.ticks.clear();
+      logged.ticks.push_back(std::move(tick));
+    }
   }
+  if (reading != room.session) logged.ticks.clear();
   const std::string why =
       logged.ticks.empty()
           ? accepts ? "is cut off before the first hash of a tick"

@@ -13,13 +13,14 @@
 
 namespace seam {
 
-/// The server's ticks of one session in a log.
+/// The server's ticks of a room in a log: of one session, or of all in which it went on.
 struct LoggedRoom {
   Recording recording;
   std::vector<TickMessages> ticks;  ///< ascending, without gaps
 };
 
-/// Reads a log; `session` as for ReadRecording. Throws OperatorError if it does not hold all ticks
+/// Reads a log; `session` as for ReadRecording, but that "" also takes the sessions before with
+/// which the last one goes on, after --resume. Throws OperatorError if it does not hold all ticks
 /// of the room from the first on, with their hashes: it was not written by --record, --state or
 /// seam-lab of 0.26 or later, or it begins later or has gaps.
 LoggedRoom ReadLoggedRoom(const std::string& path, const std::string& session);

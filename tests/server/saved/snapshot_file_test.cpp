@@ -171,6 +171,24 @@ TEST(SnapshotFile, ARoomThatWasKilledBeforeItBeganIsBegunAnew) {
   EXPECT_TRUE(std::filesystem::exists(log + ".damaged-1")) << "nothing is thrown away";
 }
 
+TEST(SnapshotFile, ALogOfARoomThatOnlyWaitedIsReplaced) {
+  Workspace folder;
+  const std::string path = StateLogOf(folder.path(), "main", 1);
+  const auto write = [&](std::int64_t tick) {
+    RoomLog log(path, true, nullptr);
+    LogSeal seal;
+    seal.session = 5;
+    seal.tick = tick;
+    log.EndTick("SEAM.main.chain.0", seal, true);
+  };
+  write(0);
+  PrepareStateFolder(folder.path(), "main", false);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "nothing has happened in it";
+  write(1);
+  PrepareStateFolder(folder.path(), "main", false);
+  EXPECT_TRUE(std::filesystem::exists(path + ".damaged-1"));
+}
+
 TEST(SnapshotFile, ALogThatIsWrittenNowIsNobodyElses) {
   Workspace folder;
   const std::string path = StateLogOf(folder.path(), "main", 1);
