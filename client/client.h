@@ -133,6 +133,9 @@ class Client {
   /// Speed of the room's clock, per million of real time: below kFullSpeedPpm the server is
   /// overloaded.
   std::int32_t speed_ppm() const { return timeline_.speed_ppm(); }
+  /// Returns why the server does not let this client in, as of its last answer; "" if it did not
+  /// refuse.
+  const std::string& why_refused() const { return why_refused_; }
   /// Sessions that became ready, as the server counts them; all but the first.
   std::int64_t sessions() const { return sessions_; }
   std::int64_t rejoins() const { return std::max<std::int64_t>(0, sessions_ - 1); }
@@ -315,6 +318,7 @@ class Client {
   std::int64_t joining_since_us_ = 0;
   std::int64_t asked_names_us_ = -1;  // -1: did not ask
   std::int64_t refused_us_ = -1;      // time of the first refusal since we began to join
+  std::string why_refused_;           // the reason of the last of them
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;

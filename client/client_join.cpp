@@ -84,6 +84,7 @@ void Client::BeginJoin(std::int64_t now_us) {
   offer_fresh_ = false;
   next_.reset();
   refused_us_ = -1;
+  why_refused_.clear();
   begun_us_ = now_us;
 }
 
@@ -268,6 +269,7 @@ void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
     fatal_ = reason;
     return;
   }
+  why_refused_ = reason;
   // Our own earlier session may still hold the name: retry for a while.
   if (refused_us_ < 0) {
     refused_us_ = now_us;

@@ -166,6 +166,13 @@ Input Both(const Input& a, const Input& b) {
   return both;
 }
 
+/// Says why a client is not in a room.
+std::string NotIn(const Client& client) {
+  if (!client.why_refused().empty()) return "the server refuses: " + client.why_refused();
+  return (client.sessions() == 0 ? "no answer from " : "lost the server ") +
+         ToString(client.server());
+}
+
 int Play(const Flags& f) {
   if (f.server.empty() && f.directory.empty()) {
     throw OperatorError("which server? for example: seam-client 127.0.0.1:7777");
@@ -236,15 +243,13 @@ int Play(const Flags& f) {
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
     if (f.duration_s > 0 && elapsed_s > f.duration_s) {
       if (client.sessions() > 0) break;
-      throw OperatorError(
-          (waiting.empty() ? "no answer from " + ToString(client.server()) : waiting) +
-          " (--duration " + SecondsText(f.duration_s) + ")");
+      throw OperatorError((waiting.empty() ? NotIn(client) : waiting) + " (--duration " +
+                          SecondsText(f.duration_s) + ")");
     }
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
       if (rooms != nullptr && !holder && f.server.empty())
         throw OperatorError("--directory " + f.directory + ": " + rooms->trouble());
-      throw OperatorError((client.sessions() == 0 ? "no answer from " : "lost the server ") +
-                          ToString(client.server()) + "; gave up after " + SecondsText(f.join_s) +
+      throw OperatorError(NotIn(client) + "; gave up after " + SecondsText(f.join_s) +
                           " s (--join-timeout)");
     }
     const std::string state = client.running() ? ProgressText(client, elapsed_s)

@@ -98,6 +98,10 @@ TEST_F(TokenProcesses, AServerWithAnOperatorsKeyLetsInOnlyThoseWithAGoodToken) {
   MakeToken("looks", "operator.key", "bob", {"--watch"});
   EXPECT_EQ(Refused({"--name", "bob"}),
             kRefuses + std::string("a token is needed here: seam-client --token FILE\n"));
+  for (const char* limit : {"--join-timeout", "--duration"}) {  // shorter than a client insists
+    const std::string why = Refused({"--name", "bob", limit, "1"});
+    EXPECT_EQ(why.find(kRefuses + std::string("a token is needed here")), 0u) << why;
+  }
   const std::unique_ptr<Program> ann = Client({"--token", "ann"});
   ASSERT_TRUE(server_->WaitForErrors("ann is here", kPatience)) << server_->Story();
   EXPECT_EQ(Refused({"--token", "ann"}), kRefuses + std::string("the token was used before\n"));
