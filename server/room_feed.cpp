@@ -10,7 +10,7 @@ namespace {
 /// Time between two Rooms on the bus, us.
 constexpr std::int64_t kRoomAgainUs = 1000000;
 /// A log has one of so many rounds, for listeners who come late where it is played.
-constexpr int kRoundsALogged = 10;
+constexpr int kRoundsALogged = 30;
 /// Time between two parts of a scene, us: 3 MB/s, and a logger reads each before the next comes.
 /// The longest scene takes two seconds, and begins again with the Room after that.
 constexpr std::int64_t kScenePartUs = 10000;

@@ -18,14 +18,17 @@ constexpr std::int32_t kIdsMax = 1 << 18;
 /// Most bodies in one States message: 58 + 21 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kStatesBodiesMax = 48;
 static_assert(58 + 21 * kStatesBodiesMax <= kMessageBytesMax);
-/// Most bodies in one View message: 58 + 35 bytes each within kBusMessageBytesMax.
+/// Most bodies in one View message: 60 + 35 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kViewBodiesMax = 1700;
-static_assert(58 + 35 * kViewBodiesMax <= kBusMessageBytesMax);
+static_assert(60 + 35 * kViewBodiesMax <= kBusMessageBytesMax);
 
 /// Most parts of a view: 65 535 bodies in messages of kViewBodiesMax need 35.
 constexpr std::int32_t kViewPartsMax = 40;
-constexpr int kViewUnmovedMax = 960;  ///< View::unmoved; a second's at most
 static_assert(65535 <= kViewBodiesMax * kViewPartsMax);
+constexpr int kViewUnmovedMax = 960;  ///< View::unmoved; a second's at most
+/// `sequence` of a Room or ScenePart that was published before and is repeated: no loss, no seal
+/// and no log counts it.
+constexpr std::int64_t kSaidAgain = -1;
 /// Most ticks in one Inputs message.
 constexpr std::size_t kInputsMax = 64;
 /// Most mechanisms in one Grants message, and most followers in it: 36 + 12 bytes each + 2 bytes a

@@ -23,10 +23,6 @@ constexpr std::int32_t kProtocolVersion = 18;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 
-/// `sequence` of a Room or ScenePart that was published before and is repeated: no loss, no seal
-/// and no log counts it.
-constexpr std::int64_t kSaidAgain = -1;
-
 /// Client -> server, repeated until answered: asks for a room. No version may change these fields.
 struct Hello {
   std::int64_t utime = 0;

@@ -142,8 +142,8 @@ void ChainCheck::CheckBytes(ByteView header, const LogEvent& event, const Seal& 
   sealed_ = sealed_ || (good && seal.tick > 0);
   channels_.insert(event.channel);
   if (good && keyed) {
-    NoteHole(seal);
     CloseDamage(seal.first_tick - 1);
+    NoteHole(seal);
     tick_ = seal.tick;
   } else {  // its tick may be what is damaged: the next good one says where the damage ended
     forged_ = forged_ && good;
@@ -165,8 +165,7 @@ void ChainCheck::NoteHole(const Seal& seal) {
     return;
   }
   const std::int64_t next = server_tick_ + 1;
-  if (!damaged_ && next > 0 && server_session_ == seal.session && seal.messages >= 0 &&
-      seal.first_tick > next) {
+  if (next > 0 && server_session_ == seal.session && seal.messages >= 0 && seal.first_tick > next) {
     bytes_damage_.push_back({next, seal.first_tick - 1, false, false, true, {}});
   }
   server_tick_ = seal.tick;
@@ -177,6 +176,7 @@ void ChainCheck::CloseDamage(std::int64_t last_tick) {
   if (!damaged_) return;
   AddRange(tick_, std::max(tick_ + 1, last_tick), forged_, damaged_channels_, &bytes_damage_);
   damaged_ = false;
+  server_tick_ = -1;  // it may have ended ticks in there
   forged_ = true;
   damaged_channels_.clear();
 }

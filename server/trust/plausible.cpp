@@ -36,7 +36,7 @@ constexpr float kSettlesS = 1;
 constexpr float kRoughTimes = 3;
 /// Distance at which an edit may reach a body in that time though nothing near it is fast, m.
 constexpr float kEditReach = 10;
-/// Velocity that a collision may add though no body near was told to be as fast, m/s.
+/// Speed at which a body may be thrown to and fro where nobody sees it, m/s.
 constexpr float kCollisionVelocity = 5;
 
 /// Distance of a point from the segment between two others.
@@ -53,6 +53,14 @@ bool IsOfCharacter(const World& world, int body) {
   return std::any_of(all.begin(), all.end(), [&](const Character& character) {
     return MechanismOf(world, character.parts[kTorso]) == world.mechanism(body);
   });
+}
+
+/// Returns the moving body that has the part; -1 for none.
+int BodyOf(const World& world, PartId part) {
+  const Composition& made = world.composition();
+  const auto index = static_cast<std::size_t>(part);
+  const int its = index < made.assembly_of_part.size() ? made.assembly_of_part[index] : -1;
+  return its < 0 ? -1 : world.BodyOfId(made.assemblies[static_cast<std::size_t>(its)].id);
 }
 
 float Way(const BodyState& off) { return off.position.norm() + kArm * std::fabs(off.angle); }
@@ -100,7 +108,9 @@ void Plausible::NoteSpeed(int body, std::int64_t tick, float speed) {
 }
 
 float Plausible::SpeedOfLate(int body) const {
-  return std::max(memory_[body].fast, replica_.world().Read(body).velocity.norm());
+  const Memory& memory = memory_[body];
+  return std::max(memory.fast, replica_.world().Read(body).velocity.norm()) +
+         PushedSince(body, accepted_[body].tick);
 }
 
 float Plausible::Seconds(std::int64_t ticks) const {
@@ -176,11 +186,44 @@ void Plausible::NoteEdit(const Edit& edit) {
   if (seat != nullptr && static_cast<std::size_t>(seat->seat) < world.scene().seats.size()) {
     AddMechanism(world.scene().seats[static_cast<std::size_t>(seat->seat)].part, &box, &speed);
   }
+  const PushEdit* const push = edit.As<PushEdit>();
+  const int pushed = push != nullptr ? BodyOf(world, push->part) : -1;
+  if (pushed >= 0) NotePushed(pushed, push->impulse.norm() / world.mass(pushed));
   if (const BlastEdit* const blast = edit.As<BlastEdit>()) {
     const Vec2 reach = Vec2::Constant(blast->radius);
-    box.extend(Box(blast->centre - reach, blast->centre + reach));
+    const Box hit(blast->centre - reach, blast->centre + reach);
+    box.extend(hit);
+    NoteBlast(*blast, hit);
   }
   if (!box.isEmpty()) NoteChanged(box, speed);
+}
+
+void Plausible::NoteBlast(const BlastEdit& blast, const Box& hit) {
+  const World& world = replica_.world();
+  const Composition& made = world.composition();
+  for (int body = 0; body < world.body_count(); ++body) {
+    const int its = made.assembly_of_part[static_cast<std::size_t>(world.id(body))];
+    const float extent = ExtentOf(world, made.assemblies[static_cast<std::size_t>(its)]);
+    if (hit.exteriorDistance(world.Read(body).position) > extent) continue;
+    const float most = 2 * extent * blast.impulse / world.mass(body);
+    NotePushed(body, std::min(most, scene_.speed_limit));
+  }
+}
+
+void Plausible::NotePushed(int body, float speed) {
+  const World& world = replica_.world();
+  EachIdOf(world.composition(), world.mechanism(body), [&](PartId id) {
+    const int other = world.BodyOfId(id);
+    Memory& memory = memory_[other];
+    if (accepted_[other].tick >= memory.pushed_tick) memory.pushed = 0;
+    memory.pushed += speed;
+    memory.pushed_tick = world.tick();
+  });
+}
+
+float Plausible::PushedSince(int body, std::int64_t tick) const {
+  const Memory& memory = memory_[body];
+  return tick <= memory.pushed_tick ? memory.pushed : 0;
 }
 
 /// Adds where the part's mechanism is: an edit of one end reaches the other at once.
@@ -212,8 +255,20 @@ void Plausible::NoteChanged(const Box& box, float speed) {
   }
 }
 
-bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off) {
+bool Plausible::Believe(int body, float way, float kick) {
   Memory& memory = memory_[body];
+  const float forgotten = std::min(
+      1.0f, Seconds(std::max<std::int64_t>(0, replica_.tick() - memory.forgotten)) / kForgetS);
+  memory.forgotten = replica_.tick();
+  memory.moved = std::max(0.0f, memory.moved - forgotten * kAllowed);
+  memory.kicked = std::max(0.0f, memory.kicked - forgotten * kAllowedVelocity);
+  if (memory.moved + way > kAllowed || memory.kicked + kick > kAllowedVelocity) return false;
+  memory.moved += way;
+  memory.kicked += kick;
+  return true;
+}
+
+bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off) {
   const float way = Way(off), kick = Kick(off);
   const bool rough = replica_.FollowsTold();
   const float times = rough ? kRoughTimes : 1;
@@ -222,13 +277,7 @@ bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state,
     return true;
   }
   if (Settles(body) && way <= kGross && kick <= kGrossVelocity) return true;
-  const float forgotten = std::min(
-      1.0f, Seconds(std::max<std::int64_t>(0, replica_.tick() - memory.forgotten)) / kForgetS);
-  memory.forgotten = replica_.tick();
-  memory.moved = std::max(0.0f, memory.moved - forgotten * kAllowed);
-  memory.kicked = std::max(0.0f, memory.kicked - forgotten * kAllowedVelocity);
-  const bool believed = memory.moved + way <= kAllowed && memory.kicked + kick <= kAllowedVelocity;
-  if (believed) memory.moved += way, memory.kicked += kick;
+  const bool believed = Believe(body, way, kick);
   if (believed && rough) return true;
   NoteDoubt(body, tick, state, Minus(state, off), !believed,
             rough && IsOfCharacter(replica_.world(), body));
@@ -236,9 +285,10 @@ bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state,
 }
 
 /// The way since the last accepted state is explained by a change of velocity at one moment
-/// between: it ends on the segment between the two velocities times the time. The told velocity
-/// counts as far as drives and collisions explain it. A body that was silent for long is where the
-/// server last had it, or has moved on from there as far as lost messages explain.
+/// between: it ends on the segment between the two velocities times the time. A told speed beyond
+/// what drives, collisions and edits explain is believed as far as one beside a copy is. A body
+/// that was silent for long is where the server last had it, or has moved on from there as far as
+/// lost messages explain.
 bool Plausible::JudgeByWay(int body, std::int64_t tick, int revision, const BodyState& state,
                            bool whole) {
   const World& world = replica_.world();
@@ -255,18 +305,18 @@ bool Plausible::JudgeByWay(int body, std::int64_t tick, int revision, const Body
   float seconds = std::fabs(Seconds(tick - (known ? last.tick : world.tick())));
   if (!known && !copied) seconds = std::max(seconds, kWayMaxS);
   const float driven = kDrivenAcceleration + scene_.gravity.norm();
-  Vec2 told = whole ? state.velocity : from.velocity;
-  float most = from.velocity.norm() + kCollisionVelocity;
-  if (told.norm() > most) most = std::max(most, strikers_.SpeedOf(body));
-  most += driven * seconds;
-  if (told.norm() > most) told *= most / told.norm();
-  float slack = kWaySlack + driven * seconds * seconds / 2;
+  const float pushed = PushedSince(body, known ? last.tick : world.tick());
+  const Vec2 told = whole ? state.velocity : from.velocity;
+  float gained = told.norm() - from.velocity.norm() - driven * seconds - pushed;
+  if (gained > 0) gained = std::max(0.0f, gained - strikers_.AddedSpeed(body));
+  float slack = kWaySlack + pushed * seconds + driven * seconds * seconds / 2;
   // It may have met anything, and been thrown to and fro.
   if (!copied) slack += std::max(kCollisionVelocity, from.velocity.norm()) * seconds;
   const Vec2 way = state.position - from.position;
   const auto off = [&](float s) { return DistanceFrom(way, s * from.velocity, s * told); };
   // A copy of now may be ahead of the told tick or behind it.
-  if (off(seconds) <= slack || (!known && off(-seconds) <= slack)) return true;
+  const bool reached = off(seconds) <= slack || (!known && off(-seconds) <= slack);
+  if (reached && (gained <= 0 || Believe(body, 0, gained))) return true;
   NoteDoubt(body, tick, state, from, true, guessed);
   return false;
 }

@@ -81,12 +81,21 @@ class Plausible {
     std::int64_t began = 0;  // tick at which the body began: of the edit that made it
     BodyState first;         // its state then
     std::int64_t edited = -1000;  // tick of the last edit that may have reached it
+    float pushed = 0;             // m/s that edits after the newest accepted state can have added
+    std::int64_t pushed_tick = -1;  // of the last of them
     float fast = 0;          // greatest accepted speed of late, m/s
     std::int64_t fast_tick = 0;
   };
 
   bool JudgeByCopy(int body, std::int64_t tick, const BodyState& state, BodyState off);
   bool JudgeByWay(int body, std::int64_t tick, int revision, const BodyState& state, bool whole);
+  /// Believes a difference of the body, m and m/s, unless the sum of late becomes too large.
+  bool Believe(int body, float way, float kick);
+  void NoteBlast(const BlastEdit& blast, const Box& hit);
+  /// Notes that an edit adds at most so much to the speed of a body of this mechanism, m/s.
+  void NotePushed(int body, float speed);
+  /// Returns the speed that edits after a tick can have added to the body, m/s.
+  float PushedSince(int body, std::int64_t tick) const;
   void NoteDoubt(int body, std::int64_t tick, const BodyState& told, const BodyState& expected,
                  bool refused, bool guessed = false);
   float Seconds(std::int64_t ticks) const;

@@ -37,22 +37,36 @@ void Strikers::Look() {
     boxes.push_back(box);
   }
   island_ = Components(static_cast<int>(c.mechanisms.size()), MeetingGroups(boxes, 0));
-  fastest_.assign(c.mechanisms.size(), 0);
-  momentum_ = mass_ = fastest_;
+  fastest_.assign(c.mechanisms.size(), Fastest());
+  momentum_.assign(c.mechanisms.size(), 0);
+  mass_ = momentum_;
   for (int body = 0; body < world_.body_count(); ++body) {
     const auto own =
         static_cast<std::size_t>(island_[static_cast<std::size_t>(world_.mechanism(body))]);
     const float speed = speed_of_(body);
-    fastest_[own] = std::max(fastest_[own], speed);
+    fastest_[own].Note(world_.mechanism(body), speed);
     momentum_[own] += world_.mass(body) * speed;
     mass_[own] += world_.mass(body);
   }
 }
 
-float Strikers::SpeedOf(int body) {
+void Strikers::Fastest::Note(int its, float its_speed) {
+  if (its == mechanism) {
+    speed = std::max(speed, its_speed);
+  } else if (its_speed > speed) {
+    of_others = std::exchange(speed, its_speed);
+    mechanism = its;
+  } else {
+    of_others = std::max(of_others, its_speed);
+  }
+}
+
+float Strikers::AddedSpeed(int body) {
   Look();
-  const int island = island_[static_cast<std::size_t>(world_.mechanism(body))];
-  return kMostThrown * fastest_[static_cast<std::size_t>(island)];
+  const int mechanism = world_.mechanism(body);
+  const auto island = static_cast<std::size_t>(island_[static_cast<std::size_t>(mechanism)]);
+  const Fastest& fastest = fastest_[island];
+  return kMostThrown * (fastest.mechanism == mechanism ? fastest.of_others : fastest.speed);
 }
 
 /// All that moves may load a joint of anchored parts.

@@ -2,7 +2,7 @@
 /// Bounds what collisions can have done to a body: by the speeds and masses of all bodies that it
 /// may have met within kSeconds, directly or through others (its island).
 ///
-///   speed after a collision  <=  2 max v_i            v_i: speeds of the island's bodies
+///   speed after a collision  <=  v + 2 max v_i        v_i: speeds of the island's other mechanisms
 ///   force on a joint         <=  2 sum m_i v_i / h + weight      h: duration of a substep
 
 #include <cstdint>
@@ -18,8 +18,8 @@ class Strikers {
   /// `world` must outlive this. `speed_of`: a body's greatest speed of late, m/s.
   Strikers(const World& world, std::function<float(int body)> speed_of);
 
-  /// Greatest speed that a collision can have given to the body, m/s.
-  float SpeedOf(int body);
+  /// Greatest speed that collisions with other mechanisms can have added to the body's, m/s.
+  float AddedSpeed(int body);
   /// Greatest load that the joint can have borne, N.
   float LoadOf(const Joint& joint);
 
@@ -33,8 +33,14 @@ class Strikers {
   const std::function<float(int)> speed_of_;
   std::int64_t looked_ = -1;  // tick and edits of the islands
   int revision_ = -1;
-  std::vector<int> island_;     // rebuilt by Look, by mechanism
-  std::vector<float> fastest_;  // by island, m/s
+  std::vector<int> island_;  // rebuilt by Look, by mechanism
+  /// The fastest mechanism of an island, and the speed of the fastest of its others.
+  struct Fastest {
+    int mechanism = -1;
+    float speed = 0, of_others = 0;  // m/s
+    void Note(int its, float its_speed);
+  };
+  std::vector<Fastest> fastest_;  // by island
   std::vector<float> momentum_, mass_;
 };
 

@@ -132,7 +132,7 @@ TEST(ResumeCluster, ALogInSegmentsBringsTheWorldBackToo) {
     ClusterConfig config;
     config.scene = scene;
     for (const std::int64_t killed : {450, 590}) {
-      EXPECT_GE(ExpectSameBits(config, 300, killed, 40000), 2);
+      EXPECT_GE(ExpectSameBits(config, 300, killed, 20000), 2);
     }
   }
 }

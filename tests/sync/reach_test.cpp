@@ -125,5 +125,31 @@ TEST(Reach, InputsOfFutureTicksAreNotMissing) {
   EXPECT_EQ(lot.Missing("his"), 0);
 }
 
+TEST(Reach, WhatLiesOnABeltWaitsForThePlayerWhoDrivesIt) {
+  ScriptedWorld room(ParseScene(
+      "[[player]]\nname = \"ann\"\n[[player]]\nname = \"bob\"\n"
+      "[[part]]\nname = \"belt\"\nbox = [20, 0.5]\nposition = [0, 0]\nangle = 90\nanchored = true\n"
+      "conveyor = {player = \"bob\", speed = 2}\n"
+      "[[part]]\nname = \"ground\"\nchain = [[-900, -20], [900, -20]]\n"
+      "[[part]]\nname = \"on\"\nbox = [0.4, 0.4]\nposition = [0, 10.2]\n"
+      "[[part]]\nname = \"beside\"\nbox = [0.4, 0.4]\nposition = [9, -19.8]\n",
+      "belt.toml"));
+  const SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  BodyTable bodies(room.world);
+  Roles roles(config, 1, 0, room.world, bodies);
+  Drivers drivers(room.world, roles);
+  std::vector<InputTrack> inputs(2);
+  Reach reach(config, room.world, roles, drivers, inputs);
+  for (int t = 0; t < 60; ++t) room.Step();
+  drivers.Look();
+  inputs[1].Note(room.world.tick() - 20, {64, 0, 0});
+  reach.Look();
+  const auto complete = [&](const char* part) {
+    return room.world.tick() - reach.CompleteTick(room.world.mechanism(room.Body(part)));
+  };
+  EXPECT_EQ(complete("on"), 20);
+  EXPECT_EQ(complete("beside"), 0) << "nine metres from the upright belt";
+}
+
 }  // namespace reach_test
 }  // namespace seam

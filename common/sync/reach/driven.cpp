@@ -58,7 +58,7 @@ void Drivers::Find() {
   const Scene& scene = world_.scene();
   driven_.assign(scene.players.size(), {});
   moved_.assign(scene.players.size(), {});
-  belts_.assign(scene.players.size(), 0);
+  belts_.assign(scene.players.size(), {});
   by_axes_.assign(world_.composition().mechanisms.size(), 0);
   EachDriven(world_, [this](int player, int mechanism, bool by_axes) {
     driven_[static_cast<std::size_t>(player)].push_back(mechanism);
@@ -68,8 +68,9 @@ void Drivers::Find() {
   });
   for (const Part& part : scene.parts) {
     const int player = PlayerOf(scene, part.conveyor->player);
-    if (player >= 0 && MechanismOf(world_, part.id) < 0)
-      belts_[static_cast<std::size_t>(player)] = 1;
+    if (!part.gone && player >= 0 && MechanismOf(world_, part.id) < 0) {
+      belts_[static_cast<std::size_t>(player)].push_back(part.id);
+    }
   }
   for (std::vector<std::vector<int>>* lists : {&driven_, &moved_}) {
     for (std::vector<int>& all : *lists) {

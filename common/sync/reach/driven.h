@@ -30,7 +30,11 @@ class Drivers {
     return moved_[static_cast<std::size_t>(player)];
   }
   /// True if the player's axes move an anchored belt.
-  bool MovesBelt(int player) const { return belts_[static_cast<std::size_t>(player)] != 0; }
+  bool MovesBelt(int player) const { return !BeltsOf(player).empty(); }
+  /// Anchored parts whose belts the player's axes move.
+  const std::vector<PartId>& BeltsOf(int player) const {
+    return belts_[static_cast<std::size_t>(player)];
+  }
   /// True if any player's axes move the mechanism; buttons do not count.
   bool Driven(int mechanism) const { return by_axes_[static_cast<std::size_t>(mechanism)] != 0; }
   /// True if the player's inputs move a mechanism that this peer simulates, or an anchored belt.
@@ -43,7 +47,7 @@ class Drivers {
   /// an anchored belt.
   template <class Simulates>
   bool Moves(int player, const Simulates& simulates) const {
-    if (belts_[static_cast<std::size_t>(player)] != 0) return true;
+    if (MovesBelt(player)) return true;
     for (const int m : MechanismsOf(player)) {
       if (simulates(m)) return true;
     }
@@ -59,7 +63,8 @@ class Drivers {
   std::vector<std::vector<int>> driven_;  // by player
   std::vector<std::vector<int>> moved_;   // by player: by axes only
   std::vector<char> by_axes_;             // rebuilt by Look, by mechanism
-  std::vector<char> belts_, concerns_;    // by player
+  std::vector<std::vector<PartId>> belts_;  // by player
+  std::vector<char> concerns_;              // by player
   std::vector<int> concerned_;            // players
 };
 

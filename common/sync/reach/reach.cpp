@@ -4,6 +4,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "common/base/geometry.h"
+#include "common/physics/part_places.h"
 #include "common/sync/reach/driven.h"
 
 namespace seam {
@@ -17,6 +19,27 @@ constexpr double kSilentIdle = 1.25;
 /// From the room's start, s: a player's first inputs may still be on their way, and only the state
 /// of tick 0 is known. Later, a player never heard of is absent.
 constexpr double kFirstInputs = 0.75;
+
+/// Returns the box of an anchored part that is not gone.
+MovingBox BoxOf(const World& world, PartId id, int group) {
+  const Part& part = world.scene().parts[static_cast<std::size_t>(id)];
+  const BodyState at = PartPose(world, id);
+  std::vector<Vec2> points = part.points;
+  for (const float x : {-0.5f, 0.5f}) {
+    for (const float y : {-0.5f, 0.5f}) points.push_back({x * part.size.x(), y * part.size.y()});
+  }
+  MovingBox box;
+  box.min = box.max = at.position;
+  box.group = group;
+  for (const Vec2& point : points) {
+    const Vec2 place = at.position + Turned(point, at.angle);
+    box.min = box.min.cwiseMin(place);
+    box.max = box.max.cwiseMax(place);
+  }
+  box.min -= Vec2::Constant(part.radius);
+  box.max += Vec2::Constant(part.radius);
+  return box;
+}
 
 }  // namespace
 
@@ -81,13 +104,21 @@ void Reach::Look() {
   if (missing.empty()) return;
   const int every = std::max(config_.send_every(), BarrierEvery(config_.tick_hz));
   const float seconds = static_cast<float>(LongestMissing() + 2 * every) * world_.dt();
-  // Mechanisms are indexed by their place among those present; others meet nothing.
+  // The belts of a player are a group behind the mechanisms. Groups are indexed by their place
+  // among those present; others meet nothing.
+  const auto mechanisms = static_cast<int>(complete_.size());
   std::vector<MovingBox> boxes = BoxesOf(world_, drivers_, false);
   std::vector<int> groups;
   for (const MovingBox& box : boxes) groups.push_back(box.group);
+  const auto each_driven = [&](int player, const auto& visit) {
+    for (const int m : drivers_.MechanismsOf(player)) visit(m);
+    if (drivers_.MovesBelt(player)) visit(mechanisms + player);
+  };
   for (const auto& [player, ticks] : missing) {
-    const std::vector<int>& driven = drivers_.MechanismsOf(player);
-    groups.insert(groups.end(), driven.begin(), driven.end());
+    each_driven(player, [&](int group) { groups.push_back(group); });
+    for (const PartId belt : drivers_.BeltsOf(player)) {
+      boxes.push_back(BoxOf(world_, belt, mechanisms + player));
+    }
   }
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
@@ -99,14 +130,15 @@ void Reach::Look() {
       Components(static_cast<int>(groups.size()), MeetingGroups(boxes, seconds));
   std::vector<std::int64_t> of_island(groups.size(), now);
   for (const auto& [player, ticks] : missing) {
-    for (const int m : drivers_.MechanismsOf(player)) {
-      const auto i = static_cast<std::size_t>(island[static_cast<std::size_t>(place(m))]);
-      of_island[i] = std::min(of_island[i], now - ticks);
-    }
+    const std::int64_t complete = now - ticks;
+    each_driven(player, [&](int group) {
+      const auto i = static_cast<std::size_t>(island[static_cast<std::size_t>(place(group))]);
+      of_island[i] = std::min(of_island[i], complete);
+    });
   }
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const std::int64_t complete = of_island[static_cast<std::size_t>(island[i])];
-    if (complete >= now) continue;
+    if (complete >= now || groups[i] >= mechanisms) continue;
     complete_[static_cast<std::size_t>(groups[i])] = complete;
     open_.push_back(groups[i]);
   }

@@ -59,6 +59,25 @@ TEST(EditedRoom, ALiarIsFoundWhereOthersBodiesAreMadeAndRemovedAllTheTime) {
   }
 }
 
+/// Beside an edit a told state is judged by its way, which a false velocity would make longer.
+TEST(EditedRoom, AFalseVelocityWinsNothing) {
+  for (const char* attack : {"vel10", "x1.2", "x1.5"}) {
+    for (const char* impair : {"demo", "4g"}) {
+      for (const int seed : SoakSeeds(1, 1)) {
+        SCOPED_TRACE(std::string(attack) + " over " + impair);
+        ClusterConfig config = Room(impair, seed);
+        config.scene_text += FarEdits(15, "{200, 30}");
+        config.drive = Drive::kBot;
+        const AttackOutcome outcome = RunAttack(config, attack);
+        EXPECT_GT(outcome.lies, 10);
+        EXPECT_LT(ActedAfterS(outcome), 5);
+        EXPECT_EQ(outcome.won, 0);
+        EXPECT_EQ(outcome.others_step, 0) << "bob is honest";
+      }
+    }
+  }
+}
+
 TEST(EditedRoom, AnHonestClientKeepsItsBodiesWhereOthersAreMadeAndRemovedAllTheTime) {
   for (const char* impair : {"3g", "4g", "terrible"}) {
     for (const int seed : SoakSeeds(1, 2)) {
