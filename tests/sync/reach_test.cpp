@@ -126,14 +126,15 @@ TEST(Reach, InputsOfFutureTicksAreNotMissing) {
 }
 
 TEST(Reach, WhatLiesOnABeltWaitsForThePlayerWhoDrivesIt) {
-  ScriptedWorld room(ParseScene(
-      "[[player]]\nname = \"ann\"\n[[player]]\nname = \"bob\"\n"
-      "[[part]]\nname = \"belt\"\nbox = [20, 0.5]\nposition = [0, 0]\nangle = 90\nanchored = true\n"
-      "conveyor = {player = \"bob\", speed = 2}\n"
-      "[[part]]\nname = \"ground\"\nchain = [[-900, -20], [900, -20]]\n"
-      "[[part]]\nname = \"on\"\nbox = [0.4, 0.4]\nposition = [0, 10.2]\n"
-      "[[part]]\nname = \"beside\"\nbox = [0.4, 0.4]\nposition = [9, -19.8]\n",
-      "belt.toml"));
+  ScriptedWorld room(
+      ParseScene("[[player]]\nname = \"ann\"\n[[player]]\nname = \"bob\"\n"
+                 "[[part]]\nname = \"belt\"\nbox = [20, 0.5]\nposition = [0, 0]\nangle = "
+                 "1.5707963\nanchored = true\n"
+                 "conveyor = {player = \"bob\", speed = 2}\n"
+                 "[[part]]\nname = \"ground\"\nchain = [[-900, -20], [900, -20]]\n"
+                 "[[part]]\nname = \"on\"\nbox = [0.4, 0.4]\nposition = [0, 10.2]\n"
+                 "[[part]]\nname = \"beside\"\nbox = [0.4, 0.4]\nposition = [9, -19.8]\n",
+                 "belt.toml"));
   const SyncConfig config = MakeSyncConfig("buffer", "rollback");
   BodyTable bodies(room.world);
   Roles roles(config, 1, 0, room.world, bodies);
