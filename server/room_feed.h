@@ -16,7 +16,7 @@ class RoomFeed {
  public:
   explicit RoomFeed(const Room& room);
   /// Publishes what is due: the Room each second, and if its scene is too long for a message, the
-  /// scene's parts after it, one at a time, so that no burst overruns a logger. One in ten is
+  /// scene's parts after it, one at a time, so that no burst overruns a logger. One in 30 is
   /// logged. To be called often.
   void Publish(std::int64_t now_us, Broadcast& broadcast);
 
