@@ -67,6 +67,7 @@ void Surroundings::Forget() {
   const Composition& c = world.composition();
   first_ = newest_ = -1;
   trails_.assign(c.mechanisms.size(), Trail());
+  reach_.assign(c.mechanisms.size(), Box());
   large_.assign(static_cast<std::size_t>(world.body_count()), 0);
   for (int body = 0; body < world.body_count(); ++body) {
     const int assembly = c.assembly_of_part[static_cast<std::size_t>(world.id(body))];
@@ -83,7 +84,8 @@ std::int64_t Surroundings::LagMost() const {
 void Surroundings::Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tick, int body,
                         const BodyState& state) {
   const World& world = replica_.world();
-  Trail& trail = trails_[static_cast<std::size_t>(world.mechanism(body))];
+  const auto mechanism = static_cast<std::size_t>(world.mechanism(body));
+  Trail& trail = trails_[mechanism];
   const std::int64_t number = tick / kEvery;
   Look& look = (trail.*looks)[static_cast<std::size_t>(number) % kLooks];
   if (look.number > number) return;
@@ -93,7 +95,8 @@ void Surroundings::Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tic
   const Box place(Vec2(min + off), Vec2(max + off));
   look.place.extend(place);
   look.velocity.extend(state.velocity);
-  trail.reach.extend(Swept(place, Box(state.velocity), kLagMostS));
+  trail.newest = std::max(trail.newest, number);
+  reach_[mechanism].extend(Swept(place, Box(state.velocity), kLagMostS));
 }
 
 void Surroundings::NoteTold(const States& states) {
@@ -115,13 +118,17 @@ void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
   // A lag that was worse a while ago counts less and less.
   for (std::int64_t& lag : lag_) lag = std::max<std::int64_t>(0, lag - 1);
   const std::int64_t oldest = world.tick() / kEvery - static_cast<std::int64_t>(kLooks);
-  for (Trail& trail : trails_) {
-    trail.reach.setEmpty();
+  for (std::size_t m = 0; m < trails_.size(); ++m) {
+    Trail& trail = trails_[m];
+    if (reach_[m].isEmpty()) continue;
+    reach_[m].setEmpty();
+    if (trail.newest <= oldest) trail = Trail();
+    if (trail.newest < 0) continue;
     for (auto* const looks : {&trail.told, &trail.had}) {
       for (Look& look : *looks) {
         if (look.number <= oldest) look = Look();
         if (look.number < 0) continue;
-        trail.reach.extend(Swept(look.place, look.velocity, kLagMostS));
+        reach_[m].extend(Swept(look.place, look.velocity, kLagMostS));
       }
     }
   }
@@ -167,10 +174,10 @@ std::int64_t Surroundings::LagOf(int mechanism) const {
 
 bool Surroundings::MayTouch(const Box& own, int mechanism, int other, std::int64_t from,
                             std::int64_t to) const {
-  const Trail& trail = trails_[static_cast<std::size_t>(other)];
   const Vec2 slack(kZoneSlack, kZoneSlack);
   const Box wide(Vec2(own.min() - slack), Vec2(own.max() + slack));
-  if (!trail.reach.intersects(wide)) return false;
+  if (!reach_[static_cast<std::size_t>(other)].intersects(wide)) return false;
+  const Trail& trail = trails_[static_cast<std::size_t>(other)];
   const std::int64_t lag =
       std::max(kEvery, std::min(LagMost(), LagOf(mechanism) + LagOf(other) + kEvery));
   const float dt = replica_.world().dt();

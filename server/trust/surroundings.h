@@ -51,7 +51,7 @@ class Surroundings {
   static constexpr std::size_t kLooks = 20;
   struct Trail {
     std::array<Look, kLooks> told, had;  // by number modulo kLooks
-    Box reach;                           // everything that it may have been in
+    std::int64_t newest = -1;            // number of the newest look
   };
 
   void Forget();
@@ -64,6 +64,7 @@ class Surroundings {
 
   const Replica& replica_;
   std::vector<Trail> trails_;              // rebuilt at edits, by mechanism
+  std::vector<Box> reach_;  // rebuilt at edits, by mechanism: everything that it may have been in
   std::vector<char> large_;                // rebuilt at edits, by body: looked at wherever it is
   std::vector<std::int64_t> heard_, lag_;  // by peer: newest tick told of; greatest lag of late
   std::int64_t first_ = -1, newest_ = -1;  // ticks of the looks
