@@ -54,6 +54,24 @@ TEST(TakeOver, CorrectsTheCopyFromTheTickOfTheLastState) {
   }
 }
 
+TEST(TakeOver, DoesNotExtrapolateADifferenceFromBeforeTheReachOfReplays) {
+  FollowedCopy pair(kFlying, "rollback", 2);
+  pair.Steps(20);
+  pair.talking = false;
+  BodyState wrong = pair.copy_world().Read(0);
+  wrong.velocity.x() += 4;
+  pair.PutCopy(0, wrong);
+  pair.Steps(4);
+  const ExactStates last = Exact(pair.truth, 2);
+  const int late = kReplayMax * 60 + 8;  // the past reaches back that far, the barriers do not
+  pair.Steps(late);
+  const Vec2 before = pair.copy_world().Read(0).position;
+  const BodyState off = pair.copy.TakeOver(last);
+  EXPECT_NEAR(off.velocity.norm(), 4, 0.02) << "the difference is reported";
+  const Vec2 moved = pair.copy_world().Read(0).position - before;
+  EXPECT_LT(moved.norm(), 0.01f) << "4 m/s for two seconds would be 8 m";
+}
+
 TEST(TakeOver, AnOlderStateChangesNothing) {
   FollowedCopy pair(kFlying, "retrospect", 2);
   pair.Steps(4);

@@ -12,8 +12,10 @@
 namespace seam {
 namespace {
 
-/// Without a past, the holder's state is extrapolated by at most this, s: beyond that, walls may
-/// lie on the way. Reliable messages queue when many mechanisms change hands.
+/// Where no replay can take over the holder's state, it or its difference from the copy is
+/// extrapolated by at most this, s: beyond that, walls and impacts may lie on the way. Reliable
+/// messages queue when many mechanisms change hands, and with rollback the states are of an
+/// input-complete tick, which may be seconds ago.
 constexpr float kReckonedFor = 0.25f;
 
 BodyState StateOf(const ExactStates& exact, std::size_t i) {
@@ -72,6 +74,8 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
       largest.velocity = difference.velocity;
     if (then != nullptr && exact.tick <= now && replay_.Ask(body, from)) {
       replays = true;
+    } else if (late > kReckonedFor && config_.policy->GoesBack(roles_.self())) {
+      BringBack(body, told, exact.tick);  // newer states are under way
     } else if (!memory_.Coupled(world_.mechanism(body))) {
       ApplyDifference(body, then != nullptr ? from : now, difference, told, exact.tick);
     } else {
