@@ -243,6 +243,7 @@ void Server::PublishShown(std::int64_t now_us) {
 }
 
 void Server::ApplyEdits(std::int64_t now_us) {
+  edits_->NoteComplete(InputsKnownUntil());
   const EditLog::Batch batch = edits_->OrderPending(now_us);
   stats_.counters.dropped_stale += batch.stale;
   for (const EditOrder& order : batch.orders) {

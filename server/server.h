@@ -282,6 +282,7 @@ class Server {
   void WatchClock(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
+  std::int64_t InputsKnownUntil() const;
   void LetFall(const Edit& applied, bool hung);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);

@@ -1,6 +1,7 @@
 /// Server, inputs of players: taken, relayed; and rooms in which peers send inputs alone.
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,21 @@ namespace {
 constexpr std::int64_t kInputReachS = kReplayMax;
 
 }  // namespace
+
+/// Returns the newest tick of which the inputs of all players here are known. A player counts as
+/// absent after a second without inputs; at rest nothing depends on them.
+std::int64_t Server::InputsKnownUntil() const {
+  std::int64_t known = std::numeric_limits<std::int64_t>::max();
+  if (!config_.sync.policy->SendsCompleteTicks() || replica_.rest().all()) return known;
+  const std::vector<int>& peers = sessions_.PeerOfPlayer();
+  for (std::size_t p = 0; p < peers.size(); ++p) {
+    const std::int64_t newest = replica_.inputs(static_cast<int>(p)).newest();
+    if (peers[p] > 0 && newest >= replica_.tick() - config_.sync.tick_hz) {
+      known = std::min(known, newest);
+    }
+  }
+  return known;
+}
 
 /// Stores the inputs of a message. Returns those from its first to its last tick that was not known
 /// before, with the values known now.

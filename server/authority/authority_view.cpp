@@ -46,7 +46,11 @@ void AuthorityManager::Look(const PlannerInputs& situation) {
   for (int p = 0; p < static_cast<int>(scene_.players.size()) && view.exact; ++p) {
     view.exact = replica_.drivers().MechanismsOf(p).empty();
   }
-  view.server_follow = situation.shown || view.exact ? scene_.server_follow : 0;
+  // Of parts that a script adds the server is the first authority: its copies must be as good as
+  // those of the peers beside them.
+  const bool scripts = config_.policy->GoesBack(0) && !scene_.scripts.empty();
+  const bool follows = situation.shown || view.exact || scripts;
+  view.server_follow = follows ? scene_.server_follow : 0;
   view.physics_edits = physics_edits_;
   follows_all_ =
       follows_all_ && (physics_edits_ || replica_.world().body_count() <= view.server_follow);

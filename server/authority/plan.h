@@ -63,7 +63,7 @@ struct AuthorityView {
   float buffer_m = 0;          ///< width of the buffer zone
   Vec2 gravity{0, 0};          ///< m/s^2
   int follow_bodies = 0;       ///< see Scene::follow_bodies
-  int server_follow = 0;       ///< see Scene::server_follow; 0 if nobody views the server's copies
+  int server_follow = 0;       ///< see Scene::server_follow; 0 if nobody needs the server's copies
   bool physics_edits = false;  ///< see ProposesEdits: the server follows everything
   /// Nobody drives and peers replay from received states: all peers should arrive at equal bits.
   bool exact = false;

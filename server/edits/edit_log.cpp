@@ -17,6 +17,9 @@ namespace {
 constexpr double kPendingSeconds = 3;
 /// Ticks further in the past than this, s, are out of reach for replays; no clock is further ahead.
 constexpr double kReachSeconds = 1;
+/// Time after which the inputs known here are known to all, s: relayed with the order itself, or
+/// repeated where they were lost. Shorter parts peers on lossy lines; longer delays scripts.
+constexpr double kRelayedSeconds = 0.1;
 
 /// Joints that edits of a batch remove, before any of them is applied. A later bond may reuse their
 /// indices: a second break of the same index would break the new bond.
@@ -65,6 +68,11 @@ class TakenParts {
   std::map<PartId, By> by_;
 };
 
+/// True if replays cannot go back beyond the edit: bodies or joints are others after it.
+bool CutsOffPast(const Edit& edit) {
+  return edit.As<PushEdit>() == nullptr && edit.As<SeatEdit>() == nullptr;
+}
+
 /// Returns the order without what is not the edit itself.
 EditOrder Unnumbered(EditOrder order) {
   order.utime = order.tick = order.sequence = 0;
@@ -95,10 +103,11 @@ bool EditLog::Wait(const Edit& edit, int peer, std::int64_t found) {
 }
 
 /// Returns the tick of an edit. One that physics found gets the tick in which it was found, if
-/// possible: every peer goes back to it. An edit from outside gets the current tick.
+/// possible: every peer goes back to it. An edit from outside gets the first tick in which it could
+/// be ordered.
 std::int64_t EditLog::TickOf(const Pending& pending) const {
   const std::int64_t now = world_.tick();
-  const bool found = pending.edit.cause == EditCause::kPhysics && pending.found <= now &&
+  const bool found = pending.found <= now &&
                      pending.found >= now - static_cast<std::int64_t>(kReachSeconds * tick_hz_);
   return std::max(last_tick_, found ? pending.found : now);
 }
@@ -120,6 +129,14 @@ bool EditLog::IsEarly(const Pending& pending) const {
   const std::int64_t ahead = pending.found - world_.tick();
   return pending.edit.cause == EditCause::kPhysics && ahead > 0 &&
          ahead <= static_cast<std::int64_t>(kReachSeconds * tick_hz_);
+}
+
+/// True if the edit would cut off inputs that are still to come.
+bool EditLog::LacksInputs(const Pending& pending) const {
+  if (!CutsOffPast(pending.edit)) return false;
+  const auto relayed = static_cast<std::int64_t>(kRelayedSeconds * tick_hz_);
+  const auto reach = static_cast<std::int64_t>(kReachSeconds * tick_hz_);
+  return complete_ < pending.found + relayed && world_.tick() - pending.found < reach;
 }
 
 /// The order of the checks matters: a peer's right is checked before its proposal is read, parsed
@@ -171,6 +188,7 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
   Batch batch;
   TakenParts taken;
   RemovedJoints removed_joints(topology);
+  bool lacks_inputs = false;
   for (Pending& pending : pending_) {
     if (IsStale(pending) || removed_joints.Misses(pending.edit)) {
       if (pending.peer > 0) ++batch.stale;
@@ -183,7 +201,13 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
                                    [&](PartId part) { return taken.ByAnother(part, by); });
     const bool bond = pending.edit.As<BondEdit>() != nullptr;
     if (IsEarly(pending) || (bond && again) || !authority_.InOneHand(MechanismsOf(pending.edit))) {
+      if (!physics) pending.found = world_.tick() + 1;  // the next tick, at the earliest
       if (world_.tick() - pending.since < patience) waiting.push_back(pending);
+      continue;
+    }
+    lacks_inputs = lacks_inputs || (!physics && LacksInputs(pending));
+    if (!physics && lacks_inputs) {
+      waiting.push_back(pending);
       continue;
     }
     if (physics && !PlausibleProposal(world_, pending.edit)) continue;  // the parts have moved on

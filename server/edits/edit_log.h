@@ -27,8 +27,9 @@ class EditLog {
   virtual ~EditLog() = default;
 
   /// Adds an edit of the server: ordered at the next tick, or as soon as its parts have one
-  /// authority. Dropped if impossible; Topology::Validate tells beforehand. Returns false if
-  /// kWaitingMax are pending.
+  /// authority; if it cuts off the past (CutsOffPast), once the inputs of that tick are known.
+  /// Dropped if impossible; Topology::Validate tells beforehand. Returns false if kWaitingMax are
+  /// pending.
   bool Add(const Edit& edit) { return Wait(edit, 0, world_.tick()); }
   /// Adds an edit that physics found after an earlier tick.
   bool Add(const Edit& edit, std::int64_t found) { return Wait(edit, 0, found); }
@@ -54,6 +55,12 @@ class EditLog {
   /// Notes an order of an earlier server that goes on here: the next number follows it, and the
   /// edit is not pending any more. It must be applied like one of OrderPending.
   void NoteOrdered(const EditOrder& order);
+  /// Call before OrderPending where inputs act at their ticks. `tick`: the newest tick of which all
+  /// inputs are known. An edit from outside that cuts off the past waits for those of its tick, and
+  /// for the time in which other peers get them, but no longer than replays reach; later edits from
+  /// outside wait behind it. An edit that is ordered before would part peers that know different
+  /// inputs.
+  void NoteComplete(std::int64_t tick) { complete_ = tick; }
   /// Numbers all edits that can be ordered now. The caller must apply them one by one, each
   /// followed by NoteApplied, before the next call.
   virtual Batch OrderPending(std::int64_t now_us);
@@ -103,7 +110,8 @@ class EditLog {
     Edit edit;
     int peer = 0;            // proposer
     std::int64_t since = 0;  // tick
-    std::int64_t found = 0;  // tick after which it should apply
+    std::int64_t found = 0;  // tick after which it should apply; from outside: the first at which
+                             // it could be ordered
     int made_at = 0;         // revision of the joint to break; a later joint in its place stays
   };
 
@@ -113,6 +121,7 @@ class EditLog {
   /// are anchored and only their impacts' authorities feel the load.
   bool HasRight(int peer, const std::vector<PartId>& parts) const;
   bool IsEarly(const Pending& pending) const;
+  bool LacksInputs(const Pending& pending) const;
   bool IsStale(const Pending& pending) const;
   std::vector<int> MechanismsOf(const Edit& edit) const;
 
@@ -123,6 +132,7 @@ class EditLog {
   std::array<int, kPeersMax> waiting_of_peer_{};
   int ordered_ = 0;                          // number of ordered edits
   std::int64_t last_tick_ = 0;               // tick of the last of these
+  std::int64_t complete_ = INT64_MAX;        // see NoteComplete
   std::map<int, std::uint64_t> hash_after_;  // composition, by number of edits applied
   TopologyFold fold_;
 };

@@ -127,6 +127,43 @@ TEST(EditTick, AnEditIsOrderedForTheTickThatFoundItIfPossible) {
   EXPECT_EQ(late.TickOf(0, 30), 100) << "too long ago";
 }
 
+TEST(EditTick, AnEditFromOutsideThatCutsOffThePastWaitsForTheInputsOfItsTick) {
+  Room room("rollback");
+  const Edit removed(RemoveEdit{0}, EditCause::kOutside);
+  const Edit push(PushEdit{1, {1, 0}}, EditCause::kOutside);
+  const auto ordered = [&room](std::int64_t complete) {
+    room.log.NoteComplete(complete);
+    return room.log.OrderPending(0).orders;
+  };
+  for (int i = 0; i < 100; ++i) room.replica.Step();
+  EXPECT_TRUE(room.log.Add(push));
+  EXPECT_EQ(ordered(80).at(0).tick, 100) << "a replay repeats a push: it waits for nothing";
+  EXPECT_TRUE(room.log.Add(removed));
+  EXPECT_TRUE(room.log.Add(push));
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(ordered(room.replica.tick() - 20).empty()) << "the push keeps its place";
+    room.replica.Step();
+  }
+  EXPECT_TRUE(ordered(100).empty()) << "other peers do not know them yet";
+  const std::vector<EditOrder> both = ordered(110);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].tick, 100);
+  EXPECT_EQ(KeyOf(ToEdit(both[0])), KeyOf(removed));
+  EXPECT_EQ(both[1].tick, 100);
+}
+
+TEST(EditTick, AnEditFromOutsideWaitsNoLongerThanReplaysReach) {
+  Room room("rollback");
+  for (int i = 0; i < 100; ++i) room.replica.Step();
+  EXPECT_TRUE(room.log.Add(Edit(RemoveEdit{0}, EditCause::kOutside)));
+  room.log.NoteComplete(80);
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_TRUE(room.log.OrderPending(0).orders.empty()) << i;
+    room.replica.Step();
+  }
+  EXPECT_EQ(room.log.OrderPending(0).orders.size(), 1u);
+}
+
 EditOrder BreakAt(std::int32_t joint, std::int32_t number, std::int64_t tick) {
   EditOrder order = ToOrder(Edit(BreakEdit{joint}));
   order.number = number;

@@ -66,6 +66,19 @@ TEST_P(AgreementCluster, APeerThatWasAwayAgreesAgainWithinTwoSeconds) {
   }
 }
 
+TEST(ScriptedAgreement, PeersAgreeAboutWhatAScriptJoins) {
+  for (const char* impair : {"delay=100ms", "delay=300ms", "4g"}) {
+    for (const int seed : SoakSeeds(1, 6)) {
+      SCOPED_TRACE(std::string(impair) + " seed " + std::to_string(seed));
+      Cluster cluster(Driven("tow", impair, seed));
+      AgreementWatch watch(cluster);
+      cluster.each_instant = [&watch] { watch.Look(); };
+      cluster.Run();
+      ExpectAgreement(watch, 1000);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, AgreementCluster, ::testing::Values("wheels", "plank", "chain"),
                          [](const auto& scene) { return std::string(scene.param); });
 
