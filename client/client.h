@@ -72,9 +72,10 @@ class Client {
   /// or when its server is silent and `epoch` is later than that server's.
   void Suggest(const Address& server, std::int32_t epoch) { suggested_ = {server, epoch}; }
   /// Publishes the last view if it waits (Publisher).
-  void PublishUnmoved() {
-    if (publisher_ != nullptr) publisher_->PublishUnmoved();
-  }
+  void PublishUnmoved();
+  /// Says which server would go on with the room: the client knocks there while its own is silent,
+  /// and goes on with whichever answers first. nullopt: none.
+  void SuggestStandby(const std::optional<Address>& standby) { standby_ = standby; }
   /// Says goodbye; call Tick no more.
   void Shutdown(std::int64_t now_us);
 
@@ -112,6 +113,8 @@ class Client {
   int peer() const { return peer_; }
   /// Returns the server that it is in, or joins.
   const Address& server() const { return config_.server; }
+  /// True while it knocks at the standby: its server is silent.
+  bool knocking() const { return knocks_at_.has_value(); }
   /// Returns the room's epoch, the highest seen; 0: none yet.
   std::int32_t epoch() const { return epoch_; }
   /// True from a redirect until another server welcomes it: the world goes on as it was.
@@ -148,6 +151,9 @@ class Client {
   static constexpr std::int64_t kLostUs = 5000000;
   /// If a server is silent for so long and another one may have the room, we join that one, us.
   static constexpr std::int64_t kElsewhereUs = 1000000;
+  /// If a server is silent for so long, beside a round trip, we knock at its standby, us: two lost
+  /// pings are not silence.
+  static constexpr std::int64_t kKnockUs = 500000;
   /// Most redirects between two welcomes after which the client was ready.
   static constexpr int kRedirectsMax = 3;
 
@@ -162,6 +168,11 @@ class Client {
   void BeginJoin(std::int64_t now_us);
   /// Joins another server that may have the room, if this one is silent.
   void TryElsewhere(std::int64_t now_us);
+  /// Knocks at the standby while our server is silent: a handshake beside the session.
+  void KnockIfSilent(std::int64_t now_us);
+  void StopKnocking();
+  /// Takes a redirect in our session: in our epoch it names the standby.
+  void OnRedirect(const Redirect& redirect);
   /// Goes on at another server, and keeps the world until it welcomes us.
   void Move(std::int64_t now_us, const Address& server);
   void Follow(std::int64_t now_us, const Redirect& redirect);
@@ -278,6 +289,9 @@ class Client {
     std::int32_t epoch = 0;
   };
   std::optional<Suggestion> suggested_;
+  std::optional<Address> standby_;       // of the room, by the fleet's directory
+  std::optional<Address> told_standby_;  // the same, by our server
+  std::optional<Address> knocks_at_;  // with the present handshake; nullopt: it is with our server
   std::int32_t epoch_ = 0;         // of the room: no lower one is joined
   std::int32_t proved_epoch_ = 0;  // of the newest Welcome, with its proof
   std::int64_t proof_ = 0;

@@ -70,6 +70,8 @@ void Client::Forget(std::int64_t now_us) {
   if ((peer_ >= 0 && !moving_) || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
   said_ready_ = started_ = released_ = loaded_now_ = moving_ = false;
+  knocks_at_.reset();
+  told_standby_.reset();
   timeline_ = RoomTimeline();
   lead_us_ = lag_us_ = -1;
   answered_us_ = now_us;
@@ -91,7 +93,9 @@ void Client::BeginJoin(std::int64_t now_us) {
 void Client::BeginOffers() {
   // A token counts once; who was in the room comes back with the key of the place.
   const bool shows = config_.token && !key_of_;
-  offers_.Begin(entropy_, number_, config_.name, config_.room, shows ? &*config_.token : nullptr,
+  // A server without the room has to know which one we mean.
+  const std::string& room = knocks_at_ ? room_.room : config_.room;
+  offers_.Begin(entropy_, number_, config_.name, room, shows ? &*config_.token : nullptr,
                 proved_epoch_, proof_);
 }
 
@@ -115,7 +119,7 @@ void Client::SendLoose(const Bytes& message) {
   const Bytes datagram = LooseDatagram(number_, message, kHandshakeBytes);
   stats_.bytes_out += static_cast<std::int64_t>(datagram.size());
   stats_.datagrams_out += 1;
-  net_.Send(config_.server, datagram);
+  net_.Send(knocks_at_.value_or(config_.server), datagram);
 }
 
 void Client::OnUnknownSession(std::int64_t now_us) {
@@ -131,7 +135,7 @@ bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
   }
   if (number_ == 0 || number != number_) return false;
   // Once we have joined, such a datagram is a late answer, or somebody else's.
-  if (peer_ >= 0 && !moving_) return true;
+  if (peer_ >= 0 && !moving_ && !knocks_at_) return true;
   const AnyMessage any = Decode(LooseMessage(datagram));
   if (const auto* challenge = std::get_if<Challenge>(&any)) {
     OnChallenge(now_us, *challenge);
@@ -145,6 +149,8 @@ void Client::OnChallenge(std::int64_t now_us, const Challenge& challenge) {
   const std::uint8_t* const identity = challenge.keys.data() + challenge.keys.size() / 2;
   PublicKey theirs{};
   std::copy_n(identity, theirs.size(), theirs.begin());
+  // Only servers with the same lasting key know our place.
+  if (knocks_at_ && !SameKey(*key_of_, theirs)) return;
   if (config_.server_key && !SameKey(*config_.server_key, theirs)) {
     return OnRefusal(now_us, "it has the key " + ToHex(theirs.data(), theirs.size()) +
                                  ", which is not the one of --server-key");
@@ -156,7 +162,7 @@ bool Client::OnSealed(std::int64_t now_us, const Bytes& datagram) {
   const std::uint64_t session = SessionOfDatagram(datagram);
   Link* link = link_ != nullptr && link_->session() == session ? link_.get() : nullptr;
   if (link == nullptr) {
-    if (peer_ >= 0 && !moving_) return false;  // a late answer to an earlier join
+    if (peer_ >= 0 && !moving_ && !knocks_at_) return false;  // a late answer to an earlier join
     PublicKey identity{};
     const SealKeys* const keys = offers_.Find(session, &identity);
     if (keys == nullptr) return false;
@@ -186,6 +192,10 @@ bool Client::OnSealed(std::int64_t now_us, const Bytes& datagram) {
 void Client::OnOffered(std::int64_t now_us, ByteView bytes) {
   const AnyMessage any = Decode(bytes);
   if (const auto* welcome = std::get_if<Welcome>(&any)) {
+    if (knocks_at_ && welcome->epoch <= epoch_) {
+      refusal_ = "it has our room in the epoch of our server";
+      return;
+    }
     if (welcome->epoch < epoch_) {
       refusal_ = "it has epoch " + std::to_string(welcome->epoch) +
                  " of the room, which has gone on elsewhere to " + std::to_string(epoch_);
@@ -195,6 +205,7 @@ void Client::OnOffered(std::int64_t now_us, ByteView bytes) {
       refusal_ = PlayersPlace(config_.name);
       return;
     }
+    if (knocks_at_) config_.server = *knocks_at_;
     Forget(now_us);
     link_ = std::move(next_);
     at_ = config_.server;
@@ -210,6 +221,7 @@ void Client::OnOffered(std::int64_t now_us, ByteView bytes) {
 
 void Client::Follow(std::int64_t now_us, const Redirect& redirect) {
   Address to;
+  if (knocks_at_ && redirect.epoch <= epoch_) return;  // to where we are
   if (!ReadAddress(redirect.address, &to) || redirect.epoch < epoch_) {
     ++stats_.dropped_malformed;
     return;
@@ -231,7 +243,37 @@ void Client::Move(std::int64_t now_us, const Address& server) {
     joining_since_us_ = now_us;
   }
   config_.server = server;
+  knocks_at_.reset();
   BeginJoin(now_us);
+}
+
+void Client::OnRedirect(const Redirect& redirect) {
+  Address at;
+  if (moving_ || redirect.epoch != epoch_) {
+    redirect_ = redirect;
+  } else if (ReadAddress(redirect.address, &at)) {
+    told_standby_ = at;
+  }
+}
+
+void Client::KnockIfSilent(std::int64_t now_us) {
+  const std::int64_t usual_us = std::max<std::int64_t>(0, clock_.rtt_p90_us());
+  const bool silent = now_us - answered_us_ > kKnockUs + usual_us && PongOverdue(now_us);
+  const std::optional<Address>& standby = standby_ ? standby_ : told_standby_;
+  const bool may = silent && standby && *standby != config_.server && key_of_ && epoch_ > 0;
+  if (knocks_at_ && (!may || *knocks_at_ != *standby)) StopKnocking();
+  if (!may) return;
+  if (!knocks_at_) {
+    knocks_at_ = standby;
+    BeginJoin(now_us);
+  }
+  SendHelloOrJoin(now_us);
+}
+
+void Client::StopKnocking() {
+  knocks_at_.reset();
+  next_.reset();
+  offers_.Clear();
 }
 
 void Client::TryElsewhere(std::int64_t now_us) {
@@ -239,8 +281,11 @@ void Client::TryElsewhere(std::int64_t now_us) {
   const bool later = suggested_ && suggested_->epoch > epoch_;
   if (!joining) {
     const bool silent = now_us - answered_us_ > kElsewhereUs && PongOverdue(now_us);
-    if (later && silent && suggested_->server != config_.server) Move(now_us, suggested_->server);
-    return;
+    const bool knocks = later && knocks_at_ && *knocks_at_ == suggested_->server;
+    if (later && silent && !knocks && suggested_->server != config_.server) {
+      return Move(now_us, suggested_->server);
+    }
+    return KnockIfSilent(now_us);
   }
   const bool known = suggested_ && suggested_->epoch >= epoch_;
   if (known && suggested_->server != config_.server && offers_.empty()) {
@@ -256,6 +301,7 @@ void Client::TryElsewhere(std::int64_t now_us) {
 }
 
 void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
+  if (knocks_at_) return;  // our session is with another server
   const std::string other = OtherProtocol(reason);
   const bool players = reason == PlayersPlace(config_.name);
   const bool in_use = reason.rfind("the name " + config_.name + " is in use", 0) == 0;

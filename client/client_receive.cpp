@@ -33,7 +33,8 @@ void Client::ReceiveAll(std::int64_t now_us) {
   for (int n = 0; n < 1024 && net_.Receive(&from, &datagram); ++n) {
     stats_.bytes_in += static_cast<std::int64_t>(datagram.size());
     stats_.datagrams_in += 1;
-    const bool ours = from == config_.server || (link_ != nullptr && from == at_);
+    const bool ours = from == config_.server || (link_ != nullptr && from == at_) ||
+                      (knocks_at_ && from == *knocks_at_);
     const bool good = ours && (OnHandshake(now_us, datagram) || OnSealed(now_us, datagram));
     if (!good) ++stats_.dropped_malformed;
   }
@@ -45,7 +46,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   const AnyMessage any = Decode(bytes);
   if (config_.tap != nullptr) config_.tap->OnMessage(any, bytes);
   if (const auto* redirect = std::get_if<Redirect>(&any)) {
-    redirect_ = *redirect;
+    OnRedirect(*redirect);
   } else if (const auto* chunk = std::get_if<Chunk>(&any)) {
     OnChunk(now_us, *chunk);
   } else if (const auto* pong = std::get_if<Pong>(&any)) {

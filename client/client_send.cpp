@@ -65,6 +65,10 @@ void Client::Flush(std::int64_t now_us) {
   link_->Flush(now_us, send, static_cast<std::size_t>(std::max(0.0, credit_.bytes())));
 }
 
+void Client::PublishUnmoved() {
+  if (publisher_ != nullptr) publisher_->PublishUnmoved();
+}
+
 void Client::Shutdown(std::int64_t now_us) {
   PublishUnmoved();
   if (link_ == nullptr || closed_) return;

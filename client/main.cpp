@@ -223,6 +223,7 @@ int Play(const Flags& f) {
     const std::optional<FleetHolder> holder = rooms != nullptr ? rooms->newest() : std::nullopt;
     Address at;
     if (holder && ReadAddress(holder->address, &at)) client.Suggest(at, holder->epoch);
+    if (rooms != nullptr) client.SuggestStandby(rooms->standby());
     client.Tick(now, static_cast<std::int64_t>(static_cast<double>(CpuUs()) * f.throttle));
     throttle.Slow();
     if (key_file != nullptr && client.key() != key_file->key()) key_file->Write(client.key());

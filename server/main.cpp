@@ -139,12 +139,19 @@ int Serve(const Flags& f) {
   const bool fleet = !f.directory.empty();
   // The thread of the member makes plans too.
   std::shared_ptr<const Shared> shared;
-  const auto prepare = [&](const std::string& room, std::int32_t epoch) {
-    RoomPlan plan = PlanOfResumed(f, shared->log_key.get(), room, 0, 2, epoch);
+  const auto prepare = [&](const std::string& room, std::int32_t epoch,
+                           std::unique_ptr<FollowedRoom> followed) {
+    RoomPlan plan = followed != nullptr
+                        ? PlanOfFollowed(f, room, epoch, *followed)
+                        : PlanOfResumed(f, shared->log_key.get(), room, 0, 2, epoch);
     shared->GiveTo(&plan);
     return plan;
   };
-  if (fleet) member = std::make_unique<FleetMember>(MemberOf(f, udp.local()), prepare);
+  if (fleet) {
+    FleetMember::Config config = MemberOf(f, udp.local());
+    config.log_key = KeyOfLogs(f);
+    member = std::make_unique<FleetMember>(config, prepare);
+  }
   PrepareFolders(f);
   std::vector<std::string> left_out;
   std::vector<RoomPlan> plans = MakePlans(f, KeyOfLogs(f).get(), member.get(), &left_out);
@@ -175,7 +182,7 @@ int Serve(const Flags& f) {
     std::fprintf(stderr, "seam-server: control at %s\n", door->address().c_str());
   }
   if (fleet) {
-    hub.SetElsewhere([&](const std::string& room) { return member->Find(room); });
+    hub.SetElsewhere([&](const JoinRequest& join) { return member->Find(join); });
     member->Start();
   }
   const std::unique_ptr<Agones> agones = f.agones ? std::make_unique<Agones>() : nullptr;

@@ -51,11 +51,19 @@ double OpenFiles() {
   return static_cast<double>(ListFolder("/proc/self/fd", error).size());
 }
 
-/// Returns 1 while the directory of the fleet answers; "" without a fleet.
+/// Returns whether the directory of the fleet answers, and the rooms for which this server stands
+/// by; "" without a fleet.
 std::string FleetMetrics(const FleetMember* member) {
   if (member == nullptr) return "";
-  return Number("seam_directory_up", "gauge", "1 if the directory of the fleet answered last.",
-                member->up() ? 1 : 0);
+  std::string page = Number("seam_directory_up", "gauge",
+                            "1 if the directory of the fleet answered last.", member->up() ? 1 : 0);
+  page +=
+      "# HELP seam_standby_behind_ticks Ticks that a room for which this server stands by is "
+      "behind its log; -1: it is not followed.\n# TYPE seam_standby_behind_ticks gauge\n";
+  for (const auto& [room, ticks] : member->StandsBy()) {
+    page += "seam_standby_behind_ticks{room=\"" + room + "\"} " + std::to_string(ticks) + "\n";
+  }
+  return page;
 }
 
 }  // namespace

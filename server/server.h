@@ -81,6 +81,13 @@ class Server {
   /// if all its clients had left then. Players' places are reserved as before. Returns one line if
   /// the bytes are damaged; the server must then not be used any more.
   Status Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail = nullptr);
+  /// Loads the saved room, to do the ticks of its log again by Replay while another server still
+  /// writes them. Returns one line likewise.
+  Status Follow(const SavedRoom& saved, std::int64_t now_us);
+  /// Returns the players in the room after the last Replay.
+  const std::vector<int>& replayed_present() const { return replayed_present_; }
+  /// Returns who has the room's names.
+  PlaceTable& places() { return sessions_.places(); }
   /// Does the next tick of the room's log again, as it was. Requires the ticks in their order, from
   /// the first one or the saved one on, and no clients. Returns false if the rules come to other
   /// values than the log's, which then count.
@@ -121,6 +128,8 @@ class Server {
   void RedirectAll(std::int64_t now_us, const Redirect& redirect);
   /// Ends the room here without a word to its clients: it goes on elsewhere, who knows where.
   void Forsake(std::int64_t now_us);
+  /// Tells the clients, and those that come, which server would go on with the room.
+  void NameStandby(std::int64_t now_us, const std::string& address);
   /// True after RedirectAll, once every client has acknowledged it or is silent.
   bool all_redirected() const { return over_ && sessions_.AllTold(); }
   std::int32_t epoch() const { return epoch_; }  ///< of the room
@@ -256,6 +265,8 @@ class Server {
   bool InputsOnly(const Session& session) const;
 
   // server_events.cpp
+  /// Returns the redirect in the room's own epoch, which names the standby.
+  Redirect StandbyNow(std::int64_t now_us) const;
   /// Puts the end of the session into the record.
   void End(std::int64_t now_us, const std::string& reason);
   /// Tick of a room that is over.
@@ -307,6 +318,7 @@ class Server {
   const Room room_;
   std::int32_t epoch_;  // of what is saved
   bool over_ = false;   // the room goes on elsewhere: Tick only answers
+  std::string standby_;  // address of the server that would go on; "": none is known
   Net& net_;
   ServerStats stats_;
   Replica replica_;

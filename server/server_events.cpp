@@ -52,6 +52,20 @@ void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
   sessions_.Close(now_us, reason, &stats_.counters);
 }
 
+void Server::NameStandby(std::int64_t now_us, const std::string& address) {
+  if (over_ || address.empty() || std::exchange(standby_, address) == address) return;
+  sessions_.SendToAll(Encode(StandbyNow(now_us)));
+}
+
+Redirect Server::StandbyNow(std::int64_t now_us) const {
+  Redirect redirect;
+  redirect.utime = now_us;
+  redirect.address = standby_;
+  redirect.room = config_.room;
+  redirect.epoch = epoch_;
+  return redirect;
+}
+
 void Server::RedirectAll(std::int64_t now_us, const Redirect& redirect) {
   if (!std::exchange(over_, true)) End(now_us, "it goes on at " + redirect.address);
   Redirect now = redirect;

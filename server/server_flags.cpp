@@ -119,6 +119,9 @@ void DefineServerFlags(Command& app, ServerFlags& f) {
   app.Option("--directory", f.directory,
              "take rooms by this directory of a fleet, file:FOLDER or etcd:HOST:PORT,...; with "
              "--resume also take over the rooms of servers that are gone (docs/fleet.md)");
+  app.Switch("--standby", f.standby,
+             "with --directory and --resume: keep a copy of other servers' rooms up to date, to go "
+             "on at once with those of a server that dies");
   app.Option("--fleet", f.fleet, "name of the fleet in the directory");
   app.Option("--id", f.server_id, "name of this server in the directory (default: its address)");
   app.Option("--advertise", f.advertise,

@@ -47,6 +47,7 @@ struct ServerFlags {
   std::string trust = "act";
   std::string identity, token_key, log_key;
   std::string drain_to;   // address at which the rooms go on after SIGTERM; "fleet": any server's
+  bool standby = false;
   std::string directory;  // of the fleet; "": none
   std::string fleet = "main";
   std::string server_id;  // in the directory; "": from the address

@@ -26,6 +26,7 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
   std::vector<int> present;
   Status status = State().Load(saved, now_us, &present);
   if (!status.ok()) return status;
+  if (tail != nullptr) present.insert(present.end(), tail->present.begin(), tail->present.end());
   if (tail != nullptr && started()) {
     ReplayTail(now_us, *tail, &present);
     clock_.GoOn(now_us, replica_.tick());
@@ -46,6 +47,12 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
     LetGo(now_us, player, 0);
   }
   return status;
+}
+
+Status Server::Follow(const SavedRoom& saved, std::int64_t now_us) {
+  broadcast_.Mute(true);
+  replayed_present_.clear();
+  return State().Load(saved, now_us, &replayed_present_);
 }
 
 void Server::TakeAllBack(std::int64_t now_us) {
@@ -77,6 +84,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
     send(state.Resting(now_us));
   }
   send(state.Metadata(now_us));
+  if (!standby_.empty()) send(std::vector<Redirect>{StandbyNow(now_us)});
   if (!sent) sessions_.Leave(session, "the world is more than can be sent to it");
 }
 

@@ -123,6 +123,44 @@ std::string Directory::MyHolderText(std::int32_t epoch) const {
   return HolderTextOf({me_.id, me_.address, epoch});
 }
 
+std::string Directory::MyStandbyText() const { return StandbyTextOf({me_.id, me_.address}); }
+
+Status Directory::StandBy(const FleetRoom& room, bool* done) {
+  *done = false;
+  if (!room.holder || room.holder->server == me_.id) return Status::Ok();
+  return store_->Commit({{RoomKey(room.name, "standby"), Is::kAbsent, "", 0},
+                         {RoomKey(room.name, "holder"), Is::kChangedAt, "", room.holder_changed},
+                         {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}},
+                        {{RoomKey(room.name, "standby"), MyStandbyText(), lease_}}, done);
+}
+
+Status Directory::StandDown(const std::string& room) {
+  bool done = false;
+  return store_->Commit({{RoomKey(room, "standby"), Is::kValue, MyStandbyText(), 0}},
+                        {{RoomKey(room, "standby"), std::nullopt, 0}}, &done);
+}
+
+Status Directory::TakeFrom(const FleetRoom& room, std::int32_t* epoch) {
+  SEAM_ASSERT(room.holder && room.epoch >= 1);
+  *epoch = 0;
+  if (room.epoch == std::numeric_limits<std::int32_t>::max()) {
+    return Status::Error("room " + room.name + ": there is no epoch left");
+  }
+  const std::int32_t next = room.epoch + 1;
+  bool done = false;
+  const Status status =
+      store_->Commit({{RoomKey(room.name, "standby"), Is::kValue, MyStandbyText(), 0},
+                      {RoomKey(room.name, "holder"), Is::kChangedAt, "", room.holder_changed},
+                      {RoomKey(room.name, "epoch"), Is::kChangedAt, "", room.epoch_changed},
+                      {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}},
+                     {{RoomKey(room.name, "epoch"), std::to_string(next), 0},
+                      {RoomKey(room.name, "holder"), MyHolderText(next), lease_},
+                      {RoomKey(room.name, "standby"), std::nullopt, 0}},
+                     &done);
+  if (status.ok() && done) *epoch = next;
+  return status;
+}
+
 Status Directory::Claim(const std::string& room, const std::string& spec, std::int32_t least,
                         std::int32_t* epoch) {
   return Take(room, &spec, least, epoch);
@@ -150,7 +188,8 @@ Status Directory::Take(const std::string& room, const std::string* spec, std::in
       {RoomKey(room, "epoch"), Is::kChangedAt, "", known == nullptr ? 0 : known->epoch_changed},
       {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}};
   std::vector<KeyWrite> writes = {{RoomKey(room, "epoch"), std::to_string(next), 0},
-                                  {RoomKey(room, "holder"), MyHolderText(next), lease_}};
+                                  {RoomKey(room, "holder"), MyHolderText(next), lease_},
+                                  {RoomKey(room, "standby"), std::nullopt, 0}};
   if (spec != nullptr) {
     writes.push_back({RoomKey(room, "spec"), *spec, 0});
   } else {
@@ -197,7 +236,8 @@ Status Directory::Move(const std::string& room, std::int32_t epoch, const FleetS
       {{RoomKey(room, "holder"), Is::kValue, MyHolderText(epoch), 0},
        {prefix_ + "servers/" + to.id, Is::kPresent, "", 0}},
       {{RoomKey(room, "epoch"), std::to_string(epoch + 1), 0},
-       {RoomKey(room, "holder"), HolderTextOf({to.id, to.address, epoch + 1}), to.lease}},
+       {RoomKey(room, "holder"), HolderTextOf({to.id, to.address, epoch + 1}), to.lease},
+       {RoomKey(room, "standby"), std::nullopt, 0}},
       &done);
   if (status.ok() && done) *next = epoch + 1;
   return status;
@@ -213,6 +253,7 @@ Status Directory::Release(const std::string& room, std::int32_t epoch) {
   bool done = false;
   return store_->Commit({{RoomKey(room, "holder"), Is::kValue, MyHolderText(epoch), 0}},
                         {{RoomKey(room, "holder"), std::nullopt, 0},
+                         {RoomKey(room, "standby"), std::nullopt, 0},
                          {RoomKey(room, "spec"), std::nullopt, 0},
                          {RoomKey(room, "state"), std::nullopt, 0}},
                         &done);

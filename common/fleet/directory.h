@@ -6,6 +6,7 @@
 ///   /seam/FLEET/rooms/R/spec     of the room, for a server that takes it over             stays
 ///   /seam/FLEET/rooms/R/state    where its saved state is                                 stays
 ///   /seam/FLEET/rooms/R/holder   {server, address, epoch}                                 leased
+///   /seam/FLEET/rooms/R/standby  {server, address} of the next holder, if this one dies   leased
 ///
 /// Each change is one transaction, so that an epoch is never given twice. Nothing that is read is
 /// trusted: FleetListing has only values that are as they should be.
@@ -42,11 +43,18 @@ struct FleetHolder {
   std::int32_t epoch = 0;
 };
 
+/// The server that takes a room over at once when its holder dies: at which its clients knock.
+struct FleetStandby {
+  std::string server, address;
+};
+
 struct FleetRoom {
   std::string name;
   std::int32_t epoch = 0;          ///< the last that was given; 0: none
   std::int64_t epoch_changed = 0;  ///< KeyValue::changed of it
   std::optional<FleetHolder> holder;
+  std::int64_t holder_changed = 0;  ///< KeyValue::changed of it; 0: none
+  std::optional<FleetStandby> standby;
   std::string spec, state;
 };
 
@@ -88,6 +96,14 @@ class Directory {
                std::int32_t* epoch);
   /// Takes a room that has a spec and no holder any more; else as Claim.
   Status TakeOver(const std::string& room, std::int32_t least, std::int32_t* epoch);
+  /// Becomes the standby of a room that another server holds and that has none. `done` false: it
+  /// has one, or is not held by another as `room` was read.
+  Status StandBy(const FleetRoom& room, bool* done);
+  /// Is no longer the standby, if it is.
+  Status StandDown(const std::string& room);
+  /// Takes a room from a holder that is silent, as its standby. `epoch`: the next; 0: it is not the
+  /// standby, or holder or epoch are not as `room` was read.
+  Status TakeFrom(const FleetRoom& room, std::int32_t* epoch);
   /// Holds the room again in the same epoch, with the present lease: after the one before had
   /// ended, if nobody has taken it, or while that of a process which is gone goes on.
   Status TakeBack(const std::string& room, std::int32_t epoch, bool* done);
@@ -112,6 +128,7 @@ class Directory {
  private:
   std::string RoomKey(const std::string& room, const char* what) const;
   std::string MyHolderText(std::int32_t epoch) const;
+  std::string MyStandbyText() const;
   Status Take(const std::string& room, const std::string* spec, std::int32_t least,
               std::int32_t* epoch);
 

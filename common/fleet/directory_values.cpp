@@ -77,6 +77,16 @@ bool ReadHolderText(const std::string& text, FleetHolder* holder) {
          ReadNumber(all, "epoch", &holder->epoch) && holder->epoch >= 1;
 }
 
+std::string StandbyTextOf(const FleetStandby& standby) {
+  return Json{{"server", standby.server}, {"address", standby.address}}.dump();
+}
+
+bool ReadStandbyText(const std::string& text, FleetStandby* standby) {
+  const Json all = Json::parse(text, nullptr, false);
+  return all.is_object() && ReadWord(all, "server", 32, &standby->server) &&
+         IsName(standby->server) && ReadReachable(all, &standby->address);
+}
+
 bool ReadEpochText(const std::string& text, std::int32_t* epoch) {
   if (text.empty() || text.size() > 10 ||
       text.find_first_not_of("0123456789") != std::string::npos) {
@@ -132,7 +142,11 @@ FleetListing ReadListing(const std::string& prefix, const std::vector<KeyValue>&
       room.epoch_changed = key.changed;
     } else if (what == "holder") {
       room.holder.emplace();
+      room.holder_changed = key.changed;
       good = ReadHolderText(key.value, &*room.holder);
+    } else if (what == "standby") {
+      room.standby.emplace();
+      good = ReadStandbyText(key.value, &*room.standby);
     } else if (what == "spec" || what == "state") {
       (what == "spec" ? room.spec : room.state) = key.value;
       good = IsFleetObject(key.value);

@@ -37,6 +37,9 @@ void RoomWatch::Run() {
     for (const FleetRoom& room : listing.rooms) {
       if (!room.holder || (room.name != room_ && !room_.empty())) continue;
       newest_ = room.holder;
+      Address at;
+      standby_.reset();
+      if (room.standby && ReadAddress(room.standby->address, &at)) standby_ = at;
       break;
     }
     wake_.wait_for(lock, std::chrono::milliseconds(kRoomLookMs), [this] { return stop_; });
@@ -51,6 +54,11 @@ std::string RoomWatch::trouble() const {
 std::optional<FleetHolder> RoomWatch::newest() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return newest_;
+}
+
+std::optional<Address> RoomWatch::standby() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return standby_;
 }
 
 }  // namespace seam

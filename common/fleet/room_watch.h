@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "common/fleet/directory.h"
+#include "common/net/net.h"
 
 namespace seam {
 
@@ -21,6 +22,8 @@ class RoomWatch {
 
   /// Returns the newest holder of the room; nullopt: none was seen yet.
   std::optional<FleetHolder> newest() const;
+  /// Returns the address of the room's standby as of the last look; nullopt: it has none.
+  std::optional<Address> standby() const;
   /// Returns why no holder was seen yet: the directory does not answer, or nobody has the room.
   std::string trouble() const;
 
@@ -32,6 +35,7 @@ class RoomWatch {
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable wake_;
   std::optional<FleetHolder> newest_;
+  std::optional<Address> standby_;
   std::string trouble_;
   bool stop_ = false;
   std::thread thread_;

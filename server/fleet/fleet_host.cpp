@@ -36,6 +36,9 @@ void CheckFleetFlags(const ServerFlags& f) {
       ParseAddress(f.drain_to, 7777).port == 0) {
     throw OperatorError("--drain-to " + f.drain_to + ": no server has port 0");
   }
+  if (f.standby && (f.directory.empty() || f.resume.empty())) {
+    throw OperatorError("--standby follows the rooms of a fleet: --directory and --resume FOLDER");
+  }
   if (f.gateway && f.directory.empty()) throw OperatorError("--gateway needs --directory");
   if (f.gateway && (kept || !f.scenes.empty())) {
     throw OperatorError("--gateway has no rooms: not with a scene, --state or --resume");
@@ -80,6 +83,7 @@ FleetMember::Config MemberOf(const ServerFlags& f, const Address& local) {
   config.me.capacity = f.gateway ? 0 : f.capacity;
   config.folder = f.state.empty() ? f.resume : f.state;
   config.takes = !f.resume.empty();
+  config.warm = f.standby;
   return config;
 }
 
@@ -97,6 +101,11 @@ void FollowFleet(FleetMember& member, Hub& hub) {
                                     std::to_string(plan.config.epoch));
     } catch (const OperatorError& error) {
       member.GiveBack(plan.config.room, plan.config.epoch, error.what());
+    }
+  }
+  for (const auto& [name, address] : member.TakeStandbys()) {
+    for (const auto& room : hub.rooms()) {
+      if (room->config().room == name && !room->over()) room->NameStandby(address);
     }
   }
 }

@@ -19,14 +19,6 @@ constexpr int kRoundMs = 250;
 /// further failure, up to the most: each try costs an epoch.
 constexpr std::int64_t kFailedUs = 10000000, kFailedMostUs = 3600000000;
 
-Redirect To(const std::string& room, const FleetHolder& holder) {
-  Redirect to;
-  to.room = room;
-  to.address = holder.address;
-  to.epoch = holder.epoch;
-  return to;
-}
-
 }  // namespace
 
 FleetMember::FleetMember(const Config& config, Prepare prepare)
@@ -77,6 +69,15 @@ bool FleetMember::Knows(const std::string& room) {
 
 void FleetMember::Start() {
   stop_ = false;
+  if (config_.takes) {
+    const auto wake = [this] {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      due_ = true;
+      wake_.notify_all();
+    };
+    watch_ = std::make_unique<StandbyWatch>(
+        StandbyWatch::Config{config_.folder, config_.warm, config_.log_key, wake});
+  }
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -87,6 +88,7 @@ void FleetMember::Stop() {
     wake_.notify_all();
   }
   if (thread_.joinable()) thread_.join();
+  watch_.reset();
 }
 
 void FleetMember::Run() {
@@ -99,7 +101,8 @@ void FleetMember::Run() {
       news_.push_back(status.ok() ? "the directory answers again"
                                   : "no directory: the rooms go on (" + status.why() + ")");
     }
-    wake_.wait_for(lock, std::chrono::milliseconds(kRoundMs), [this] { return stop_; });
+    wake_.wait_for(lock, std::chrono::milliseconds(kRoundMs), [this] { return stop_ || due_; });
+    due_ = false;
   }
 }
 
@@ -115,6 +118,8 @@ Status FleetMember::Round() {
     status = directory_.Register(me);
     if (!status.ok()) return status;
   }
+  status = TakeDue();
+  if (!status.ok()) return status;
   FleetListing listing;
   status = directory_.List(&listing);
   if (!status.ok()) return status;
@@ -126,10 +131,16 @@ Status FleetMember::Round() {
     }
     refused_ = listing.refused;
   }
+  std::vector<FleetRoom> guarded;
   for (const FleetRoom& room : listing.rooms) {
     status = LookAt(room);
+    if (status.ok()) status = StandBy(room);
     if (!status.ok()) return status;
+    const bool ours = room.standby && room.standby->server == config_.me.id;
+    if (ours && IsAnothers(room)) guarded.push_back(room);
   }
+  if (watch_ != nullptr) watch_->Set(guarded);
+  NoteStandbys(listing);
   for (const auto& [room, epoch] : held_) {
     bool done = false;
     if (listing.FindRoom(room) != nullptr) continue;
@@ -147,10 +158,12 @@ Status FleetMember::LookAt(const FleetRoom& room) {
     if (room.epoch > held->second && !mine) {
       held_.erase(held);
       const std::lock_guard<std::mutex> lock(mutex_);
-      lost_.push_back(To(room.name, room.holder.value_or(FleetHolder{"", "", room.epoch})));
+      lost_.push_back(RedirectTo(room.name, room.holder.value_or(FleetHolder{"", "", room.epoch})));
       return Status::Ok();
     }
-    if (mine && room.holder->epoch > held->second) return TakeHere(room, room.holder->epoch);
+    if (mine && room.holder->epoch > held->second) {
+      return TakeHere(room, room.holder->epoch, nullptr);
+    }
     bool done = false;
     return room.holder ? Status::Ok() : directory_.TakeBack(room.name, held->second, &done);
   }
@@ -160,18 +173,20 @@ Status FleetMember::LookAt(const FleetRoom& room) {
   if (mine) {
     bool done = false;
     const Status status = directory_.TakeBack(room.name, room.holder->epoch, &done);
-    return status.ok() && done ? TakeHere(room, room.holder->epoch) : status;
+    return status.ok() && done ? TakeHere(room, room.holder->epoch, nullptr) : status;
   }
   const auto used = static_cast<std::int32_t>(held_.size());
   if (room.holder || used >= config_.me.capacity || !IsOurs(room.name)) return Status::Ok();
   std::int32_t epoch = 0;
   const Status status = directory_.TakeOver(room.name, 1, &epoch);
-  return status.ok() && epoch > 0 ? TakeHere(room, epoch) : status;
+  if (!status.ok() || epoch == 0) return status;
+  return TakeHere(room, epoch, watch_ != nullptr ? watch_->Take(room.name) : nullptr);
 }
 
-Status FleetMember::TakeHere(const FleetRoom& room, std::int32_t epoch) {
+Status FleetMember::TakeHere(const FleetRoom& room, std::int32_t epoch,
+                             std::unique_ptr<FollowedRoom> followed) {
   try {
-    RoomPlan plan = prepare_(room.name, epoch);
+    RoomPlan plan = prepare_(room.name, epoch, std::move(followed));
     held_[room.name] = epoch;
     const std::lock_guard<std::mutex> lock(mutex_);
     ready_.push_back(std::move(plan));
@@ -246,7 +261,7 @@ Redirect FleetMember::Move(const std::string& room, const std::string& to, std::
   std::int32_t next = 0;
   if (!directory_.Move(room, held->second, *server, &next).ok() || next == 0) return nowhere;
   held_.erase(held);
-  return To(room, {server->id, server->address, std::max(next, epoch)});
+  return RedirectTo(room, {server->id, server->address, std::max(next, epoch)});
 }
 
 void FleetMember::Release(const std::string& room) {
@@ -267,19 +282,14 @@ std::vector<Redirect> FleetMember::TakeLost() {
 }
 
 std::vector<std::string> FleetMember::TakeReports() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(news_, {});
-}
-
-std::optional<Redirect> FleetMember::Find(const std::string& room) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (const FleetRoom& each : listing_.rooms) {
-    const bool asked = each.name == room || room.empty();
-    if (asked && each.holder && each.holder->server != config_.me.id) {
-      return To(each.name, *each.holder);
-    }
+  std::vector<std::string> news;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    news = std::exchange(news_, {});
   }
-  return std::nullopt;
+  if (watch_ == nullptr) return news;
+  for (std::string& line : watch_->TakeReports()) news.push_back(std::move(line));
+  return news;
 }
 
 void FleetMember::Say(const std::string& line) {

@@ -1,7 +1,7 @@
 #pragma once
 /// A server as a member of a fleet: a thread of its own talks to the directory, so that no tick
-/// waits for it. It renews the lease, watches who has which room, and takes over rooms whose server
-/// is gone. Without the directory the rooms go on.
+/// waits for it. It renews the lease, watches who has which room, takes over rooms whose server is
+/// gone, and stands by for others (StandbyWatch). Without the directory the rooms go on.
 
 #include <atomic>
 #include <condition_variable>
@@ -11,25 +11,35 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "common/codec/messages.h"
 #include "common/fleet/directory.h"
+#include "server/fleet/standby_watch.h"
 #include "server/hub/hosted_room.h"
+#include "server/sessions/handshake.h"
 
 namespace seam {
 
+/// Returns the redirect to a room's holder.
+Redirect RedirectTo(const std::string& room, const FleetHolder& holder);
+
 class FleetMember {
  public:
-  /// Makes the plan of a room that is to go on here in this epoch; called by the thread. Throws
+  /// Makes the plan of a room that is to go on here in this epoch; called by the thread.
+  /// `followed`: the room, if this server has followed it; nullptr: its state is read. Throws
   /// OperatorError if it cannot.
-  using Prepare = std::function<RoomPlan(const std::string& room, std::int32_t epoch)>;
+  using Prepare = std::function<RoomPlan(const std::string& room, std::int32_t epoch,
+                                         std::unique_ptr<FollowedRoom> followed)>;
   struct Config {
     std::string directory;  ///< as OpenKeyStore takes it
     std::string fleet;
     FleetServer me;
     std::string folder;  ///< of the rooms' states; "": none
-    bool takes = false;  ///< takes over rooms in the folder
+    bool takes = false;  ///< takes over rooms in the folder, and stands by for them
+    bool warm = false;   ///< follows the rooms for which it stands by
+    std::shared_ptr<const Secret> log_key;  ///< of their logs; null: none
   };
 
   /// Throws OperatorError if the directory cannot be used at all. `prepare` is called only if it
@@ -59,13 +69,18 @@ class FleetMember {
   std::vector<RoomPlan> TakeReady();
   /// Returns the rooms that other servers have got since, and where they are.
   std::vector<Redirect> TakeLost();
+  /// Returns rooms that are held here and have got a standby since: its address.
+  std::vector<std::pair<std::string, std::string>> TakeStandbys();
   /// Returns lines for the operator since the last call.
   std::vector<std::string> TakeReports();
   /// Gives back a room of TakeReady that could not be opened in this epoch: its state stays, and
   /// any server may take it. It is not tried here again at once.
   void GiveBack(const std::string& room, std::int32_t epoch, const std::string& why);
-  /// Returns where a room is now, as far as is known; empty room: the first.
-  std::optional<Redirect> Find(const std::string& room) const;
+  /// Answers a join to a room that is not here, as Hub::Elsewhere: by where it is, as far as is
+  /// known; empty room: the first. At the room's standby the join may be a knock.
+  std::optional<Redirect> Find(const JoinRequest& join);
+  /// Returns the rooms for which this server stands by; see StandbyWatch::Behind.
+  std::map<std::string, std::int64_t> StandsBy() const;
   /// True if the directory answered last.
   bool up() const { return up_; }
 
@@ -74,7 +89,12 @@ class FleetMember {
   /// Does one round: renews, reads the listing and acts on it.
   Status Round();
   Status LookAt(const FleetRoom& room);
-  Status TakeHere(const FleetRoom& room, std::int32_t epoch);
+  Status TakeHere(const FleetRoom& room, std::int32_t epoch,
+                  std::unique_ptr<FollowedRoom> followed);
+  /// Takes the rooms that are due from their holders.
+  Status TakeDue();
+  /// Becomes the standby of a room of another server that has none.
+  Status StandBy(const FleetRoom& room);
   /// A room that was taken over and could not be opened here.
   struct Unopened {
     std::string room;
@@ -85,8 +105,10 @@ class FleetMember {
   Status GiveUpUnopened();
   void NoteUnopened(const Unopened& failed);
   bool IsOurs(const std::string& room) const;
+  bool IsAnothers(const FleetRoom& room) const;
   /// Returns the spec and state of the rooms here: their folder.
   std::string SpecOfRooms() const;
+  void NoteStandbys(const FleetListing& listing);
   void Say(const std::string& line);
 
   const Config config_;
@@ -99,17 +121,21 @@ class FleetMember {
   std::map<std::string, std::int32_t> held_;     // epoch of each room that is here
   std::map<std::string, Failure> failed_;        // rooms that could not be opened here
   std::map<std::string, std::int32_t> to_give_;  // epoch of each that the directory has to give up
+  std::map<std::string, std::string> guards_;    // address of the standby of each room that is here
+  std::map<std::string, std::int64_t> unguarded_us_;  // since when a room has no standby
   std::atomic<bool> up_{true};
   std::thread thread_;
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable wake_;
-  bool stop_ = false;
+  bool stop_ = false, due_ = false;
   FleetListing listing_;
   std::vector<RoomPlan> ready_;
   std::vector<Unopened> unopened_;
   std::vector<Redirect> lost_;
+  std::vector<std::pair<std::string, std::string>> standbys_;  // not taken yet
   std::vector<std::string> news_;
   std::string refused_;  // the last value that was reported
+  std::unique_ptr<StandbyWatch> watch_;  // null: it takes no rooms, or does not run
 };
 
 }  // namespace seam

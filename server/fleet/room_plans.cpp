@@ -9,6 +9,7 @@
 #include "common/base/find_scene.h"
 #include "common/base/names.h"
 #include "common/base/plain_file.h"
+#include "common/base/process.h"
 #include "common/net/impair.h"
 #include "common/record/recording.h"
 #include "common/sync/method.h"
@@ -148,9 +149,10 @@ RoomPlan PlanOfUnbegun(const Flags& f, const std::string& name, int index, int r
 
 }  // namespace
 
-RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string& name, int index,
-                       int rooms, std::int32_t epoch) {
-  auto resumed = std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, log_key, epoch));
+namespace {
+
+RoomPlan PlanOf(const Flags& f, const std::string& name, int index, int rooms,
+                std::shared_ptr<ResumedRoom> resumed) {
   const Room& room = resumed->saved->room();
   RoomPlan plan;
   plan.scene = resumed->saved->scene();
@@ -172,6 +174,19 @@ RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string&
   plan.record = resumed->log;
   plan.resumed = std::move(resumed);
   return plan;
+}
+
+}  // namespace
+
+RoomPlan PlanOfResumed(const Flags& f, const Secret* log_key, const std::string& name, int index,
+                       int rooms, std::int32_t epoch) {
+  return PlanOf(f, name, index, rooms,
+                std::make_shared<ResumedRoom>(ReadResumedRoom(f.resume, name, log_key, epoch)));
+}
+
+RoomPlan PlanOfFollowed(const Flags& f, const std::string& name, std::int32_t epoch,
+                        FollowedRoom& followed) {
+  return PlanOf(f, name, 0, 2, followed.Finish(SteadyClockUs(), epoch));
 }
 
 namespace {

@@ -108,7 +108,7 @@ void HostedRoom::Run(std::int64_t now_us) {
     DrainNetwork(now_us);
     return;
   }
-  StopIfSuperseded(now_us);
+  FollowDirectory(now_us);
   if (over()) {
     server_->Tick(now_us, 0);
     CollectReports();
@@ -149,12 +149,15 @@ void HostedRoom::Supersede(const Redirect& elsewhere) {
   superseded_ = elsewhere;
 }
 
-void HostedRoom::StopIfSuperseded(std::int64_t now_us) {
+void HostedRoom::FollowDirectory(std::int64_t now_us) {
   Redirect by;
+  std::string standby;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (superseded_) by = *std::exchange(superseded_, std::nullopt);
+    standby.swap(standby_);
   }
+  server_->NameStandby(now_us, standby);
   const bool told = by.epoch > server_->epoch();
   if (!told && server_->shown_epoch() <= server_->epoch()) return;
   if (over() && (by.address.empty() || !told)) return;
@@ -171,6 +174,11 @@ void HostedRoom::StopIfSuperseded(std::int64_t now_us) {
                     std::to_string(epoch) + ": stopped here in epoch " +
                     std::to_string(server_->epoch()) + ", its files stay");
   }
+}
+
+void HostedRoom::NameStandby(const std::string& address) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  standby_ = address;
 }
 
 bool HostedRoom::over() const {

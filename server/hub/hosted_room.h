@@ -72,6 +72,8 @@ class HostedRoom : public Runnable {
   /// Thread-safe: the room goes on at another server in this epoch: stops it without a word to its
   /// clients, or, with an address in `elsewhere`, sends them there. Its files stay as they are.
   void Supersede(const Redirect& elsewhere);
+  /// Thread-safe: see Server::NameStandby.
+  void NameStandby(const std::string& address);
   /// Thread-safe: true if another server has the room.
   bool over() const;
 
@@ -110,7 +112,8 @@ class HostedRoom : public Runnable {
   void NoteTicks();
   void Tell(std::int64_t now_us);
   void CollectReports();
-  void StopIfSuperseded(std::int64_t now_us);
+  /// Stops if another server has the room; names the standby.
+  void FollowDirectory(std::int64_t now_us);
   void EndIfDone(std::int64_t now_us);
   void OpenLcm();
   void GoOn(const ResumedRoom& resumed);
@@ -135,6 +138,7 @@ class HostedRoom : public Runnable {
   bool done_ = false;
   bool over_ = false;
   std::optional<Redirect> superseded_;  // not acted on yet
+  std::string standby_;                 // not told yet
   std::vector<std::string> news_;
 };
 

@@ -65,7 +65,8 @@ void Hub::OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t 
   JoinRequest join;
   const auto verdict = handshake_.Receive(now_us, from, number, datagram, &join);
   if (verdict != Handshake::Verdict::kJoins) return;
-  const std::optional<Redirect> to = elsewhere_(join.room);
+  const std::optional<Redirect> to = elsewhere_(join);
+  if (to && to->address.empty()) return;
   if (to) {
     handshake_.AnswerByRedirect(now_us, from, join, *to);
   } else {
@@ -75,6 +76,7 @@ void Hub::OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t 
 
 void Hub::Drain(const Where& where) {
   lanes_.reset();
+  drains_ = true;
   std::vector<std::pair<HostedRoom*, Redirect>> moved;
   for (const auto& room : rooms_) {
     if (room->done() || room->over()) continue;
@@ -95,12 +97,21 @@ void Hub::Drain(const Where& where) {
   }
 }
 
+bool Hub::AsksForOver(int room, const Bytes& datagram) const {
+  if (room < 0 || !elsewhere_ || drains_ || LooseNumber(datagram) == 0) return false;
+  return rooms_[static_cast<std::size_t>(room)]->over();
+}
+
 void Hub::Take(std::int64_t now_us) {
   handshake_.Forget(now_us);
   Address from;
   Bytes datagram;
   for (int n = 0; n < kDatagramsMax && udp_.Receive(&from, &datagram); ++n) {
     const int room = finder_.Find(now_us, datagram);
+    if (AsksForOver(room, datagram)) {
+      OnUnknownRoom(now_us, from, LooseNumber(datagram), datagram);
+      continue;
+    }
     if (room >= 0) {
       rooms_[static_cast<std::size_t>(room)]->Deliver(from, std::move(datagram));
       mail_[static_cast<std::size_t>(room)] = true;

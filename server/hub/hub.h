@@ -34,9 +34,10 @@ class Hub {
   /// Opens one more room, in place of one of the same name. Throws OperatorError as HostedRoom
   /// does.
   void Add(const RoomPlan& plan);
-  /// Finds the server that has a room which is not here; it is asked for those that have proved
-  /// their address. Without it such a join is refused.
-  using Elsewhere = std::function<std::optional<Redirect>(const std::string& room)>;
+  /// Finds the server that has the room of a join, which is not here, or no more; it is asked for
+  /// those that have proved their address. With an empty address the join gets no answer: the room
+  /// may come here, and the client asks again. nullopt, or without this: the join is refused.
+  using Elsewhere = std::function<std::optional<Redirect>(const JoinRequest& join)>;
   void SetElsewhere(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
   /// Ends the threads and saves the rooms for other servers. `where`: returns where the room goes
   /// on in this epoch, or an empty address if nowhere. Sends the clients there, and serves until
@@ -68,6 +69,8 @@ class Hub {
 
  private:
   void Take(std::int64_t now_us);
+  /// True for a join to a room that goes on at another server.
+  bool AsksForOver(int room, const Bytes& datagram) const;
   void OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t number,
                      const Bytes& datagram);
 
@@ -82,6 +85,7 @@ class Hub {
   std::vector<bool> mail_;  // by room: got a datagram in this Take
   std::int64_t strangers_ = 0;
   Elsewhere elsewhere_;
+  bool drains_ = false;
   Gather wake_policy_;
   std::unique_ptr<Lanes> lanes_;
 };

@@ -114,6 +114,7 @@ int PassOn(const Flags& f) {
     const std::optional<FleetHolder> holder = rooms != nullptr ? rooms->newest() : std::nullopt;
     Address at;
     if (holder && ReadAddress(holder->address, &at)) relay.Suggest(at, holder->epoch);
+    if (rooms != nullptr) relay.SuggestStandby(rooms->standby());
     relay.Tick(now);
     most = std::max(most, relay.watchers().ready());
     const std::string told = upstream_lines.Next(relay.client());

@@ -49,6 +49,7 @@ class Relay : private ClientTap {
   void Shutdown(std::int64_t now_us, const std::string& reason);
   /// Goes to where the room is by the fleet's directory; see Client::Suggest.
   void Suggest(const Address& server, std::int32_t epoch) { client_.Suggest(server, epoch); }
+  void SuggestStandby(const std::optional<Address>& standby) { client_.SuggestStandby(standby); }
 
   /// Returns the reason if the server refused the relay, or has a room that it cannot pass on; else
   /// "". Final.

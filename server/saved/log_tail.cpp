@@ -30,35 +30,48 @@ const LogSeal* AsSeal(const AnyMessage& any) {
 
 }  // namespace
 
-Status ReadLogTail(const std::string& path, const std::string& room, const LogPlace& from,
-                   std::int64_t tick, const Secret* key, LogTail* tail) {
+LogFollower::LogFollower(std::string path, std::string room, const LogPlace& from,
+                         std::int64_t tick, const Secret* key)
+    : path_(std::move(path)),
+      room_(std::move(room)),
+      key_(key),
+      tick_(tick),
+      kept_(from),
+      splitter_(tick) {}
+
+Status LogFollower::Read(LogTail* tail) {
   *tail = LogTail();
-  tail->end = from;
-  tail->damaged_segment = from.segment;
+  tail->end = kept_;
+  tail->damaged_segment = kept_.segment;
   std::unique_ptr<LogReader> log;
   try {
-    log = std::make_unique<LogReader>(path, from, key);
+    log = std::make_unique<LogReader>(path_, kept_, key_);
   } catch (const OperatorError& error) {
     return Status::Error(error.what());
   }
   const auto damaged = [&](const std::string& what) {
-    tail->damage = SegmentPath(path, log->segment()) + ": " + what;
+    tail->damage = SegmentPath(path_, log->segment()) + ": " + what;
     tail->damaged_segment = log->segment();
     return Status::Ok();
   };
-  TickSplitter splitter(tick);
+  TickSplitter splitter = splitter_;
   LogEvent event;
+  bool sealed = false;  // the event before was a seal, at tail->end
   while (log->Next(&event)) {
     const bool good = log->intact() && log->skipped_bytes() == 0;
-    const bool ours = RoomOfChannel(event.channel) == room;
+    const bool ours = RoomOfChannel(event.channel) == room_;
     AnyMessage any = ours ? Decode(event.data) : AnyMessage();
     const LogSeal* const seal = AsSeal(any);
     if (!good) {
       if (seal == nullptr) continue;
       const std::vector<DamagedRange> parts = log->damage();
       const bool forged = !parts.empty() && parts.back().forged;
-      return damaged("is damaged after tick " + std::to_string(tick) +
+      return damaged("is damaged after tick " + std::to_string(tick_) +
                      (forged ? kForgedWords : ""));
+    }
+    if (std::exchange(sealed, seal != nullptr)) {  // it is followed by another: it was kept
+      kept_ = tail->end;
+      splitter_ = splitter;
     }
     if (seal == nullptr) {
       if (ours && PublisherOfChannel(event.channel) == 0) splitter.Add(std::move(any));
@@ -66,16 +79,17 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
     }
     if (seal->peer == 0) {
       for (TickMessages& next : splitter.End(*seal)) {
-        if (next.tick != tick + 1) {
-          return damaged("tick " + std::to_string(tick + 1) + " is missing");
+        if (next.tick <= tick_) continue;  // of an earlier call
+        if (next.tick != tick_ + 1) {
+          return damaged("tick " + std::to_string(tick_ + 1) + " is missing");
         }
-        tick = next.tick;
+        tick_ = next.tick;
         tail->ticks.push_back(std::move(next));
       }
       tail->begun = splitter.begun();
     }
     tail->end = {
-        log->place_bytes(), event.number + 1, static_cast<std::uint32_t>(seal->log_crc), {}, tick,
+        log->place_bytes(), event.number + 1, static_cast<std::uint32_t>(seal->log_crc), {}, tick_,
         log->segment()};
     std::copy(seal->log_keyed.begin(), seal->log_keyed.end(), tail->end.keyed.begin());
   }
@@ -85,6 +99,11 @@ Status ReadLogTail(const std::string& path, const std::string& room, const LogPl
   }
   for (const AnyMessage& any : tail->begun) NoteSum(any, &tail->summary);
   return Status::Ok();
+}
+
+Status ReadLogTail(const std::string& path, const std::string& room, const LogPlace& from,
+                   std::int64_t tick, const Secret* key, LogTail* tail) {
+  return LogFollower(path, room, from, tick, key).Read(tail);
 }
 
 }  // namespace seam

@@ -1,5 +1,6 @@
 #pragma once
-/// The end of a room's log, after its snapshot: what the server had accepted since.
+/// The end of a room's log, after its snapshot: what the server had accepted since. LogFollower
+/// reads it while another server still writes it, ReadLogTail once.
 
 #include <cstdint>
 #include <optional>
@@ -20,11 +21,37 @@ struct LogTail {
   std::optional<Summary> summary;   ///< the newest one of the session that wrote the log
   std::string damage;               ///< one line if more follows `end` than a tick that was cut off
   std::int32_t damaged_segment = 0;  ///< of the log, in which that is
+  /// Players that were in the room before `ticks`, beside those that are in the saved room.
+  std::vector<int> present;
 };
 
-/// Reads the log from `from` on, which is behind tick `tick`, up to the first thing that is not as
-/// it was written. `key`: written with it, nullptr: with any or none. Returns one line if there is
-/// no such place in the log.
+class LogFollower {
+ public:
+  /// `from`: a place that is kept, behind tick `tick`. `key`: written with it, nullptr: with any or
+  /// none; must outlive this.
+  LogFollower(std::string path, std::string room, const LogPlace& from, std::int64_t tick,
+              const Secret* key);
+
+  /// Reads the whole ticks that were not in an earlier call's `tail`, up to the end of the log or
+  /// the first thing that is not as it was written. While the log is being written that may be a
+  /// tick of which a part is there: the next call reads it again. Returns one line if there is no
+  /// such place in the log.
+  Status Read(LogTail* tail);
+  /// The last tick that was read.
+  std::int64_t tick() const { return tick_; }
+
+ private:
+  const std::string path_, room_;
+  const Secret* const key_;
+  std::int64_t tick_;
+  // The last seal over which nothing is written any more, and what its reader knew.
+  LogPlace kept_;
+  TickSplitter splitter_;
+};
+
+/// Does so once: reads the log from `from` on, which is behind tick `tick`, up to the first thing
+/// that is not as it was written. `key`: written with it, nullptr: with any or none. Returns one
+/// line if there is no such place in the log.
 Status ReadLogTail(const std::string& path, const std::string& room, const LogPlace& from,
                    std::int64_t tick, const Secret* key, LogTail* tail);
 

@@ -79,35 +79,38 @@ std::vector<std::string> RoomsIn(const std::string& folder, bool may_none) {
   return {names.begin(), names.end()};
 }
 
+NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room,
+                                  std::vector<std::string>* notes) {
+  for (const SnapshotName& file : ListSnapshots(folder, room)) {
+    RoomSnapshot snapshot;
+    NewestSnapshot newest;
+    Status status = ReadSnapshot(file.path, &snapshot);
+    if (status.ok()) {
+      newest.saved = SavedRoom::Read(snapshot.room, &status);
+      if (newest.saved != nullptr) status = CanLoad(*newest.saved);
+      if (!status.ok()) status = Status::Error(file.path + ": " + status.why());
+    }
+    if (status.ok()) {
+      newest.tick = snapshot.tick;
+      newest.log = snapshot.log;
+      newest.epoch = file.epoch;
+      return newest;
+    }
+    notes->push_back(status.why() + "; the one before is used");
+  }
+  std::string why = folder + ": room " + room + " has no snapshot that can be read";
+  for (const std::string& note : *notes) why += "; " + note.substr(0, note.find("; the"));
+  throw OperatorError(why);
+}
+
 ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
                             const Secret* log_key, std::int32_t epoch) {
   ResumedRoom resumed;
-  LogPlace from;
-  std::int32_t log_epoch = 1;
-  for (const SnapshotName& file : ListSnapshots(folder, room)) {
-    RoomSnapshot snapshot;
-    Status status = ReadSnapshot(file.path, &snapshot);
-    if (status.ok()) {
-      resumed.saved = SavedRoom::Read(snapshot.room, &status);
-      if (resumed.saved != nullptr) status = CanLoad(*resumed.saved);
-      if (!status.ok()) {
-        resumed.saved = nullptr;
-        status = Status::Error(file.path + ": " + status.why());
-      }
-    }
-    if (status.ok()) {
-      resumed.saved_tick = snapshot.tick;
-      from = snapshot.log;
-      log_epoch = file.epoch;
-      break;
-    }
-    resumed.notes.push_back(status.why() + "; the one before is used");
-  }
-  if (resumed.saved == nullptr) {
-    std::string why = folder + ": room " + room + " has no snapshot that can be read";
-    for (const std::string& note : resumed.notes) why += "; " + note.substr(0, note.find("; the"));
-    throw OperatorError(why);
-  }
+  NewestSnapshot newest = OpenNewestSnapshot(folder, room, &resumed.notes);
+  resumed.saved = std::move(newest.saved);
+  resumed.saved_tick = newest.tick;
+  const LogPlace from = newest.log;
+  const std::int32_t log_epoch = newest.epoch;
   resumed.log = StateLogOf(folder, room, log_epoch);
   resumed.epoch = std::max({epoch, resumed.saved->epoch(), log_epoch});
   const Status read =

@@ -26,6 +26,18 @@ struct ResumedRoom {
   std::int64_t tick() const { return std::max(saved_tick, tail.end.tick); }
 };
 
+/// A room's newest snapshot, and where its log goes on.
+struct NewestSnapshot {
+  std::unique_ptr<const SavedRoom> saved;
+  std::int64_t tick = 0;
+  LogPlace log;
+  std::int32_t epoch = 1;  ///< of the log
+};
+/// Opens the newest snapshot that is of this version and loads; `notes` gets a line for each that
+/// does not. Throws OperatorError if there is none.
+NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room,
+                                  std::vector<std::string>* notes);
+
 /// Returns the path of a room's log in such a folder, for one epoch.
 std::string StateLogOf(const std::string& folder, const std::string& room, std::int32_t epoch = 1);
 /// Returns the names of the rooms in it. Throws OperatorError if there are none, unless `may_none`.

@@ -106,8 +106,10 @@ Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, s
   request->name = join.name;
   request->room = join.room;
   request->epoch = join.epoch;
+  // Where there are several rooms, or none, the proof is of the one that is asked for.
+  const std::string& room = door_.room.empty() ? join.room : door_.room;
   request->epoch_proved =
-      join.epoch > 0 && join.proof == EpochProof(identity_.secret, door_.room, join.epoch);
+      join.epoch > 0 && join.proof == EpochProof(identity_.secret, room, join.epoch);
   request->place_key = *key;
   request->keys = secrets->keys();
   return Verdict::kJoins;

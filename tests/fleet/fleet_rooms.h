@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,26 @@ class FleetRooms {
     std::unique_ptr<Server> server;
     bool runs = true;
   };
+  /// A path that can be cut to one server, both ways.
+  struct Gate : Net {
+    explicit Gate(Net& behind) : net(behind) {}
+    void Advance(std::int64_t now_us) override { net.Advance(now_us); }
+    void Send(const Address& to, ByteView datagram) override {
+      if (!cut || *cut != to) net.Send(to, datagram);
+    }
+    void Flush() override { net.Flush(); }
+    bool Receive(Address* from, Bytes* datagram) override {
+      while (net.Receive(from, datagram)) {
+        if (!cut || *cut != *from) return true;
+      }
+      return false;
+    }
+    Net& net;
+    std::optional<Address> cut;
+  };
   struct Guest {
     std::unique_ptr<Net> net;
+    std::unique_ptr<Gate> gate;
     std::unique_ptr<SeededEntropy> entropy;
     std::unique_ptr<Client> client;
   };
@@ -67,12 +86,13 @@ class FleetRooms {
     Guest& guest = *guests.back();
     const auto number = static_cast<std::uint16_t>(guests.size());
     guest.net = network.Attach({100, number});
+    guest.gate = std::make_unique<Gate>(*guest.net);
     guest.entropy = std::make_unique<SeededEntropy>(500 + number);
     ClientConfig config;
     config.server = server;
     config.name = name;
     config.drive = Drive::kBot;
-    guest.client = std::make_unique<Client>(config, *guest.net, silence_, *guest.entropy);
+    guest.client = std::make_unique<Client>(config, *guest.gate, silence_, *guest.entropy);
     return guest;
   }
   /// Lets `us` pass, or less when `until` holds; returns whether it does.

@@ -45,7 +45,7 @@ class Member : public ::testing::Test {
     return config;
   }
   FleetMember::Prepare Plans() {
-    return [this](const std::string& room, std::int32_t epoch) {
+    return [this](const std::string& room, std::int32_t epoch, std::unique_ptr<FollowedRoom>) {
       ++plans_;
       RoomPlan plan;
       plan.config.room = room;
@@ -97,10 +97,12 @@ TEST_F(Member, ARoomThatCannotBeOpenedIsGivenBackOnceAndAnotherServerMayTry) {
 }
 
 TEST_F(Member, ARoomWithoutAPlanIsGivenBackLikewise) {
-  FleetMember member(ConfigOf("a"), [this](const std::string&, std::int32_t) -> RoomPlan {
-    ++plans_;
-    throw OperatorError("no such scene");
-  });
+  FleetMember member(
+      ConfigOf("a"),
+      [this](const std::string&, std::int32_t, std::unique_ptr<FollowedRoom>) -> RoomPlan {
+        ++plans_;
+        throw OperatorError("no such scene");
+      });
   member.Start();
   ASSERT_TRUE(WaitFor([&] { return plans_ > 0 && !Red().holder; }));
   usleep(1000000);

@@ -1,0 +1,105 @@
+/// A server of a fleet as the standby for rooms of others.
+
+#include <utility>
+
+#include "common/base/process.h"
+#include "server/fleet/member.h"
+
+namespace seam {
+namespace {
+
+/// A room without a standby is left so long to servers that would follow it, us.
+constexpr std::int64_t kLetWarmUs = 1500000;
+
+}  // namespace
+
+Redirect RedirectTo(const std::string& room, const FleetHolder& holder) {
+  Redirect to;
+  to.room = room;
+  to.address = holder.address;
+  to.epoch = holder.epoch;
+  return to;
+}
+
+bool FleetMember::IsAnothers(const FleetRoom& room) const {
+  const bool held = room.holder && room.holder->server != config_.me.id;
+  return held && held_.count(room.name) == 0;
+}
+
+Status FleetMember::TakeDue() {
+  if (watch_ == nullptr) return Status::Ok();
+  Status status;
+  for (StandbyWatch::Due& due : watch_->TakeDue()) {
+    std::int32_t epoch = 0;
+    if (held_.count(due.room.name) > 0) continue;
+    status = directory_.TakeFrom(due.room, &epoch);
+    if (!status.ok()) return status;
+    if (epoch == 0) continue;
+    Say("room " + due.room.name + ": " + due.room.holder->server + " is silent, and " +
+        std::to_string(due.knocking) + " of " + std::to_string(due.present) +
+        " player(s) ask for it here");
+    status = TakeHere(due.room, epoch, std::move(due.followed));
+    if (!status.ok()) return status;
+  }
+  return status;
+}
+
+void FleetMember::NoteStandbys(const FleetListing& listing) {
+  std::map<std::string, std::string> before = std::exchange(guards_, {});
+  for (const FleetRoom& room : listing.rooms) {
+    if (!room.standby || held_.count(room.name) == 0) continue;
+    const std::string& address = guards_[room.name] = room.standby->address;
+    if (before[room.name] == address) continue;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    standbys_.emplace_back(room.name, address);
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> FleetMember::TakeStandbys() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(standbys_, {});
+}
+
+Status FleetMember::StandBy(const FleetRoom& room) {
+  const std::int64_t now_us = SteadyClockUs();
+  const bool full = static_cast<std::int32_t>(held_.size()) >= config_.me.capacity;
+  if (full && room.standby && room.standby->server == config_.me.id) {
+    return directory_.StandDown(room.name);
+  }
+  const auto failed = failed_.find(room.name);
+  const bool may = failed == failed_.end() || now_us > failed->second.again_us;
+  if (!may || !config_.takes || !IsAnothers(room) || room.standby || room.state.empty()) {
+    unguarded_us_.erase(room.name);
+    return Status::Ok();
+  }
+  const std::int64_t since_us = unguarded_us_.emplace(room.name, now_us).first->second;
+  if (full || (!config_.warm && now_us - since_us < kLetWarmUs)) return Status::Ok();
+  if (!IsOurs(room.name)) {
+    unguarded_us_[room.name] = now_us + kLetWarmUs;  // looks again later
+    return Status::Ok();
+  }
+  bool done = false;
+  return directory_.StandBy(room, &done);
+}
+
+std::optional<Redirect> FleetMember::Find(const JoinRequest& join) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const FleetRoom& each : listing_.rooms) {
+    const bool asked = each.name == join.room || join.room.empty();
+    if (!asked || !each.holder) continue;
+    const bool ours = each.standby && each.standby->server == config_.me.id;
+    if (ours && watch_ != nullptr && join.epoch_proved && join.epoch == each.epoch) {
+      watch_->NoteKnock(each.name, join.name, static_cast<std::uint64_t>(join.place_key));
+      return Redirect();
+    }
+    if (each.holder->server == config_.me.id) return Redirect();  // it is being opened
+    return RedirectTo(each.name, *each.holder);
+  }
+  return std::nullopt;
+}
+
+std::map<std::string, std::int64_t> FleetMember::StandsBy() const {
+  return watch_ == nullptr ? std::map<std::string, std::int64_t>() : watch_->Behind();
+}
+
+}  // namespace seam

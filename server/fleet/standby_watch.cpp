@@ -1,0 +1,197 @@
+#include "server/fleet/standby_watch.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/base/process.h"
+#include "common/record/segments/log_segments.h"
+
+namespace seam {
+namespace {
+
+/// A room that was due and was not taken is due again after this, us.
+constexpr std::int64_t kDueAgainUs = 1000000;
+
+}  // namespace
+
+bool LogPulse::Beats() {
+  struct stat file = {};
+  while (stat(SegmentPath(log_, segment_ + 1).c_str(), &file) == 0) ++segment_;
+  if (stat(SegmentPath(log_, segment_).c_str(), &file) != 0) return false;
+  const bool same = file.st_size == bytes_ && file.st_mtim.tv_sec == written_.tv_sec &&
+                    file.st_mtim.tv_nsec == written_.tv_nsec;
+  bytes_ = file.st_size;
+  written_ = file.st_mtim;
+  return !same;
+}
+
+StandbyWatch::StandbyWatch(Config config) : config_(std::move(config)) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+StandbyWatch::~StandbyWatch() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+    wake_.notify_all();
+  }
+  thread_.join();
+}
+
+void StandbyWatch::Set(const std::vector<FleetRoom>& rooms) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  wanted_ = rooms;
+}
+
+void StandbyWatch::NoteKnock(const std::string& room, const std::string& name, std::uint64_t key) {
+  const std::int64_t now_us = SteadyClockUs();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<Knock>& all = heard_[room];
+  for (Knock& knock : all) {
+    if (knock.name == name && knock.key == key) {
+      knock.at_us = now_us;
+      return;
+    }
+  }
+  if (all.size() >= kKnocksMax) all.erase(all.begin());
+  all.push_back({name, key, now_us});
+}
+
+std::vector<StandbyWatch::Due> StandbyWatch::TakeDue() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(due_, {});
+}
+
+std::unique_ptr<FollowedRoom> StandbyWatch::Take(const std::string& room) {
+  const std::lock_guard<std::mutex> lock(work_mutex_);
+  const auto found = watched_.find(room);
+  return found == watched_.end() ? nullptr : std::move(found->second.followed);
+}
+
+std::map<std::string, std::int64_t> StandbyWatch::Behind() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return behind_;
+}
+
+std::vector<std::string> StandbyWatch::TakeReports() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(news_, {});
+}
+
+void StandbyWatch::Run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stop_) {
+    const auto wanted = std::exchange(wanted_, std::nullopt);
+    auto heard = std::exchange(heard_, {});
+    lock.unlock();
+    {
+      const std::lock_guard<std::mutex> work(work_mutex_);
+      if (wanted) Adopt(*wanted);
+      std::int64_t looked_us = SteadyClockUs();
+      for (auto& [name, watched] : watched_) {
+        for (Knock& knock : heard[name]) watched.knocks.push_back(std::move(knock));
+        Look(watched);
+        // What one room takes must not look like a pause of this server to the others.
+        if (SteadyClockUs() - looked_us < kRoundUs) continue;
+        looked_us = SteadyClockUs();
+        for (auto& [other, each] : watched_) LookAtHolder(each);
+      }
+    }
+    lock.lock();
+    wake_.wait_for(lock, std::chrono::microseconds(kRoundUs), [this] { return stop_; });
+  }
+}
+
+void StandbyWatch::Adopt(const std::vector<FleetRoom>& rooms) {
+  std::map<std::string, Watched> before = std::exchange(watched_, {});
+  for (const FleetRoom& room : rooms) {
+    const auto known = before.find(room.name);
+    const bool same = known != before.end() && known->second.room.epoch == room.epoch;
+    Watched& watched = watched_[room.name];
+    if (same) watched = std::move(known->second);
+    // It has held it again: it lives.
+    if (same && watched.room.holder_changed != room.holder_changed) {
+      watched.rule.NoteLook(SteadyClockUs(), true, 0);
+    }
+    watched.room = room;
+    if (!same) watched.pulse = LogPulse(StateLogOf(config_.folder, room.name, room.epoch));
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  behind_.clear();
+  for (const auto& [name, watched] : watched_) behind_[name] = BehindOf(watched);
+}
+
+std::int64_t StandbyWatch::BehindOf(const Watched& watched) {
+  return watched.followed == nullptr ? -1 : watched.followed->behind();
+}
+
+void StandbyWatch::LookAtHolder(Watched& watched) {
+  const std::int64_t cpu_us = ThreadCpuUs();
+  watched.rule.NoteLook(SteadyClockUs(), watched.pulse.Beats(), cpu_us - watched.worked_us);
+  watched.worked_us = cpu_us;
+}
+
+void StandbyWatch::Look(Watched& watched) {
+  LookAtHolder(watched);
+  std::int64_t now_us = SteadyClockUs();
+  std::vector<Knock>& knocks = watched.knocks;
+  const auto old = [&](const Knock& knock) {
+    return now_us - knock.at_us > TakeOverRule::kKnockUs;
+  };
+  knocks.erase(std::remove_if(knocks.begin(), knocks.end(), old), knocks.end());
+  const bool silent = watched.rule.Silent(now_us) && !knocks.empty();
+  if (config_.warm || silent || watched.followed != nullptr) Follow(now_us, silent, watched);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    behind_[watched.room.name] = BehindOf(watched);
+  }
+  if (!silent || watched.followed == nullptr || watched.followed->behind() > 0) return;
+  LookAtHolder(watched);  // to open a room takes a while
+  now_us = SteadyClockUs();
+  const FollowedRoom& followed = *watched.followed;
+  for (const Knock& knock : knocks) {
+    const int player = followed.Player(knock.name, knock.key);
+    if (player >= 0) watched.rule.NoteKnock(knock.at_us, player);
+  }
+  knocks.clear();
+  if (!watched.rule.Due(now_us, followed.present()) || now_us < watched.due_again_us) return;
+  watched.due_again_us = now_us + kDueAgainUs;
+  Due due;
+  due.room = watched.room;
+  due.present = static_cast<int>(followed.present().size());
+  due.knocking = watched.rule.Knocking(now_us, followed.present());
+  due.followed = std::move(watched.followed);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    due_.push_back(std::move(due));
+  }
+  config_.due();
+}
+
+void StandbyWatch::Follow(std::int64_t now_us, bool silent, Watched& watched) {
+  Status status;
+  try {
+    if (watched.followed == nullptr) {
+      if (now_us < watched.opened_us + (silent ? kDueAgainUs : kAgainUs)) return;
+      watched.opened_us = now_us;
+      watched.followed = std::make_unique<FollowedRoom>(config_.folder, watched.room.name,
+                                                        watched.room.epoch, config_.log_key);
+    }
+    status = watched.followed->Follow(now_us);
+  } catch (const OperatorError& error) {
+    status = Status::Error(error.what());
+  }
+  // One that is not warm is of no use once its holder lives.
+  const bool idle = !config_.warm && !watched.rule.Silent(now_us);
+  if (!status.ok() || idle) watched.followed = nullptr;
+  if (idle) watched.opened_us = INT64_MIN / 2;
+  if (status.ok() || std::exchange(watched.trouble, status.why()) == status.why()) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  news_.push_back("room " + watched.room.name + " is not followed now: " + status.why());
+}
+
+}  // namespace seam
