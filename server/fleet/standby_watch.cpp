@@ -24,9 +24,10 @@ bool LogPulse::Beats() {
   if (stat(SegmentPath(log_, segment_).c_str(), &file) != 0) return false;
   const bool same = file.st_size == bytes_ && file.st_mtim.tv_sec == written_.tv_sec &&
                     file.st_mtim.tv_nsec == written_.tv_nsec;
+  const bool first = bytes_ < 0;
   bytes_ = file.st_size;
   written_ = file.st_mtim;
-  return !same;
+  return !same && !first;
 }
 
 StandbyWatch::StandbyWatch(Config config) : config_(std::move(config)) {
@@ -115,7 +116,7 @@ void StandbyWatch::Adopt(const std::vector<FleetRoom>& rooms) {
     if (same) watched = std::move(known->second);
     // It has held it again: it lives.
     if (same && watched.room.holder_changed != room.holder_changed) {
-      watched.rule.NoteLook(SteadyClockUs(), true, 0);
+      watched.rule.NoteAlive(SteadyClockUs());
     }
     watched.room = room;
     if (!same) watched.pulse = LogPulse(StateLogOf(config_.folder, room.name, room.epoch));

@@ -25,9 +25,14 @@ class TakeOverRule {
   /// CPU time that the standby has used since then.
   void NoteLook(std::int64_t now_us, bool lives, std::int64_t worked_us) {
     if (lives || now_us - looked_us_ - worked_us > kLookUs) live_us_ = now_us;
+    seen_live_ = seen_live_ || lives;
     looked_us_ = now_us;
   }
-  bool Silent(std::int64_t now_us) const { return now_us - live_us_ >= kSilentUs; }
+  /// Notes another sign of life.
+  void NoteAlive(std::int64_t now_us) { live_us_ = now_us; }
+  /// True if the holder, which was seen live before, is not any more. One that never was may write
+  /// into a folder that is not this server's.
+  bool Silent(std::int64_t now_us) const { return seen_live_ && now_us - live_us_ >= kSilentUs; }
   /// Notes that the player in the room knocks, who has proved it.
   void NoteKnock(std::int64_t now_us, int player) { knocks_[player] = now_us; }
   /// Returns how many of these players have knocked since the holder was seen live, and lately.
@@ -47,6 +52,7 @@ class TakeOverRule {
 
  private:
   std::int64_t looked_us_ = INT64_MIN / 2, live_us_ = 0;
+  bool seen_live_ = false;
   std::map<int, std::int64_t> knocks_;  // by player: the last
 };
 

@@ -46,6 +46,11 @@ TEST(TakeOverRule, ASilentHolderAndHalfOfItsPlayersAreEnough) {
   EXPECT_LE(after_us, TakeOverRule::kSilentUs + 2 * kRoundUs);
 }
 
+TEST(TakeOverRule, AHolderThatWasNeverSeenLiveKeepsItsRoom) {
+  Standby standby;  // its folder is a copy: it looks at another log
+  EXPECT_EQ(standby.Run(60000000, IsDead, {0, 1, 2, 3}), -1);
+}
+
 TEST(TakeOverRule, SilenceAloneIsNotEnough) {
   Standby standby;
   standby.Run(1000000, Lives, {});
