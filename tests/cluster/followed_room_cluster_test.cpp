@@ -60,12 +60,13 @@ class Kept {
   std::string Log() const { return folder_ / "main.lcm"; }
   Server& server() const { return cluster->server(); }
 
-  std::unique_ptr<Cluster> cluster;
-
  private:
   Workspace folder_;
   DiskThread disk_;
   ServerLog log_;
+
+ public:
+  std::unique_ptr<Cluster> cluster;  // ends before its log
 };
 
 /// The next server of a room.
