@@ -71,10 +71,8 @@ class Client {
   /// Says where the room is now, as of the fleet's directory: the client goes there when it joins,
   /// or when its server is silent and `epoch` is later than that server's.
   void Suggest(const Address& server, std::int32_t epoch) { suggested_ = {server, epoch}; }
-  /// Publishes the last view if it waits (Publisher).
-  void PublishUnmoved();
-  /// Says which server would go on with the room: the client knocks there while its own is silent,
-  /// and goes on with whichever answers first. nullopt: none.
+  void PublishUnmoved();  ///< the last view, if it waits
+  /// Says which server would go on with the room: the client knocks there while its own is silent.
   void SuggestStandby(const std::optional<Address>& standby) { standby_ = standby; }
   /// Says goodbye; call Tick no more.
   void Shutdown(std::int64_t now_us);
@@ -95,8 +93,7 @@ class Client {
     if (replica_ != nullptr || room_size_ == 0) return replica_ != nullptr ? 1 : 0;
     return static_cast<double>(room_bytes_.size()) / static_cast<double>(room_size_);
   }
-  /// Returns the size of the room as it comes, bytes; 0 until the server says it.
-  std::size_t room_size() const { return room_size_; }
+  std::size_t room_size() const { return room_size_; }  ///< bytes; 0 until the server says it
   bool running() const { return replica_ != nullptr && started_; }
   /// Returns the time on the room's clock that it shows, us, below 0 before the room starts;
   /// nullopt: not known.
@@ -108,13 +105,11 @@ class Client {
   bool waits_for_start() const {
     return replica_ != nullptr && clock_.settled() && !timeline_.known();
   }
-  /// Returns the time by which a client with a tap shows the room late, us; -1: not known.
-  double lag_us() const { return lag_us_; }
+  double lag_us() const { return lag_us_; }  ///< by which one with a tap is late, us; -1: not known
   int peer() const { return peer_; }
   /// Returns the server that it is in, or joins.
   const Address& server() const { return config_.server; }
-  /// True while it knocks at the standby: its server is silent.
-  bool knocking() const { return knocks_at_.has_value(); }
+  bool knocking() const { return knocks_at_.has_value(); }  ///< at the standby
   /// Returns the room's epoch, the highest seen; 0: none yet.
   std::int32_t epoch() const { return epoch_; }
   /// True from a redirect until another server welcomes it: the world goes on as it was.
@@ -126,18 +121,15 @@ class Client {
   /// Returns our vehicle's part (a character's torso); -1: none, or not known yet.
   PartId vehicle() const;
   const Replica* replica() const { return replica_.get(); }
-  /// Returns the newest line of the server for this player, once: about a seat, for example. "":
-  /// none.
+  /// Returns the newest line of the server for this player, once (about a seat, say); "": none.
   std::string TakeNotice() { return std::exchange(notice_, {}); }
   /// Health, scores, ... as received from the server.
   const MetaTable& metadata() const { return metadata_; }
   const Room& room() const { return room_; }
   const Stats& stats() const { return stats_; }
-  /// Speed of the room's clock, per million of real time: below kFullSpeedPpm the server is
-  /// overloaded.
+  /// Speed of the room's clock, per million of real time; below kFullSpeedPpm: overload.
   std::int32_t speed_ppm() const { return timeline_.speed_ppm(); }
-  /// Returns why the server does not let this client in, as of its last answer; "" if it did not
-  /// refuse.
+  /// Returns why the server's last answer refuses this client; "": it does not.
   const std::string& why_refused() const { return why_refused_; }
   /// Sessions that became ready, as the server counts them; all but the first.
   std::int64_t sessions() const { return sessions_; }
@@ -151,9 +143,8 @@ class Client {
   static constexpr std::int64_t kLostUs = 5000000;
   /// If a server is silent for so long and another one may have the room, we join that one, us.
   static constexpr std::int64_t kElsewhereUs = 1000000;
-  /// If a server is silent for so long, beside a round trip, we knock at its standby, us: two lost
-  /// pings are not silence.
-  static constexpr std::int64_t kKnockUs = 500000;
+  /// If a server is silent for so long, beside a round trip, we knock at its standby, us.
+  static constexpr std::int64_t kKnockAfterUs = 500000;
   /// Most redirects between two welcomes after which the client was ready.
   static constexpr int kRedirectsMax = 3;
 
@@ -171,7 +162,6 @@ class Client {
   /// Knocks at the standby while our server is silent: a handshake beside the session.
   void KnockIfSilent(std::int64_t now_us);
   void StopKnocking();
-  /// Takes a redirect in our session: in our epoch it names the standby.
   void OnRedirect(const Redirect& redirect);
   /// Goes on at another server, and keeps the world until it welcomes us.
   void Move(std::int64_t now_us, const Address& server);

@@ -247,35 +247,6 @@ void Client::Move(std::int64_t now_us, const Address& server) {
   BeginJoin(now_us);
 }
 
-void Client::OnRedirect(const Redirect& redirect) {
-  Address at;
-  if (moving_ || redirect.epoch != epoch_) {
-    redirect_ = redirect;
-  } else if (ReadAddress(redirect.address, &at)) {
-    told_standby_ = at;
-  }
-}
-
-void Client::KnockIfSilent(std::int64_t now_us) {
-  const std::int64_t usual_us = std::max<std::int64_t>(0, clock_.rtt_p90_us());
-  const bool silent = now_us - answered_us_ > kKnockUs + usual_us && PongOverdue(now_us);
-  const std::optional<Address>& standby = standby_ ? standby_ : told_standby_;
-  const bool may = silent && standby && *standby != config_.server && key_of_ && epoch_ > 0;
-  if (knocks_at_ && (!may || *knocks_at_ != *standby)) StopKnocking();
-  if (!may) return;
-  if (!knocks_at_) {
-    knocks_at_ = standby;
-    BeginJoin(now_us);
-  }
-  SendHelloOrJoin(now_us);
-}
-
-void Client::StopKnocking() {
-  knocks_at_.reset();
-  next_.reset();
-  offers_.Clear();
-}
-
 void Client::TryElsewhere(std::int64_t now_us) {
   const bool joining = peer_ < 0 || moving_;
   const bool later = suggested_ && suggested_->epoch > epoch_;

@@ -81,12 +81,9 @@ class Server {
   /// if all its clients had left then. Players' places are reserved as before. Returns one line if
   /// the bytes are damaged; the server must then not be used any more.
   Status Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail = nullptr);
-  /// Loads the saved room, to do the ticks of its log again by Replay while another server still
-  /// writes them. Returns one line likewise.
+  /// Loads the saved room, to Replay its log's ticks while another server still writes them.
   Status Follow(const SavedRoom& saved, std::int64_t now_us);
-  /// Returns the players in the room after the last Replay.
-  const std::vector<int>& replayed_present() const { return replayed_present_; }
-  /// Returns who has the room's names.
+  const std::vector<int>& replayed_present() const { return replayed_present_; }  ///< players
   PlaceTable& places() { return sessions_.places(); }
   /// Does the next tick of the room's log again, as it was. Requires the ticks in their order, from
   /// the first one or the saved one on, and no clients. Returns false if the rules come to other
@@ -115,10 +112,8 @@ class Server {
   /// Time at which the next tick is due, on the clock of Tick; INT64_MAX before the room starts.
   std::int64_t next_tick_us() const;
   std::int64_t wake_us() const;  ///< the same; INT64_MAX also while it waits for inputs
-  /// Publishes the room's load.
-  void PublishLoad(const Load& load) { broadcast_.Publish(load); }
-  /// Publishes the last view if it waits (Publisher).
-  void PublishUnmoved() { broadcast_.PublishUnmoved(); }
+  void PublishLoad(const Load& load) { broadcast_.Publish(load); }  ///< of the room
+  void PublishUnmoved() { broadcast_.PublishUnmoved(); }  ///< the last view, if it waits
   /// Says goodbye to everyone. Tick must not be called afterwards.
   void Shutdown(std::int64_t now_us, const std::string& reason);
   /// Gives the room away: what is saved from now on is of this epoch. Redirect or Forsake follows.
@@ -160,8 +155,7 @@ class Server {
   bool Order(const Edit& edit) { return edits_->Add(edit); }
   /// Returns the operator's warnings since the last call, such as a stopped script. One line each.
   std::vector<std::string> TakeWarnings();
-  /// True if a script of the room was stopped.
-  bool script_stopped() const;
+  bool script_stopped() const;  ///< a script of the room was
   /// Returns lines for people about clients that came and went, since the last call; the first 256.
   std::vector<std::string> TakeReports() { return std::exchange(news_, {}); }
   /// Names of the scene's players without a ready client.
@@ -171,8 +165,7 @@ class Server {
   std::vector<ClientAccount> accounts() const { return sessions_.accounts().List(); }
   /// All bytes of clients and strangers, by kind.
   const TrafficCount& traffic() const { return sessions_.traffic(); }
-  /// The server's lasting public key.
-  const PublicKey& identity() const { return sessions_.identity(); }
+  const PublicKey& identity() const { return sessions_.identity(); }  ///< lasting public key
   /// The server's lasting keys, for another server that is to be this one.
   std::shared_ptr<const KeyPair> keys() const { return sessions_.keys(); }
   /// The room's rules (health, scores, scripts); nullptr if the scene has none.
@@ -265,8 +258,6 @@ class Server {
   bool InputsOnly(const Session& session) const;
 
   // server_events.cpp
-  /// Returns the redirect in the room's own epoch, which names the standby.
-  Redirect StandbyNow(std::int64_t now_us) const;
   /// Puts the end of the session into the record.
   void End(std::int64_t now_us, const std::string& reason);
   /// Tick of a room that is over.
@@ -318,7 +309,7 @@ class Server {
   const Room room_;
   std::int32_t epoch_;  // of what is saved
   bool over_ = false;   // the room goes on elsewhere: Tick only answers
-  std::string standby_;  // address of the server that would go on; "": none is known
+  Redirect standby_;    // names the server that would go on; no address: none is known
   Net& net_;
   ServerStats stats_;
   Replica replica_;

@@ -53,17 +53,12 @@ void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
 }
 
 void Server::NameStandby(std::int64_t now_us, const std::string& address) {
-  if (over_ || address.empty() || std::exchange(standby_, address) == address) return;
-  sessions_.SendToAll(Encode(StandbyNow(now_us)));
-}
-
-Redirect Server::StandbyNow(std::int64_t now_us) const {
-  Redirect redirect;
-  redirect.utime = now_us;
-  redirect.address = standby_;
-  redirect.room = config_.room;
-  redirect.epoch = epoch_;
-  return redirect;
+  if (over_ || address.empty() || address == standby_.address) return;
+  standby_.utime = now_us;
+  standby_.address = address;
+  standby_.room = config_.room;
+  standby_.epoch = epoch_;  // the room's own: they stay
+  sessions_.SendToAll(Encode(standby_));
 }
 
 void Server::RedirectAll(std::int64_t now_us, const Redirect& redirect) {

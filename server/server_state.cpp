@@ -84,7 +84,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
     send(state.Resting(now_us));
   }
   send(state.Metadata(now_us));
-  if (!standby_.empty()) send(std::vector<Redirect>{StandbyNow(now_us)});
+  if (!standby_.address.empty()) send(std::vector<Redirect>{standby_});
   if (!sent) sessions_.Leave(session, "the world is more than can be sent to it");
 }
 

@@ -273,7 +273,11 @@ void FleetMember::Release(const std::string& room) {
 
 std::vector<RoomPlan> FleetMember::TakeReady() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(ready_, {});
+  std::vector<RoomPlan> next;
+  if (ready_.empty()) return next;
+  next.push_back(std::move(ready_.front()));
+  ready_.erase(ready_.begin());
+  return next;
 }
 
 std::vector<Redirect> FleetMember::TakeLost() {

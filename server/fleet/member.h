@@ -65,7 +65,8 @@ class FleetMember {
   void Release(const std::string& room);
 
   // Thread-safe:
-  /// Returns the rooms that have been taken over since the last call, ready to be opened.
+  /// Returns a room that has been taken over, ready to be opened, if there is one: to open it takes
+  /// a while, in which others knock.
   std::vector<RoomPlan> TakeReady();
   /// Returns the rooms that other servers have got since, and where they are.
   std::vector<Redirect> TakeLost();

@@ -141,7 +141,7 @@ void StandbyWatch::Look(Watched& watched) {
   std::int64_t now_us = SteadyClockUs();
   std::vector<Knock>& knocks = watched.knocks;
   const auto old = [&](const Knock& knock) {
-    return now_us - knock.at_us > TakeOverRule::kKnockUs;
+    return now_us - knock.at_us > TakeOverRule::kKnockCountsUs;
   };
   knocks.erase(std::remove_if(knocks.begin(), knocks.end(), old), knocks.end());
   const bool silent = watched.rule.Silent(now_us) && !knocks.empty();
@@ -177,7 +177,7 @@ void StandbyWatch::Follow(std::int64_t now_us, bool silent, Watched& watched) {
   Status status;
   try {
     if (watched.followed == nullptr) {
-      if (now_us < watched.opened_us + (silent ? kDueAgainUs : kAgainUs)) return;
+      if (now_us < watched.opened_us + (silent ? kDueAgainUs : kFollowAgainUs)) return;
       watched.opened_us = now_us;
       watched.followed = std::make_unique<FollowedRoom>(config_.folder, watched.room.name,
                                                         watched.room.epoch, config_.log_key);

@@ -74,7 +74,7 @@ class StandbyWatch {
   /// Time between two looks at the logs, us.
   static constexpr std::int64_t kRoundUs = 50000;
   /// A room that cannot be followed is tried again after this, us, unless its holder falls silent.
-  static constexpr std::int64_t kAgainUs = 10000000;
+  static constexpr std::int64_t kFollowAgainUs = 10000000;
   /// Most clients whose knocks are kept for a room; each has proved that it was there.
   static constexpr std::size_t kKnocksMax = 1024;
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Decides when a standby takes a room over before the lease of its holder has ended: the holder
-/// was not seen live for kSilentUs, and half of the players in the room knock meanwhile. Neither is
-/// enough alone. A function of the times that it is given.
+/// was not seen live for kHolderSilentUs, and half of the players in the room knock meanwhile.
+/// Neither is enough alone. A function of the times that it is given.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,17 +14,17 @@ class TakeOverRule {
  public:
   /// A holder whose log has not grown for so long is silent, us: 30 ticks at 60 Hz. Less and a busy
   /// disk is taken for a dead server; more and players wait longer.
-  static constexpr std::int64_t kSilentUs = 500000;
+  static constexpr std::int64_t kHolderSilentUs = 500000;
   /// Most time between two looks in which the standby did not work, us, normal 50 000: if it was
   /// longer, it is the standby that stood still, and its clock says nothing about the holder.
-  static constexpr std::int64_t kLookUs = 250000;
+  static constexpr std::int64_t kLookGapUs = 250000;
   /// Time for which a knock counts, us; clients repeat it each 0.1 s.
-  static constexpr std::int64_t kKnockUs = 1000000;
+  static constexpr std::int64_t kKnockCountsUs = 1000000;
 
   /// Notes a look at the holder; `lives`: it has done something since the last one; `worked_us`:
   /// CPU time that the standby has used since then.
   void NoteLook(std::int64_t now_us, bool lives, std::int64_t worked_us) {
-    if (lives || now_us - looked_us_ - worked_us > kLookUs) live_us_ = now_us;
+    if (lives || now_us - looked_us_ - worked_us > kLookGapUs) live_us_ = now_us;
     seen_live_ = seen_live_ || lives;
     looked_us_ = now_us;
   }
@@ -32,7 +32,9 @@ class TakeOverRule {
   void NoteAlive(std::int64_t now_us) { live_us_ = now_us; }
   /// True if the holder, which was seen live before, is not any more. One that never was may write
   /// into a folder that is not this server's.
-  bool Silent(std::int64_t now_us) const { return seen_live_ && now_us - live_us_ >= kSilentUs; }
+  bool Silent(std::int64_t now_us) const {
+    return seen_live_ && now_us - live_us_ >= kHolderSilentUs;
+  }
   /// Notes that the player in the room knocks, who has proved it.
   void NoteKnock(std::int64_t now_us, int player) { knocks_[player] = now_us; }
   /// Returns how many of these players have knocked since the holder was seen live, and lately.
@@ -40,7 +42,7 @@ class TakeOverRule {
     return static_cast<int>(std::count_if(present.begin(), present.end(), [&](int player) {
       const auto knock = knocks_.find(player);
       return knock != knocks_.end() && knock->second > live_us_ &&
-             now_us - knock->second < kKnockUs;
+             now_us - knock->second < kKnockCountsUs;
     }));
   }
   /// True if the standby is to take the room over from its holder. `present`: the players in it.

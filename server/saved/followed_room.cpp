@@ -105,7 +105,7 @@ Status FollowedRoom::DoOne(std::int64_t now_us) {
 
 Status FollowedRoom::Follow(std::int64_t now_us) {
   Status status = Read(now_us);
-  const auto most = static_cast<std::size_t>(kBehindS * quiet_->server.room().tick_hz);
+  const auto most = static_cast<std::size_t>(kFollowBehindS * quiet_->server.room().tick_hz);
   if (status.ok() && pending_.size() > most) {
     status = Status::Error("it is " + std::to_string(pending_.size()) + " ticks behind");
   }

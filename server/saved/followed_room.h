@@ -45,7 +45,7 @@ class FollowedRoom {
   /// CPU time of one call of Follow, us: a round of the thread, normal 1 ms a room.
   static constexpr std::int64_t kWorkUs = 30000;
   /// Most seconds of ticks that wait to be done again: twice what precedes the newest snapshot.
-  static constexpr int kBehindS = 12;
+  static constexpr int kFollowBehindS = 12;
   /// A part of a tick is seen while it is written, for less than a ms; what is wrong for this long
   /// is damage, us.
   static constexpr std::int64_t kDamagedUs = 500000;

@@ -223,7 +223,7 @@ TEST(FollowedRoomCluster, OneThatFallsBehindIsGivenUp) {
   Kept kept(config);
   kept.RunTo(60);
   kept.Save();
-  kept.RunTo(60 + (FollowedRoom::kBehindS + 1) * 60);
+  kept.RunTo(60 + (FollowedRoom::kFollowBehindS + 1) * 60);
   const auto followed = kept.Open();
   const Status status = followed->Follow(1000000);
   EXPECT_FALSE(status.ok());

@@ -42,8 +42,8 @@ TEST(TakeOverRule, ASilentHolderAndHalfOfItsPlayersAreEnough) {
   Standby standby;
   EXPECT_EQ(standby.Run(3000000, Lives, {}), -1);
   const std::int64_t after_us = standby.Run(3000000, IsDead, {1, 3});
-  EXPECT_GE(after_us, TakeOverRule::kSilentUs - kRoundUs);
-  EXPECT_LE(after_us, TakeOverRule::kSilentUs + 2 * kRoundUs);
+  EXPECT_GE(after_us, TakeOverRule::kHolderSilentUs - kRoundUs);
+  EXPECT_LE(after_us, TakeOverRule::kHolderSilentUs + 2 * kRoundUs);
 }
 
 TEST(TakeOverRule, AHolderThatWasNeverSeenLiveKeepsItsRoom) {
@@ -86,7 +86,7 @@ TEST(TakeOverRule, AStandbyThatStoodStillItselfBeginsToWatchAnew) {
   Standby standby;
   standby.Run(1000000, Lives, {});
   standby.now_us += 10000000;  // SIGSTOP, then CONT; the holder lives, but was not seen yet
-  EXPECT_EQ(standby.Run(TakeOverRule::kSilentUs, IsDead, {0, 1, 2, 3}), -1);
+  EXPECT_EQ(standby.Run(TakeOverRule::kHolderSilentUs, IsDead, {0, 1, 2, 3}), -1);
   standby.Run(100000, Lives, {});
   // It opens a room for 0.4 s meanwhile: that is no pause.
   standby.now_us += 400000;
