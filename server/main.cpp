@@ -182,7 +182,10 @@ int Serve(const Flags& f) {
     std::fprintf(stderr, "seam-server: control at %s\n", door->address().c_str());
   }
   if (fleet) {
-    hub.SetElsewhere([&](const JoinRequest& join) { return member->Find(join); });
+    hub.SetElsewhere([&](const JoinRequest& join) {
+      return member->Find({join.room, join.name, static_cast<std::uint64_t>(join.place_key),
+                           join.epoch, join.epoch_proved});
+    });
     member->Start();
   }
   const std::unique_ptr<Agones> agones = f.agones ? std::make_unique<Agones>() : nullptr;

@@ -18,9 +18,17 @@
 #include "common/fleet/directory.h"
 #include "server/fleet/standby_watch.h"
 #include "server/hub/hosted_room.h"
-#include "server/sessions/handshake.h"
 
 namespace seam {
+
+/// A join to a room that is not here, of a client that has proved its address.
+struct FleetJoin {
+  std::string room;  ///< "": the first
+  std::string name;
+  std::uint64_t place_key = 0;
+  std::int32_t epoch = 0;     ///< of the room that the client was in
+  bool epoch_proved = false;  ///< by a server of this fleet
+};
 
 /// Returns the redirect to a room's holder.
 Redirect RedirectTo(const std::string& room, const FleetHolder& holder);
@@ -79,7 +87,7 @@ class FleetMember {
   void GiveBack(const std::string& room, std::int32_t epoch, const std::string& why);
   /// Answers a join to a room that is not here, as Hub::Elsewhere: by where it is, as far as is
   /// known; empty room: the first. At the room's standby the join may be a knock.
-  std::optional<Redirect> Find(const JoinRequest& join);
+  std::optional<Redirect> Find(const FleetJoin& join);
   /// Returns the rooms for which this server stands by; see StandbyWatch::Behind.
   std::map<std::string, std::int64_t> StandsBy() const;
   /// True if the directory answered last.

@@ -82,14 +82,14 @@ Status FleetMember::StandBy(const FleetRoom& room) {
   return directory_.StandBy(room, &done);
 }
 
-std::optional<Redirect> FleetMember::Find(const JoinRequest& join) {
+std::optional<Redirect> FleetMember::Find(const FleetJoin& join) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const FleetRoom& each : listing_.rooms) {
     const bool asked = each.name == join.room || join.room.empty();
     if (!asked || !each.holder) continue;
     const bool ours = each.standby && each.standby->server == config_.me.id;
     if (ours && watch_ != nullptr && join.epoch_proved && join.epoch == each.epoch) {
-      watch_->NoteKnock(each.name, join.name, static_cast<std::uint64_t>(join.place_key));
+      watch_->NoteKnock(each.name, join.name, join.place_key);
       return Redirect();
     }
     if (each.holder->server == config_.me.id) return Redirect();  // it is being opened

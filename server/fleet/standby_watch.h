@@ -54,8 +54,8 @@ class StandbyWatch {
   // All thread-safe:
   /// Sets the rooms for which this server stands by, as the directory has them.
   void Set(const std::vector<FleetRoom>& rooms);
-  /// Notes that a client, who has proved that it was in the room's epoch, knocks. It counts if it
-  /// has the key of a player who is in the room.
+  /// Notes the knock of a client that has proved to be of the room's epoch. It counts with the key
+  /// of a player in the room.
   void NoteKnock(const std::string& room, const std::string& name, std::uint64_t key);
   /// A room that is to be taken from its holder, which was as in `room`.
   struct Due {
@@ -75,7 +75,7 @@ class StandbyWatch {
   static constexpr std::int64_t kRoundUs = 50000;
   /// A room that cannot be followed is tried again after this, us, unless its holder falls silent.
   static constexpr std::int64_t kFollowAgainUs = 10000000;
-  /// Most clients whose knocks are kept for a room; each has proved that it was there.
+  /// Most clients of a room with knocks that are kept; each has proved that it was there.
   static constexpr std::size_t kKnocksMax = 1024;
 
  private:

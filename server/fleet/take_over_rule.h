@@ -12,8 +12,8 @@ namespace seam {
 
 class TakeOverRule {
  public:
-  /// A holder whose log has not grown for so long is silent, us: 30 ticks at 60 Hz. Less and a busy
-  /// disk is taken for a dead server; more and players wait longer.
+  /// A holder is silent if its log has not grown for so long, us: 30 ticks at 60 Hz. Less and a
+  /// busy disk is taken for a dead server; more and players wait longer.
   static constexpr std::int64_t kHolderSilentUs = 500000;
   /// Most time between two looks in which the standby did not work, us, normal 50 000: if it was
   /// longer, it is the standby that stood still, and its clock says nothing about the holder.
@@ -35,7 +35,7 @@ class TakeOverRule {
   bool Silent(std::int64_t now_us) const {
     return seen_live_ && now_us - live_us_ >= kHolderSilentUs;
   }
-  /// Notes that the player in the room knocks, who has proved it.
+  /// Notes a knock, proved to be of this player in the room.
   void NoteKnock(std::int64_t now_us, int player) { knocks_[player] = now_us; }
   /// Returns how many of these players have knocked since the holder was seen live, and lately.
   int Knocking(std::int64_t now_us, const std::vector<int>& present) const {

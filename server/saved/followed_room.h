@@ -27,16 +27,16 @@ class FollowedRoom {
   FollowedRoom(const FollowedRoom&) = delete;
   FollowedRoom& operator=(const FollowedRoom&) = delete;
 
-  /// Reads what the log has got, and does ticks again for at most kWorkUs. Returns one line if the
-  /// room cannot be followed any more: it falls behind, comes out otherwise than its log, or the
-  /// log was damaged for kDamagedUs.
+  /// Reads the new part of the log, and does ticks again for at most kWorkUs. Returns one line if
+  /// the room cannot be followed any more: it falls behind, comes out otherwise than its log, or
+  /// the log was damaged for kDamagedUs.
   Status Follow(std::int64_t now_us);
   /// Ticks that were read and not done again yet.
   std::int64_t behind() const { return static_cast<std::int64_t>(pending_.size()); }
   std::int64_t tick() const;
   /// Returns the players that are in the room.
   const std::vector<int>& present() const;
-  /// Returns the player in the room who has this name and key; -1: none.
+  /// Returns the player in the room with this name and key; -1: none.
   int Player(const std::string& name, std::uint64_t key) const;
   /// Reads the log to its end, and returns the room as it is after that, to go on in `epoch`. No
   /// other call may follow. Throws OperatorError if it cannot be read.
@@ -44,9 +44,9 @@ class FollowedRoom {
 
   /// CPU time of one call of Follow, us: a round of the thread, normal 1 ms a room.
   static constexpr std::int64_t kWorkUs = 30000;
-  /// Most seconds of ticks that wait to be done again: twice what precedes the newest snapshot.
+  /// Most seconds of ticks that wait to be done again: twice the time between snapshots.
   static constexpr int kFollowBehindS = 12;
-  /// A part of a tick is seen while it is written, for less than a ms; what is wrong for this long
+  /// A part of a tick is seen while it is written, for less than a ms; an error that lasts so long
   /// is damage, us.
   static constexpr std::int64_t kDamagedUs = 500000;
 

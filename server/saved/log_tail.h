@@ -1,5 +1,5 @@
 #pragma once
-/// The end of a room's log, after its snapshot: what the server had accepted since. LogFollower
+/// The end of a room's log, after its snapshot: all that the server had accepted since. LogFollower
 /// reads it while another server still writes it, ReadLogTail once.
 
 #include <cstdint>
@@ -44,7 +44,7 @@ class LogFollower {
   const std::string path_, room_;
   const Secret* const key_;
   std::int64_t tick_;
-  // The last seal over which nothing is written any more, and what its reader knew.
+  // The last seal over which nothing is written any more, and the splitter behind it.
   LogPlace kept_;
   TickSplitter splitter_;
 };

@@ -1,5 +1,7 @@
 /// A room that is followed by its log while its server writes it, in virtual time.
 
+#include "server/saved/followed_room.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,14 +12,13 @@
 #include "common/base/check.h"
 #include "common/record/disk_thread.h"
 #include "common/record/room_log.h"
-#include "server/saved/followed_room.h"
 #include "server/saved/snapshot_file.h"
 #include "server/saved/trial_load.h"
 #include "tests/support/arena.h"
 #include "tests/support/program.h"
 
 namespace seam {
-namespace followed_room_cluster_test {
+namespace followed_room_test {
 
 class ServerLog : public Recorder {
  public:
@@ -230,7 +231,7 @@ TEST(FollowedRoomCluster, OneThatFallsBehindIsGivenUp) {
   EXPECT_NE(status.why().find("ticks behind"), std::string::npos) << status.why();
 }
 
-TEST(FollowedRoomCluster, OfAnotherEpochOrWithoutSnapshotIsRefused) {
+TEST(FollowedRoomCluster, RefusesAnotherEpochAndARoomWithoutSnapshot) {
   ClusterConfig config;
   config.scene = "crossing";
   Kept kept(config);
@@ -241,5 +242,5 @@ TEST(FollowedRoomCluster, OfAnotherEpochOrWithoutSnapshotIsRefused) {
   EXPECT_EQ(kept.Open()->tick(), 120);
 }
 
-}  // namespace followed_room_cluster_test
+}  // namespace followed_room_test
 }  // namespace seam
