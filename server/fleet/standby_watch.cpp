@@ -144,6 +144,7 @@ void StandbyWatch::Look(Watched& watched) {
     return now_us - knock.at_us > TakeOverRule::kKnockCountsUs;
   };
   knocks.erase(std::remove_if(knocks.begin(), knocks.end(), old), knocks.end());
+  if (now_us < watched.due_again_us) return;  // it is being taken over
   const bool silent = watched.rule.Silent(now_us) && !knocks.empty();
   if (config_.warm || silent || watched.followed != nullptr) Follow(now_us, silent, watched);
   {
@@ -159,7 +160,7 @@ void StandbyWatch::Look(Watched& watched) {
     if (player >= 0) watched.rule.NoteKnock(knock.at_us, player);
   }
   knocks.clear();
-  if (!watched.rule.Due(now_us, followed.present()) || now_us < watched.due_again_us) return;
+  if (!watched.rule.Due(now_us, followed.present())) return;
   watched.due_again_us = now_us + kDueAgainUs;
   Due due;
   due.room = watched.room;
