@@ -97,8 +97,7 @@ class Server {
   void Republish(const TickMessages& log);
   /// Goes on by itself after Replay, at `now_us`: has everything, and clients may join.
   void GoOn(std::int64_t now_us);
-  /// Takes inputs as if from the player's client.
-  void TakeInputs(std::int64_t now_us, const Inputs& inputs);
+  void TakeInputs(std::int64_t now_us, const Inputs& inputs);  ///< as if from the player's client
   /// Returns the room's state as bytes; see RoomState::Save. Not in mode oracle, where no peer can
   /// join a room that runs.
   Bytes Save(std::int64_t now_us);
@@ -114,8 +113,7 @@ class Server {
   std::int64_t wake_us() const;  ///< the same; INT64_MAX also while it waits for inputs
   void PublishLoad(const Load& load) { broadcast_.Publish(load); }  ///< of the room
   void PublishUnmoved() { broadcast_.PublishUnmoved(); }  ///< the last view, if it waits
-  /// Says goodbye to everyone. Tick must not be called afterwards.
-  void Shutdown(std::int64_t now_us, const std::string& reason);
+  void Shutdown(std::int64_t now_us, const std::string& reason);  ///< says goodbye; Tick no more
   /// Gives the room away: what is saved from now on is of this epoch. Redirect or Forsake follows.
   void GiveAway(std::int32_t epoch) { epoch_ = epoch; }
   /// Ends the room here; its clients, and those that join, are told to go on at another server.

@@ -285,8 +285,9 @@ bool Plausible::JudgeByCopy(int body, std::int64_t tick, const BodyState& state,
 }
 
 /// The way since the last accepted state is explained by a change of velocity at one moment
-/// between: it ends on the segment between the two velocities times the time. A told speed beyond
-/// what drives, collisions and edits explain is believed as far as one beside a copy is. A body
+/// between: it ends on the segment between the two velocities times the time. The told velocity
+/// counts as far as drives, collisions and edits explain it; where the server has a copy, which the
+/// state moves, more is believed as far as it would be beside that copy. A body
 /// that was silent for long is where the server last had it, or has moved on from there as far as
 /// lost messages explain.
 bool Plausible::JudgeByWay(int body, std::int64_t tick, int revision, const BodyState& state,
@@ -306,9 +307,13 @@ bool Plausible::JudgeByWay(int body, std::int64_t tick, int revision, const Body
   if (!known && !copied) seconds = std::max(seconds, kWayMaxS);
   const float driven = kDrivenAcceleration + scene_.gravity.norm();
   const float pushed = PushedSince(body, known ? last.tick : world.tick());
-  const Vec2 told = whole ? state.velocity : from.velocity;
-  float gained = told.norm() - from.velocity.norm() - driven * seconds - pushed;
-  if (gained > 0) gained = std::max(0.0f, gained - strikers_.AddedSpeed(body));
+  Vec2 told = whole ? state.velocity : from.velocity;
+  const float speed = told.norm();
+  float explained = from.velocity.norm() + driven * seconds + pushed;
+  if (speed > explained) explained += strikers_.AddedSpeed(body);
+  // Who has no copy knows nothing of what the body met.
+  const float most = explained + (simulated ? 0 : kCollisionVelocity);
+  if (speed > most) told *= most / speed;
   float slack = kWaySlack + pushed * seconds + driven * seconds * seconds / 2;
   // It may have met anything, and been thrown to and fro.
   if (!copied) slack += std::max(kCollisionVelocity, from.velocity.norm()) * seconds;
@@ -316,7 +321,9 @@ bool Plausible::JudgeByWay(int body, std::int64_t tick, int revision, const Body
   const auto off = [&](float s) { return DistanceFrom(way, s * from.velocity, s * told); };
   // A copy of now may be ahead of the told tick or behind it.
   const bool reached = off(seconds) <= slack || (!known && off(-seconds) <= slack);
-  if (reached && (gained <= 0 || Believe(body, 0, gained))) return true;
+  if (reached && (!simulated || speed <= explained || Believe(body, 0, speed - explained))) {
+    return true;
+  }
   NoteDoubt(body, tick, state, from, true, guessed);
   return false;
 }
