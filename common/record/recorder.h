@@ -18,7 +18,7 @@ class Recorder {
   virtual ~Recorder() = default;
   /// Publishes one encoded message. Never throws; failures are counted in failures().
   virtual void Publish(const std::string& channel, std::int64_t utime, ByteView message) = 0;
-  /// Publishes a message once more, for listeners who came later: on a bus alone. It has the number
+  /// Publishes a message once more, for late listeners: on a bus alone. It has the number
   /// -1 and belongs to no seal.
   virtual void Repeat(const std::string&, std::int64_t, ByteView) {}
   /// Ends a peer's tick. `seal` is of its messages since the last one that was `kept`; only those

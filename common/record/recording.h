@@ -126,7 +126,7 @@ class RecordingBuilder {
   bool Keep(Audit& audit);
   bool Keep(Divergence& divergence);
   bool KeepWhole(View& view);
-  /// Keeps the views before this one that were not sent, as they show what the last one does.
+  /// Keeps the views before this one that were not sent, as they are like the last one.
   void KeepUnmoved(const View& view);
   void AddScene();
   void DropStrayTicks();

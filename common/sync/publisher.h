@@ -28,11 +28,11 @@ class Publisher {
   /// Requires a message that travels on the bus (message_list.h).
   template <class Message>
   void Publish(Message message);
-  /// Publishes a message once more, for listeners who came later: logs do not keep it.
+  /// Publishes a message once more, for late listeners: logs do not keep it.
   template <class Message>
   void Repeat(Message message);
-  /// Splits views of more than kViewBodiesMax bodies. A view that shows what the last one published
-  /// does waits: the next that moves counts it (`unmoved`), and one a second is published.
+  /// Splits views of more than kViewBodiesMax bodies. A view like the last one published
+  /// waits: the next that moves counts it (`unmoved`), and one a second is published.
   void Publish(const View& message);
   /// Notes that the next messages come after the beginning of a tick's step (server only).
   void NoteStep() { before_step_ = NewMessages(); }
