@@ -55,7 +55,7 @@ TEST(EditedRoom, ALiarIsFoundWhereOthersBodiesAreMadeAndRemovedAllTheTime) {
     config.duration_s = 33;
     const AttackOutcome outcome = RunAttack(config, "x1.05");
     EXPECT_LT(ActedAfterS(outcome), 30);
-    EXPECT_LE(outcome.others_step, static_cast<int>(TrustStep::kNoted)) << "it pushes bob about";
+    EXPECT_LE(outcome.others_step, static_cast<int>(TrustStep::kNoted)) << "bob is honest";
   }
 }
 
