@@ -48,6 +48,18 @@ Status NotWritten(const std::string& path, int error) {
   return Status::Error(path + ": cannot be written: " + std::strerror(error));
 }
 
+/// True for readings, of which nothing of a room is made again.
+bool IsReading(const std::string& channel) {
+  static const std::string kinds[] = {MessageTraits<View>::kKind, MessageTraits<Strands>::kKind,
+                                      MessageTraits<Impacts>::kKind, MessageTraits<Stats>::kKind,
+                                      MessageTraits<Load>::kKind};
+  return std::any_of(std::begin(kinds), std::end(kinds), [&](const std::string& kind) {
+    const std::size_t at = channel.find("." + kind);
+    return at != std::string::npos &&
+           (at + kind.size() + 1 == channel.size() || channel[at + kind.size() + 1] == '.');
+  });
+}
+
 [[noreturn]] void ThrowNotWritten(const std::string& path) {
   throw OperatorError(NotWritten(path, errno).why());
 }
@@ -107,6 +119,7 @@ void RoomLog::Publish(const std::string& channel, std::int64_t utime, ByteView m
   }
   last_utime_ = utime;
   if (segment_bytes_ > 0) keyframe_.Note(channel, message);
+  urgent_ = urgent_ || !IsReading(channel);
   starts_.push_back(buffer_.size());
   AppendEvent(&buffer_, 0, utime, channel, message);
 }
@@ -283,10 +296,11 @@ void RoomLog::Fail(int error) {
 void RoomLog::Sync(bool at_once) {
   if (disk_ == nullptr) return;
   const std::int64_t now_us = SteadyClockUs();
-  const bool due = unsynced_ && now_us - synced_us_ >= kSyncUs && !syncs_->syncing.exchange(true);
+  const std::int64_t after_us = urgent_ ? kSyncUs : kSyncReadingsUs;
+  const bool due = unsynced_ && now_us - synced_us_ >= after_us && !syncs_->syncing.exchange(true);
   if (!due && !at_once) return;
   synced_us_ = now_us;
-  unsynced_ = false;
+  unsynced_ = urgent_ = false;
   KeepSeal();
   disk_->Do([file = file_, syncs = syncs_] {
     if (fdatasync(fileno(file.get())) != 0) syncs->error = errno;

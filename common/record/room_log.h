@@ -70,8 +70,9 @@ class RoomLog : public Recorder {
   LogPlace Pin();
 
   /// Time between two syncs, us; they begin with a tick, and wait for an event. More is lost with
-  /// the power, less has more seals in the log, 0.1 kB each.
-  static constexpr std::int64_t kSyncUs = 40000;
+  /// the power, less has more seals in the log, 0.1 kB each. The second where there are readings
+  /// alone: views, statistics.
+  static constexpr std::int64_t kSyncUs = 40000, kSyncReadingsUs = 1000000;
 
  private:
   /// A sync may use these longer than this object lives.
@@ -115,7 +116,7 @@ class RoomLog : public Recorder {
   std::int32_t own_seals_ = 0;
   std::int64_t last_utime_ = 0;
   std::int64_t synced_us_ = 0;
-  bool unsynced_ = false;  // events were written since then
+  bool unsynced_ = false, urgent_ = false;  // events were written since then; not readings alone
   std::int64_t failures_ = 0;
 };
 

@@ -13,7 +13,7 @@ namespace seam {
 /// or from a seat; with `actions` also if a button pushes one of its parts.
 std::vector<bool> DrivenMechanisms(const World& world, int player, bool actions);
 
-/// Caches the driven mechanisms of all players, and the players whose inputs this peer needs.
+/// Caches each player's driven mechanisms, and the players that this peer needs inputs of.
 class Drivers {
  public:
   /// Both must outlive this.
@@ -31,7 +31,7 @@ class Drivers {
   }
   /// True if the player's axes move an anchored belt.
   bool MovesBelt(int player) const { return !BeltsOf(player).empty(); }
-  /// Anchored parts whose belts the player's axes move.
+  /// Anchored belts that the player's axes move.
   const std::vector<PartId>& BeltsOf(int player) const {
     return belts_[static_cast<std::size_t>(player)];
   }

@@ -26,7 +26,7 @@ class Reach {
   /// Call after a step. Finds mechanisms that may have met during the ticks with missing inputs.
   void Look();
 
-  /// Returns the players whose inputs this peer waits for, with the number of newest ticks that
+  /// Returns the players that this peer waits for, with the number of newest ticks that
   /// lack their inputs. Players that are absent do not count.
   std::vector<std::pair<int, std::int64_t>> Missing() const;
   /// Returns the greatest of those numbers; 0 if nothing is missing.
