@@ -6,7 +6,7 @@
 #include "common/base/check.h"
 #include "common/codec/message_limits.h"
 #include "common/record/log_file.h"
-#include "common/record/no_room.h"
+#include "common/record/log_sessions.h"
 #include "common/record/recorder.h"
 #include "common/record/recording.h"
 

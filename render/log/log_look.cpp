@@ -10,8 +10,8 @@
 #include "common/net/secret_file.h"
 #include "common/record/damage.h"
 #include "common/record/log_file.h"
+#include "common/record/log_sessions.h"
 #include "common/record/loss_timeline.h"
-#include "common/record/no_room.h"
 #include "render/log/log_check.h"
 #include "render/log/log_commands.h"
 

@@ -92,7 +92,7 @@ TEST(UnmovedViews, TicksWithoutAViewStayGaps) {
   EXPECT_EQ(views.count(25), 0u);
 }
 
-TEST(UnmovedViews, OfALostViewNothingIsMadeUp) {
+TEST(UnmovedViews, ALostViewsTicksStayMissing) {
   RecordingBuilder builder;
   View moved = ViewOf(100, 2);
   moved.session = 77;

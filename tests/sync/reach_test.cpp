@@ -125,7 +125,7 @@ TEST(Reach, InputsOfFutureTicksAreNotMissing) {
   EXPECT_EQ(lot.Missing("his"), 0);
 }
 
-TEST(Reach, WhatLiesOnABeltWaitsForThePlayerWhoDrivesIt) {
+TEST(Reach, ABodyOnABeltWaitsForThePlayerThatDrivesIt) {
   ScriptedWorld room(
       ParseScene("[[player]]\nname = \"ann\"\n[[player]]\nname = \"bob\"\n"
                  "[[part]]\nname = \"belt\"\nbox = [20, 0.5]\nposition = [0, 0]\nangle = "
