@@ -8,8 +8,8 @@
 #include <map>
 #include <memory>
 
-#include "common/codec/codec.h"
 #include "common/record/log_file.h"
+#include "common/record/recording.h"
 #include "tests/support/program.h"
 
 namespace seam {
@@ -29,14 +29,11 @@ std::string After(const Program& program, const std::string& mark, const std::st
 
 /// Returns the complete views of a log by tick.
 std::map<std::int64_t, View> ViewsOf(const std::string& path) {
-  std::map<std::int64_t, View> views;
+  RecordingBuilder builder;
   LogReader log(path);
-  for (LogEvent event; log.Next(&event);) {
-    const AnyMessage any = Decode(event.data);
-    const auto* const view = std::get_if<View>(&any);
-    if (view != nullptr && view->parts == 1) views[view->tick] = *view;
-  }
-  return views;
+  for (LogEvent event; log.Next(&event);) builder.Add(event.channel, event.data);
+  const Recording& recording = builder.recording();
+  return recording.views.empty() ? std::map<std::int64_t, View>() : recording.views.begin()->second;
 }
 
 std::string Scene(const std::string& name) {
