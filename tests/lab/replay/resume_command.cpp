@@ -31,8 +31,12 @@ struct Difference {
 void GoOnAlone(const LoggedRoom& logged, const std::vector<std::string>& lines,
                std::int64_t last_tick, std::size_t next, Server* server, Difference* difference) {
   std::int64_t now_us = 0;
-  for (const AnyMessage& any : logged.ticks[next - 1].after) {
-    if (const auto* view = std::get_if<View>(&any)) now_us = view->utime;
+  const std::int64_t tick_us = 1000000 / logged.recording.room.tick_hz;
+  for (std::size_t i = next; i-- > 0 && now_us == 0;) {  // a view that does not move is told seldom
+    for (const AnyMessage& any : logged.ticks[i].after) {
+      const auto* const view = std::get_if<View>(&any);
+      if (view != nullptr) now_us = view->utime + static_cast<std::int64_t>(next - 1 - i) * tick_us;
+    }
   }
   server->GoOn(now_us);
   for (const std::string& line : lines) {
