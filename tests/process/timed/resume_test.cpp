@@ -150,6 +150,14 @@ TEST_F(Resume, AKilledServerGoesOnWithItsWorldAndItsPlayers) {
   Program measure({BuiltProgram("seam-measure"), Log()});
   EXPECT_TRUE(measure.Wait(kPatience));
   EXPECT_EQ(measure.status(), 0) << measure.Story();
+  // Four sessions of one room, done again from its first tick on.
+  Program replay({LabProgram(), "replay", Log()});
+  EXPECT_TRUE(replay.Wait(kPatience));
+  EXPECT_EQ(replay.status(), 0) << replay.Story();
+  const std::int64_t last = LastView(ReadRecording(Log()), 0)->tick;
+  const std::size_t at = replay.output().find(": ");
+  ASSERT_NE(at, std::string::npos) << replay.Story();
+  EXPECT_GE(std::atoll(replay.output().c_str() + at + 2), last) << replay.Story();
 }
 
 TEST_F(Resume, ARoomRunsOnWithoutAStoreThatCannotBeWritten) {
