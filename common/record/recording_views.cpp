@@ -66,17 +66,19 @@ void RecordingBuilder::KeepUnmoved(const View& view) {
   auto& views = recording_.views[view.peer];
   const auto before = views.find(view.tick - view.unmoved - 1);
   if (view.unmoved == 0 || before == views.end()) return;
-  auto& times = recording_.view_us[view.peer];
-  const auto heard = times.find(before->first);
   for (int i = 1; i <= view.unmoved; ++i) {
     View same = before->second;
     same.tick += i;
     same.utime += (view.utime - same.utime) * i / (view.unmoved + 1);
     same.unmoved = 0;
-    if (heard != times.end() && heard_us_ >= 0) {
-      times[same.tick] = heard->second + (heard_us_ - heard->second) * i / (view.unmoved + 1);
-    }
     views.emplace(same.tick, std::move(same));
+  }
+  if (heard_us_ < 0) return;
+  auto& times = recording_.view_us[view.peer];
+  const auto heard = times.find(before->first);
+  if (heard == times.end()) return;
+  for (int i = 1; i <= view.unmoved; ++i) {
+    times[before->first + i] = heard->second + (heard_us_ - heard->second) * i / (view.unmoved + 1);
   }
 }
 

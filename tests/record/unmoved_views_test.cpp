@@ -92,6 +92,20 @@ TEST(UnmovedViews, TicksWithoutAViewStayGaps) {
   EXPECT_EQ(views.count(25), 0u);
 }
 
+TEST(UnmovedViews, HaveNoTimeOfReceiptWhereNoneIsKnown) {
+  RecordingBuilder builder;
+  View view = ViewOf(1, 1);
+  view.session = 77;
+  EXPECT_TRUE(builder.Add("SEAM.r.view.0", Encode(view)));
+  view = ViewOf(9, 1);
+  view.session = 77;
+  view.sequence = 1;
+  view.unmoved = 7;
+  EXPECT_TRUE(builder.Add("SEAM.r.view.0", Encode(view)));
+  EXPECT_EQ(builder.recording().views.at(0).size(), 9u);
+  EXPECT_TRUE(builder.recording().view_us.empty());
+}
+
 TEST(UnmovedViews, ALostViewsTicksStayMissing) {
   RecordingBuilder builder;
   View moved = ViewOf(100, 2);
