@@ -13,23 +13,10 @@
 #include "tests/lab/chaos/kept_log.h"
 #include "tests/support/arena.h"
 #include "tests/support/program.h"
+#include "tests/support/soak/server_log.h"
 
 namespace seam {
 namespace resume_cluster_test {
-
-/// The log of the server alone, as --state writes it.
-class ServerLog : public Recorder {
- public:
-  ServerLog(const std::string& path, std::int64_t segment_bytes)
-      : log(path, true, nullptr, nullptr, segment_bytes) {}
-  void Publish(const std::string& channel, std::int64_t utime, ByteView message) override {
-    if (PublisherOfChannel(channel) == 0) log.Publish(channel, utime, message);
-  }
-  void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override {
-    if (seal.peer == 0) log.EndTick(channel, seal, kept);
-  }
-  RoomLog log;
-};
 
 /// Plays to `tick` with a snapshot at `saved_tick`, and resumes the room from its log.
 class Killed {

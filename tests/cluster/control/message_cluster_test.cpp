@@ -11,6 +11,7 @@
 #include "server/rules/rules.h"
 #include "server/saved/log_tail.h"
 #include "tests/lab/replay/replayed_room.h"
+#include "tests/support/soak/server_log.h"
 #include "tests/support/temporary_file.h"
 
 namespace seam {
@@ -39,19 +40,6 @@ end
 [[lcm.message]]
 channel = "KICK"
 )";
-
-/// The log of the server alone, as --state writes it.
-class ServerLog : public Recorder {
- public:
-  explicit ServerLog(const std::string& path) : log(path, true, nullptr) {}
-  void Publish(const std::string& channel, std::int64_t utime, ByteView message) override {
-    if (PublisherOfChannel(channel) == 0) log.Publish(channel, utime, message);
-  }
-  void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override {
-    if (seal.peer == 0) log.EndTick(channel, seal, kept);
-  }
-  RoomLog log;
-};
 
 ClusterConfig Yard(Recorder* recorder) {
   ClusterConfig config;

@@ -16,22 +16,10 @@
 #include "server/saved/trial_load.h"
 #include "tests/support/arena.h"
 #include "tests/support/program.h"
+#include "tests/support/soak/server_log.h"
 
 namespace seam {
 namespace followed_room_test {
-
-class ServerLog : public Recorder {
- public:
-  ServerLog(const std::string& path, DiskThread* disk, std::int64_t segment_bytes)
-      : log(path, true, disk, nullptr, segment_bytes) {}
-  void Publish(const std::string& channel, std::int64_t utime, ByteView message) override {
-    if (PublisherOfChannel(channel) == 0) log.Publish(channel, utime, message);
-  }
-  void EndTick(const std::string& channel, const LogSeal& seal, bool kept) override {
-    if (seal.peer == 0) log.EndTick(channel, seal, kept);
-  }
-  RoomLog log;
-};
 
 struct Silence : Recorder {
   void Publish(const std::string&, std::int64_t, ByteView) override {}
@@ -42,7 +30,7 @@ struct Silence : Recorder {
 class Kept {
  public:
   explicit Kept(ClusterConfig config, bool syncs = true, std::int64_t segment_bytes = 0)
-      : log_(folder_ / "main.lcm", syncs ? &disk_ : nullptr, segment_bytes) {
+      : log_(folder_ / "main.lcm", segment_bytes, syncs ? &disk_ : nullptr) {
     config.keep = false;
     config.recorder = &log_;
     cluster = std::make_unique<Cluster>(config);
