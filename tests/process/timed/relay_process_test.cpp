@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <vector>
 
+#include "common/codec/codec.h"
 #include "common/record/log_file.h"
 #include "common/record/recording.h"
 #include "tests/support/program.h"
@@ -27,13 +29,24 @@ std::string After(const Program& program, const std::string& mark, const std::st
   return text.substr(from, text.find(end, from) - from);
 }
 
-/// Returns the complete views of a log by tick.
+/// Returns the complete views of a log by tick, those of a later session in place of an earlier
+/// one's.
 std::map<std::int64_t, View> ViewsOf(const std::string& path) {
-  RecordingBuilder builder;
+  std::vector<std::int64_t> sessions;  // as they follow each other
+  std::map<std::int64_t, RecordingBuilder> builders;
   LogReader log(path);
-  for (LogEvent event; log.Next(&event);) builder.Add(event.channel, event.data);
-  const Recording& recording = builder.recording();
-  return recording.views.empty() ? std::map<std::int64_t, View>() : recording.views.begin()->second;
+  for (LogEvent event; log.Next(&event);) {
+    const std::int64_t session = SessionOf(event.data).value_or(0);
+    if (builders.count(session) == 0) sessions.push_back(session);
+    builders[session].Add(event.channel, event.data);
+  }
+  std::map<std::int64_t, View> views;
+  for (const std::int64_t session : sessions) {
+    for (auto& [peer, of_peer] : builders[session].recording().views) {
+      for (auto& [tick, view] : of_peer) views[tick] = view;
+    }
+  }
+  return views;
 }
 
 std::string Scene(const std::string& name) {
