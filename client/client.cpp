@@ -188,8 +188,9 @@ void Client::StartIfDue(std::int64_t now_us) {
   if (late) replica_->StartAt(held_.TickOf(replica_->world(), oldest, tick));
   started_ = true;
   held_.GiveTo(*replica_);
-  held_.Clear();
   if (late) CatchUp(tick);
+  GoOnFrom(held_.GiveWorldTo(*replica_));
+  held_.Clear();
 }
 
 /// Steps without display; messages of these ticks are discarded.

@@ -231,9 +231,13 @@ class Client {
   void RecordKnownInputs();
   /// True if the mode lets us do the next tick. Until then the own input is read at its time.
   bool MayStep();
-  /// Where peers send inputs alone: takes a piece of the server's world, to begin with.
+  /// Takes a piece of the server's world: to begin with where peers send inputs alone; elsewhere as
+  /// it was a moment ago, to be the same.
   void OnWorldPiece(const Chunk& chunk);
-  /// The same: adds the hash of a past tick, so that the server finds a world that has parted.
+  void BeginWith(ByteView world);
+  void GoOnFrom(const Status& taken);
+  /// Where peers send inputs alone: adds the hash of a past tick, so that the server finds a world
+  /// that has parted.
   void AddWorldHash(Ping* ping) const;
 
   // client_send.cpp
@@ -301,15 +305,11 @@ class Client {
   std::size_t room_size_ = 0;
   std::int64_t received_us_ = 0;  // time of the room's last bytes
   bool loaded_now_ = false;       // loaded the room in this call, which may have taken seconds
-  int peer_ = -1;
-  int player_ = -1;
-  Bytes world_bytes_;         // where peers send inputs alone: of the server's world
-  bool world_given_ = false;  // the replica continues it
+  int peer_ = -1, player_ = -1;
+  Bytes world_bytes_;         // of the server's world
+  bool world_given_ = false;  // where peers send inputs alone: the replica continues it
   std::int64_t world_tick_ = 0;
-  bool said_ready_ = false;
-  bool started_ = false;
-  bool released_ = false;
-  bool closed_ = false;
+  bool said_ready_ = false, started_ = false, released_ = false, closed_ = false;
   std::string fatal_;
   RoomTimeline timeline_;
   RestBlocks rest_;               // compares our bodies at rest with the server's

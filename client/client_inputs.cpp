@@ -1,5 +1,5 @@
-/// Client: the own player's inputs; and in modes in which peers send inputs alone, the world to
-/// begin with and the check that all worlds are the same.
+/// Client: the own player's inputs, and the server's world; in modes in which peers send inputs
+/// alone, the check that all worlds are the same.
 
 #include <algorithm>
 #include <optional>
@@ -64,14 +64,28 @@ bool Client::MayStep() {
 
 void Client::OnWorldPiece(const Chunk& chunk) {
   const bool next = static_cast<std::size_t>(chunk.offset_bytes) == world_bytes_.size();
-  if (replica_ == nullptr || started_ || !next) {
+  if (replica_ == nullptr || (policy_->InputsOnly() && started_) || !next) {
     ++stats_.dropped_stale;
     return;
   }
   world_bytes_.insert(world_bytes_.end(), chunk.data.begin(), chunk.data.end());
   if (!IsWholeWorld(world_bytes_)) return;
-  const std::optional<Bytes> state = WorldOf(std::exchange(world_bytes_, {}));
-  StateArchive archive(state ? ByteView(*state) : ByteView());
+  const Bytes world = WorldOf(std::exchange(world_bytes_, {})).value_or(Bytes());
+  if (policy_->InputsOnly()) {
+    BeginWith(world);
+  } else if (!started_) {
+    held_.AddWorld(world);
+  } else if (!released_) {
+    GoOnFrom(replica_->TakeWorld(world));
+  }
+}
+
+void Client::GoOnFrom(const Status& taken) {
+  if (!taken.ok()) fatal_ = "cannot use the server's world: " + taken.why();
+}
+
+void Client::BeginWith(ByteView world) {
+  StateArchive archive(world);
   // Inputs that came before the world, of later ticks: acknowledged ones do not come again.
   std::vector<Inputs> came;
   for (int p = 0; p < static_cast<int>(scene_->players.size()); ++p) {
@@ -80,10 +94,8 @@ void Client::OnWorldPiece(const Chunk& chunk) {
   MakeReplica(&replica_->world().topology());
   replica_->Persist(archive, Replica::Past::kNone);
   if (archive.ok() && archive.left() > 0) archive.Fail("there is more than the world");
-  if (!archive.ok()) {
-    fatal_ = "cannot use the server's world: " + archive.status().why();
-    return;
-  }
+  GoOnFrom(archive.status());
+  if (!archive.ok()) return;
   for (const Inputs& inputs : came) {
     for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
       const std::int64_t tick = inputs.first_tick + static_cast<std::int64_t>(i);

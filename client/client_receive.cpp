@@ -232,8 +232,8 @@ void Client::MakeReplica(const Topology* become) {
 }
 
 void Client::OnChunk(std::int64_t now_us, const Chunk& chunk) {
-  if (scene_ != nullptr && policy_->InputsOnly()) return OnWorldPiece(chunk);
-  if (scene_ != nullptr || room_size_ == 0) return;
+  if (scene_ != nullptr) return OnWorldPiece(chunk);
+  if (room_size_ == 0) return;
   if (static_cast<std::size_t>(chunk.offset_bytes) != room_bytes_.size() ||
       room_bytes_.size() + chunk.data.size() > room_size_) {
     fatal_ = "the server's room does not fit its welcome";

@@ -19,6 +19,7 @@ void JoinBuffer::Add(Message message) {
 
 void JoinBuffer::Clear() {
   held_.clear();
+  world_.clear();
   room_ = kRoomMin;
 }
 

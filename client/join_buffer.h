@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,6 +18,8 @@ class JoinBuffer {
   /// the messages of a slow join, the newest stay. At most kHeldMax.
   void Add(const States& states);
   void Add(const Rest& rest);
+  /// Keeps a settled world (Replica::SettledWorld), the newest.
+  void AddWorld(Bytes settled) { world_ = std::move(settled); }
   void Clear();
   std::size_t size() const { return held_.size(); }
 
@@ -32,6 +35,11 @@ class JoinBuffer {
   /// tick, extrapolated to that tick, or at its later rest pose. States of later ticks follow as
   /// received.
   void GiveTo(Replica& replica) const;
+  /// Call when the replica has stepped on to the present. Returns an error as of
+  /// Replica::TakeWorld.
+  Status GiveWorldTo(Replica& replica) const {
+    return world_.empty() ? Status::Ok() : replica.TakeWorld(world_);
+  }
 
   /// Twice the number of messages of a room with the most parts that a scene can have.
   static constexpr std::size_t kHeldMax = 8192;
@@ -43,6 +51,7 @@ class JoinBuffer {
   void LetGo();
 
   std::vector<Message> held_;  // in order of arrival
+  Bytes world_;                // empty: none has come
   std::size_t room_ = kRoomMin;
   static constexpr std::size_t kRoomMin = 256;
 };

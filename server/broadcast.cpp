@@ -93,6 +93,13 @@ void Broadcast::FindFollowers() {
   }
 }
 
+void Broadcast::NoteDiffering(int peer, int mechanism) {
+  NoteUnsettled(mechanism);
+  if (peer > 0) return settled_worlds_.NoteDiffering(peer);
+  EachSimulating(mechanism,
+                 [this](const Session& each) { settled_worlds_.NoteDiffering(each.peer); });
+}
+
 void Broadcast::SendPendingGrants(std::int64_t now_us) {
   const std::int64_t every = GrantAudience::kGrantPendingS * config_.tick_hz;
   const std::int64_t every_nothing = GrantAudience::kGrantPendingDistantS * config_.tick_hz;

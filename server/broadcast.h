@@ -17,6 +17,7 @@
 #include "server/interest/newest_states.h"
 #include "server/interest/rest_audience.h"
 #include "server/sessions/session_table.h"
+#include "server/sessions/settled_worlds.h"
 
 namespace seam {
 
@@ -35,6 +36,7 @@ class Broadcast {
         interest_(scene, config_, replica),
         grant_audience_(replica, interest_),
         rest_audience_(replica),
+        settled_worlds_(replica, sessions),
         followers_(replica.table(), AddFollowers),
         unsettled_until_(replica.table(), MechanismRule::kFresh) {}
 
@@ -92,7 +94,14 @@ class Broadcast {
   /// Sends pending changes of authority that are due by now. To be called every tick.
   void SendPendingGrants(std::int64_t now_us);
   /// To be called when a peer becomes ready. LookAround is due then.
-  void NotePeerReady() { peer_became_ready_ = true; }
+  void NotePeerReady(int peer) {
+    peer_became_ready_ = true;
+    settled_worlds_.NoteReady(peer);
+  }
+  /// Copies of the mechanism differ: a peer's (0: the server's) from what its authority has told.
+  void NoteDiffering(int peer, int mechanism);
+  /// Sends clients the world as it has settled since. To be called every tick.
+  void SendSettledWorlds(std::int64_t now_us) { settled_worlds_.Send(now_us); }
   /// To be called when a peer was sent the whole authority table and everything at rest.
   void NoteTold(int peer) {
     grant_audience_.NoteTold(peer);
@@ -220,6 +229,7 @@ class Broadcast {
   Interest interest_;
   GrantAudience grant_audience_;
   RestAudience rest_audience_;
+  SettledWorlds settled_worlds_;
   std::vector<Entry> entries_;               // in Relay: entries of the message
   std::vector<Due> due_;                     // in Relay, by peer; else empty
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_

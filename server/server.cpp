@@ -210,7 +210,7 @@ void Server::StepOnce(std::int64_t now_us) {
     const int m = replica_.authority().IndexOf(id);
     if (m >= 0) differing.push_back(m);
   }
-  if (!differing.empty()) TellDiffering(differing);
+  if (!differing.empty()) TellDiffering(0, differing);
   RunSeats(now_us);
   RemoveOutside(now_us);
   UpdateAuthority(now_us);
@@ -227,6 +227,7 @@ void Server::StepOnce(std::int64_t now_us) {
   }
   RunRules(now_us);
   broadcast_.NoteTick();
+  broadcast_.SendSettledWorlds(now_us);
   if (input_room_ != nullptr) input_room_->GiveWorlds(now_us, *edits_);
 }
 

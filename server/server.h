@@ -221,8 +221,8 @@ class Server {
 
   // server_states.cpp
   void OnDiffering(const Session& session, const Differing& differing);
-  /// Sends every state of the mechanism for a while, and lets its holder do so.
-  void TellDiffering(const std::vector<int>& mechanisms);
+  /// A peer's copies (0: the server's) are not what was told: sends all states and settled worlds.
+  void TellDiffering(int peer, const std::vector<int>& mechanisms);
   void OnPacked(std::int64_t now_us, Session& session, const PackedStates& packed);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void TakeStates(std::int64_t now_us, Session& session, const States& states);

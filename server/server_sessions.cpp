@@ -70,7 +70,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         broadcast_.NoteAccepted(now_us, event.peer, event.player, Ready());
         authority_.PlanSoon();
         look_soon_ = true;
-        broadcast_.NotePeerReady();
+        broadcast_.NotePeerReady(event.peer);
         say(chronicle_->NoteReady(event.name) ? EventKind::kRejoined : EventKind::kJoined,
             event.name + " is ready as " + peer);
         Tell(event.name + " is here as " + peer + ", " + ToString(event.address));

@@ -69,13 +69,13 @@ void Server::OnDiffering(const Session& session, const Differing& differing) {
       ++(m < 0 ? stats_.counters.dropped_stale : stats_.counters.dropped_right);
     }
   }
-  TellDiffering(mechanisms);
+  TellDiffering(session.peer, mechanisms);
 }
 
-void Server::TellDiffering(const std::vector<int>& mechanisms) {
+void Server::TellDiffering(int peer, const std::vector<int>& mechanisms) {
   std::map<int, Differing> by_holder;
   for (const int m : mechanisms) {
-    broadcast_.NoteUnsettled(m);
+    broadcast_.NoteDiffering(peer, m);
     if (!replica_.RefreshesOnly(m)) continue;
     const AuthorityTable& table = replica_.authority();
     Differing& told = by_holder[table.at(m).authority];

@@ -70,6 +70,11 @@ class Replay {
   void Forget();
   /// Makes this tick a barrier, also for replays, and returns it.
   std::shared_ptr<const WorldSnapshot> BarrierNow();
+  /// Returns the newest barrier of these ticks from which another peer can go on; nullptr: none.
+  std::shared_ptr<const WorldSnapshot> SharedBarrier(std::int64_t from, std::int64_t to) const;
+  /// Goes on from another peer's barrier: the next Run steps again from there. Returns false if it
+  /// cannot be reached. Requires World::Load of it, and a recorded past of its tick.
+  bool GoOnFrom(std::shared_ptr<const WorldSnapshot> barrier);
   // Saved rooms (replay_saved.cpp): PersistBarriers, then Persist.
   /// Saves the barriers of tick `from` or later before this tick's, or loads them. Reading leaves
   /// the world in any state: load it afterwards.
@@ -105,6 +110,7 @@ class Replay {
   struct Barrier {
     std::shared_ptr<const WorldSnapshot> world;  // another thread may write it to a file
     std::int64_t edits = 0;  ///< number of edits before it that changed no bodies
+    bool rebuilt = true;     ///< the world was rebuilt from it, and not only copied
   };
   /// An edit that changed no bodies.
   struct Repeated {

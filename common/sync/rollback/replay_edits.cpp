@@ -120,8 +120,8 @@ void Replay::RepeatEdits() {
 
 void Replay::AddBarrier(bool alone) {
   barriers_.push_back(
-      {std::make_shared<const WorldSnapshot>(alone ? world_.Keep() : world_.Barrier()),
-       edits_done_});
+      {std::make_shared<const WorldSnapshot>(alone ? world_.Keep() : world_.Barrier()), edits_done_,
+       !alone});
 }
 
 void Replay::DropBarriers() {

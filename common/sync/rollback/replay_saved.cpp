@@ -20,6 +20,33 @@ std::shared_ptr<const WorldSnapshot> Replay::BarrierNow() {
   return barriers_.back().world;
 }
 
+std::shared_ptr<const WorldSnapshot> Replay::SharedBarrier(std::int64_t from,
+                                                           std::int64_t to) const {
+  const auto edited = [this](std::int64_t tick) {  // before the barrier, or after it
+    return edited_tick_ == tick ||
+           std::any_of(edits_.begin(), edits_.end(),
+                       [tick](const Repeated& repeated) { return repeated.tick == tick; });
+  };
+  for (auto barrier = barriers_.rbegin(); barrier != barriers_.rend(); ++barrier) {
+    const std::int64_t tick = barrier->world->tick;
+    if (tick < from) break;
+    if (tick <= to && barrier->rebuilt && !edited(tick)) return barrier->world;
+  }
+  return nullptr;
+}
+
+bool Replay::GoOnFrom(std::shared_ptr<const WorldSnapshot> barrier) {
+  const std::int64_t tick = barrier->tick;
+  const bool reached = !barriers_.empty() && barriers_.front().world->tick <= tick;
+  if (journey_ || !reached || tick > world_.tick()) return false;
+  const auto later = std::find_if(edits_.begin(), edits_.end(),
+                                  [tick](const Repeated& edit) { return edit.tick > tick; });
+  const std::int64_t before = edits_before_ + (later - edits_.begin());
+  barriers_.assign(1, {std::move(barrier), before});
+  from_ = tick;
+  return true;
+}
+
 void Replay::PersistAll(StateArchive& a, std::vector<Barrier>* barriers) {
   a.Section("barriers");
   auto last = std::make_shared<const WorldSnapshot>();
