@@ -28,12 +28,12 @@ bool ReadPart(const World& world, PartId part, const std::function<BodyState(int
   const Assembly& assembly = world.composition().assemblies[static_cast<std::size_t>(index)];
   const std::vector<Part>& parts = world.scene().parts;
   const Part& own = parts[static_cast<std::size_t>(part)];
-  if (assembly.anchored) {
+  if (assembly.anchored && assembly.kinematic < 0) {
     *state = {own.position, own.angle, {0, 0}, 0};
     return true;
   }
   const Part& root = parts[static_cast<std::size_t>(assembly.id)];
-  *state = read(world.BodyOfId(assembly.id));
+  *state = assembly.anchored ? world.ReadAssembly(index) : read(world.BodyOfId(assembly.id));
   const Eigen::Vector2d local = ToRootFrame(own, root, Eigen::Vector2d(0, 0));
   const Transform2 placed{state->position.cast<double>(), static_cast<double>(state->angle)};
   state->position = placed(local).cast<float>();

@@ -251,6 +251,9 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   }
   bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
   changed = changed || bonded;  // in place of one that is gone
+  for (std::size_t a = 0; !changed && a < w.composition.assemblies.size(); ++a) {
+    changed = w.composition.assemblies[a].kinematic != before.composition.assemblies[a].kinematic;
+  }
   for (std::size_t j = 0; j < joints_before; ++j) {
     changed = changed || (held[j] && w.scene.joints[j].gone);
   }

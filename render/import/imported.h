@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct ImportedBody {
   double linear_damping = 0, angular_damping = 0, gravity_scale = 1;
   bool fixed_rotation = false, bullet = false, active = true, awake = true;
   double mass = 0;  ///< kg, set by hand; 0: that of its shapes
+  std::optional<Eigen::Vector2d> centre;  ///< m, of mass, in its frame; nullopt: not said
   std::vector<ImportedShape> shapes;
 };
 

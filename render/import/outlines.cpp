@@ -130,6 +130,17 @@ void AddChain(Points points, std::vector<PieceOutline>* pieces) {
   pieces->push_back(std::move(piece));
 }
 
+/// A line with two sides that moves: of two chains one would push out and the other in.
+void AddSegments(const Points& points, std::vector<PieceOutline>* pieces) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    PieceOutline piece;
+    piece.kind = ShapeKind::kSegment;
+    piece.points = {points[i - 1], points[i]};
+    piece.extent = ExtentOf(piece.points);
+    pieces->push_back(std::move(piece));
+  }
+}
+
 /// A convex outline as one polygon, or cut into halves of at most kPolygonPointsMax points.
 void AddOutline(Points points, bool moves, std::vector<PieceOutline>* pieces) {
   if (points.size() > 1 && (points.back() - points.front()).norm() < double{kEdgeMin}) {
@@ -166,7 +177,9 @@ std::string ShapeText(const PieceOutline& piece) {
   }
   std::string points;
   for (const Vector2d& p : piece.points) points += (points.empty() ? "" : ", ") + Pair(p);
-  const char* key = piece.kind == ShapeKind::kPolygon ? "polygon" : "chain";
+  const char* key = piece.kind == ShapeKind::kPolygon   ? "polygon"
+                    : piece.kind == ShapeKind::kSegment ? "segment"
+                                                        : "chain";
   return fmt::format("{} = [{}]\n", key, points);
 }
 
@@ -184,7 +197,13 @@ std::vector<PieceOutline> PiecesOf(const ImportedShape& shape, bool moves) {
       break;
     }
     case ImportedShape::Kind::kPolygon: AddOutline(points, moves, &pieces); break;
-    case ImportedShape::Kind::kTwoSidedChain: AddChain(points, &pieces); [[fallthrough]];
+    case ImportedShape::Kind::kTwoSidedChain:
+      if (moves) {
+        AddSegments(points, &pieces);
+        break;
+      }
+      AddChain(points, &pieces);
+      [[fallthrough]];
     case ImportedShape::Kind::kChain:
       std::reverse(points.begin(), points.end());
       AddChain(points, &pieces);

@@ -143,6 +143,7 @@ ImportedBody BodyOf(const Fields& r, const std::string& file) {
   body.active = r.Flag("active", true);
   body.awake = r.Flag("awake", true);
   body.mass = r.Number("massData-mass");
+  if (r.Has("massData-center")) body.centre = r.Vector("massData-center");
   for (const Json& fixture : r.List("fixture")) {
     body.shapes.push_back(ShapeOf(Fields(fixture, file, "a fixture of '" + body.name + "'"), file));
   }

@@ -22,6 +22,11 @@ namespace {
 using Eigen::Vector2d;
 using Kind = ImportedBody::Kind;
 
+/// Farther along its axis than this no wheel comes, m.
+constexpr double kFree = 1000;
+/// A centre of mass set by hand that differs by less is the shapes', m.
+constexpr double kCentreOff = 0.01;
+
 class SceneWriter {
  public:
   explicit SceneWriter(Imported* world) : world_(*world), placed_(world->bodies.size()) {}
@@ -96,9 +101,14 @@ class SceneWriter {
   /// Gives the shapes the densities with which the body has the mass that was set by hand.
   void SetMass(std::size_t b) {
     const ImportedBody& body = world_.bodies[b];
-    const double mass = MassOf(b).mass;
-    if (mass <= 0 || std::fabs(body.mass - mass) <= 0.001 * mass) return;
+    const MassProperties shapes = MassOf(b);
+    const double mass = shapes.mass;
     const std::string what = "body '" + body.name + "': ";
+    if (body.centre && (*body.centre - shapes.centre).norm() > kCentreOff) {
+      Drop(fmt::format("{}a centre of mass at {} set by hand; here that of the shapes, {}", what,
+                       Pair(*body.centre), Pair(shapes.centre)));
+    }
+    if (mass <= 0 || std::fabs(body.mass - mass) <= 0.001 * mass) return;
     Drop(fmt::format("{}a mass of {:.4g} kg set by hand; here by density, about the shapes' centre",
                      what, body.mass));
     for (Placed& placed : placed_[b]) {
@@ -286,6 +296,10 @@ class SceneWriter {
     if (line) text += fmt::format("length = {:.9g}\n", j.length);
     if (j.kind != "hinge" && j.kind != "rope") text += SpringText(j, a, b, what);
     if (j.kind == "rope" || j.kind == "weld") return text;
+    if (j.kind == "wheel" && j.frequency <= 0 && j.stiffness <= 0 && !j.limited) {
+      // Nothing holds it along its axis, but a wheel without a spring is rigid here.
+      text += fmt::format("limits = [{0:g}, {1:g}]\n", -kFree, kFree);
+    }
     if (j.limited && j.lower <= j.upper) {
       const double low = j.kind == "distance" ? std::max(j.lower, double{kEdgeMin}) : j.lower;
       const double most = j.kind == "distance" ? 10000 : HUGE_VAL;

@@ -6,6 +6,7 @@
 #include "common/base/geometry.h"
 #include "common/codec/quanta.h"
 #include "common/scene/mass.h"
+#include "common/stages/kinematic.h"
 #include "common/sync/reach/zones.h"
 
 namespace seam {
@@ -55,12 +56,6 @@ float LargestRestitution(const World& world, const std::vector<int>& bodies) {
     }
   }
   return largest;
-}
-
-/// True if any anchored part moves. Its speed at impact is not looked up.
-bool HasMovers(const World& world) {
-  const std::vector<Assembly>& all = world.composition().assemblies;
-  return std::any_of(all.begin(), all.end(), [](const Assembly& a) { return a.kinematic >= 0; });
 }
 
 /// Returns the largest distance between two velocities of the lists, m/s.
@@ -165,9 +160,37 @@ std::vector<int> ImpactCheck::IslandOf(int body) {
   return bodies;
 }
 
+/// Takes the motion of around that tick: it may change from one tick to the next.
+float ImpactCheck::FastestMover(const std::vector<int>& island,
+                                const std::vector<Vec2>& frame) const {
+  const Composition& composition = world_.composition();
+  const ImposedMotions movers(world_.scene(), composition);
+  float fastest = 0;
+  for (int m = 0; m < movers.count(); ++m) {
+    const auto& assembly = composition.assemblies[static_cast<std::size_t>(movers.assembly(m))];
+    const float extent = ExtentOf(world_, assembly);
+    const auto meets = [&](const Vec2& place) {
+      return std::any_of(island.begin(), island.end(), [&](int body) {
+        const Trail seen = trail_.Around(body, tick_, tick_);
+        if (seen.empty()) return false;
+        const float moves =
+            seen.front().state.velocity.norm() * world_.dt() * static_cast<float>(kTicksAround);
+        const float reach = extent + ExtentOf(world_, body) + kNear + moves;
+        return (seen.front().state.position - place).norm() <= reach;
+      });
+    };
+    for (const std::int64_t tick : {tick_ - 1, tick_, tick_ + 1}) {
+      const BodyState at = movers.At(m, static_cast<double>(tick));
+      if (!meets(at.position)) continue;
+      const float turning = std::fabs(at.spin) * extent;
+      fastest = std::max(fastest, LargestApart({at.velocity}, frame) + turning);
+    }
+  }
+  return fastest;
+}
+
 bool ImpactCheck::Explained(const Blow& blow) {
   const bool anchored = blow.by < 0;
-  if (anchored && HasMovers(world_)) return true;
   // The frame of the impact: the struck body, or what is anchored.
   std::vector<Vec2> frame = {Vec2(0, 0)};
   if (!anchored) frame = MotionOf(blow.body).velocities;
@@ -185,8 +208,12 @@ bool ImpactCheck::Explained(const Blow& blow) {
     mass += world_.mass(body);
     fastest = std::max(fastest, speed);
   }
+  // What moves along a path has any momentum.
+  const float mover = FastestMover(island, frame);
+  momentum += mass * mover;
+  fastest = std::max(fastest, mover);
   // The restitution of anchored parts is not looked up.
-  const float e = anchored ? 1 : LargestRestitution(world_, island);
+  const float e = anchored || mover > 0 ? 1 : LargestRestitution(world_, island);
   if (blow.dv <= (1 + e) * fastest + kSlack) return true;
   if (!IsHeld(blow, island)) return false;
   const float weight = mass * world_.scene().gravity.norm() * world_.dt();

@@ -49,6 +49,8 @@ class ImpactCheck {
   Moved MotionOf(int body) const;
   bool IsNear(int body, const Vec2& point) const;
   bool Explained(const Blow& blow);
+  /// Returns the greatest speed, in that frame, of parts on a path that meet the island, m/s.
+  float FastestMover(const std::vector<int>& island, const std::vector<Vec2>& frame) const;
   /// True if the struck body could not give way: another body or an anchored part is behind it, or
   /// joints hold it.
   bool IsHeld(const Blow& blow, const std::vector<int>& island) const;

@@ -187,6 +187,10 @@ TEST(LabCheckScript, FindsNothingInGoodScripts) {
       "  if n == 9 then\n    world.add_part{name = 'shot-' .. n, circle = 0.2, position = {0, 7}}\n"
       "  end\n  if n == 30 and world.part('shot-9') then world.remove_part('shot-9') end\n"
       "  if n > 40 and world.part('new') then world.impulse('new', 0, 1) end\nend\n",
+      // Each trigger is tried, while parts come.
+      "room.n = 0\nfunction on_trigger(trigger, part, entered)\n  room.n = room.n + 1\n"
+      "  for i = 1, 40 do\n    world.add_part{name = 'gift' .. room.n .. '-' .. i, box = {1, 1}, "
+      "position = {0, 9}}\n  end\nend\n",
       // Helpers, a coroutine with a loop that yields, a goto, long texts and comments.
       "local Door = {}\nDoor.__index = Door\n"
       "function Door.new(name) return setmetatable({name = name, left = 3}, Door) end\n"

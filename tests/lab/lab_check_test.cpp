@@ -163,6 +163,13 @@ TEST(LabCheck, FindsJointLimitsThatTheJointBeginsOutsideOf) {
                 "[[joint]]\nname = \"r\"\nkind = \"rope\"\na = \"box\"\nb = \"arm\"\n"
                 "anchor_a = [0, 1]\nanchor_b = [2, 1]\nlength = 1\n",
             12, "joint 'r': its ends begin 2.00 m apart, the rope is 1 m");
+  const std::string slide =
+      "[[joint]]\nname = \"j\"\nkind = \"prismatic\"\na = \"box\"\nb = "
+      "\"arm\"\naxis = [1, 0]\nlocal_a = [0, 0]\nlocal_b = [1, 0]\n";
+  EXPECT_EQ(Found(scene + slide + "limits = [1.5, 4]\n"), std::vector<std::string>{})
+      << "its ends begin 2 m apart";
+  ExpectOne(scene + slide + "limits = [-1, 1]\n", 12,
+            "joint 'j': begins at 2, outside its limits -1 to 1");
 }
 
 TEST(LabCheck, ACommentSuppressesAFinding) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/base/check.h"
+#include "common/physics/world.h"
 #include "common/scene/mass.h"
 #include "common/scene/motion/part_motion.h"
 #include "common/scene/scene.h"
@@ -178,6 +179,46 @@ TEST(Import, TiledMistakesAreOneLine) {
     const std::string error = ErrorOf([&] { ReadTiled(text, "m.tmx", 16); });
     EXPECT_EQ(error.rfind("m.tmx", 0), 0u) << text << ": " << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+}
+
+TEST(Import, RubeLinesThatMoveAreSolidFromBothSides) {
+  Imported world = ReadRube(R"({"gravity": {"x": 0, "y": -10}, "body": [
+ {"name": "edge", "type": 2, "position": {"x": 0, "y": 3}, "fixture": [
+   {"density": 1, "edge": {"vertex1": {"x": -1, "y": 0}, "vertex2": {"x": 1, "y": 0}}}]},
+ {"name": "still", "type": 0, "fixture": [
+   {"edge": {"vertex1": {"x": -9, "y": 0}, "vertex2": {"x": 9, "y": 0}}}]}]})",
+                            "r.json");
+  const Scene scene = ParseScene(SceneText(&world, "r.json"), "r.toml");
+  EXPECT_EQ(Named(scene, "edge").kind, ShapeKind::kSegment);
+  EXPECT_FALSE(Named(scene, "edge").anchored);
+  EXPECT_EQ(Named(scene, "still").kind, ShapeKind::kChain);
+}
+
+TEST(Import, AWheelWithoutASpringIsFreeAlongItsAxis) {
+  const std::string bodies = R"({"gravity": {"x": 0, "y": -10}, "body": [
+ {"name": "hub", "type": 0, "position": {"x": 0, "y": 9}, "fixture": [
+   {"polygon": {"vertices": {"x": [-1, 1, 1, -1], "y": [1, 1, 2, 2]}}}]},
+ {"name": "wheel", "type": 2, "position": {"x": 0, "y": 9}, "massData-mass": 3.14159,
+  "massData-center": {"x": 0.4, "y": 0}, "fixture": [
+   {"density": 1, "circle": {"center": 0, "radius": 1}}]}],
+"joint": [{"type": "wheel", "name": "j", "bodyA": 0, "bodyB": 1, "anchorA": 0, "anchorB": 0,
+  "localAxisA": {"x": 0, "y": 1}, "springFrequency": FREQUENCY}]})";
+  for (const char* frequency : {"0", "4"}) {
+    std::string text = bodies;
+    text.replace(text.find("FREQUENCY"), 9, frequency);
+    Imported imported = ReadRube(text, "r.json");
+    const Scene scene = ParseScene(SceneText(&imported, "r.json"), "r.toml");
+    World world(scene);
+    for (int tick = 0; tick < 30; ++tick) world.Step();
+    const double fallen = 9 - static_cast<double>(world.Read(0).position.y());
+    const bool free = std::string(frequency) == "0";
+    EXPECT_NEAR(fallen, free ? 1.25 : 0.03, free ? 0.1 : 0.03) << frequency;
+    const auto listed =
+        std::find_if(imported.dropped.begin(), imported.dropped.end(), [](const std::string& line) {
+          return line.find("a centre of mass at [0.4, 0] set by hand") != std::string::npos;
+        });
+    EXPECT_NE(listed, imported.dropped.end());
   }
 }
 

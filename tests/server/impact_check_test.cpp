@@ -140,5 +140,49 @@ TEST_F(ApartTest, AStandingBodyDoesNotStrikeTheGround) {
   EXPECT_FALSE(Can(1, -1, 12, {3, -0.5f}));
 }
 
+/// A hammer turns about a post beside two boxes, 10 m/s at its tip.
+TEST(ImpactCheckBesideAPath, AMoverExplainsWhatItPushesAndNothingFarAway) {
+  World world(ParseScene(R"(
+gravity = [0, 0]
+[[part]]
+name = "hammer"
+box = [4, 0.4]
+anchored = true
+[[joint]]
+name = "turn"
+kind = "kinematic"
+b = "hammer"
+turning = 5
+[[part]]
+name = "near"
+box = [1, 1]
+position = [2.6, 0]
+[[part]]
+name = "beside"
+box = [1, 1]
+position = [3.6, 0]
+[[part]]
+name = "wall"
+box = [1, 4]
+position = [60, 0]
+anchored = true
+[[part]]
+name = "far"
+box = [1, 1]
+position = [59, 0]
+)",
+                         "test.toml"));
+  const BodyTable bodies(3, 0);
+  StateTrail trail(bodies);
+  for (std::int64_t tick = 0; tick <= 20; tick += 2) {
+    for (int body = 0; body < 3; ++body) trail.Add(body, tick, world.Read(body));
+  }
+  ImpactCheck check(world, trail, 10);
+  EXPECT_TRUE(check.Possible({1, 0, 18, {3.1f, 0}})) << "the hammer drives one into the other";
+  EXPECT_TRUE(check.Possible({0, -1, 18, {2.1f, 0}})) << "and strikes itself";
+  EXPECT_FALSE(check.Possible({0, -1, 90, {2.1f, 0}})) << "but not as fast as anyone likes";
+  EXPECT_FALSE(check.Possible({2, -1, 9, {59.5f, 0}})) << "nothing moves there";
+}
+
 }  // namespace impact_check_test
 }  // namespace seam

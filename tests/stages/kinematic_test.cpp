@@ -8,6 +8,7 @@
 
 #include "common/measure/joint_drift.h"
 #include "common/measure/overlap.h"
+#include "common/physics/part_places.h"
 #include "tests/support/small_world.h"
 
 namespace seam {
@@ -153,6 +154,58 @@ TEST(Kinematic, NobodyOwnsIt) {
   EXPECT_EQ(composition.assemblies[0].mechanism, -1);
   World world(scene);
   EXPECT_EQ(world.body_count(), 2);
+}
+
+TEST(Kinematic, IsReadWhereItIs) {
+  const auto world = SmallWorld(Platform("path = [[0, 0], [0, 4]]\nperiod = 8"));
+  Steps(world.get(), 60);
+  BodyState state;
+  ASSERT_TRUE(ReadPart(*world, 0, &state));
+  EXPECT_NEAR(state.position.y(), 3, 1e-4);
+  EXPECT_NEAR(state.velocity.y(), 1, 1e-4);
+}
+
+TEST(Kinematic, IsPutBackAtOnceWithoutItsJoint) {
+  const auto world = SmallWorld(Platform("path = [[0, 0], [0, 4]]\nperiod = 8"));
+  Steps(world.get(), 60);
+  EXPECT_TRUE(world->Apply({Edit(BreakEdit{0}, EditCause::kOutside)}).has_value());
+  for (const int ticks : {0, 1, 60}) {
+    Steps(world.get(), ticks);
+    const BodyState state = world->ReadAssembly(0);
+    EXPECT_EQ(state.position, Vec2(1, 2)) << ticks;
+    EXPECT_EQ(state.velocity, Vec2(0, 0)) << ticks;
+  }
+}
+
+TEST(Kinematic, GlueOnItBreaksAsOnWhatStandsStill) {
+  const std::string rest = R"([[part]]
+name = "shelf"
+box = [1, 1]
+position = [2, 2.75]
+[[part]]
+name = "ball"
+circle = 0.4
+position = [2, 5]
+velocity = [0, -10]
+density = 6
+[[joint]]
+name = "glue"
+kind = "glue"
+a = "platform"
+b = "shelf"
+strength = 150
+)";
+  for (const double strength : {150.0, 150000.0}) {
+    std::string text = rest;
+    text.replace(text.find("150"), 3, FloatDigits(strength));
+    const auto world = SmallWorld(Platform("path = [[0, 0], [0, 2]]\nperiod = 500", text));
+    int broken = 0;
+    for (int tick = 0; tick < 60; ++tick) {
+      world->Step();
+      for (const Edit& edit : world->ProposeEdits()) broken += edit.As<BreakEdit>() != nullptr;
+    }
+    EXPECT_EQ(broken > 0, strength < 1000) << strength;
+  }
 }
 
 }  // namespace kinematic_test

@@ -77,6 +77,10 @@ class GlueStage : public Stage {
   b2Body* BodyOf(const Glued& glued) const {
     return w_.built.bodies[static_cast<std::size_t>(glued.assembly)];
   }
+  /// True also for what a kinematic joint moves: its own acceleration strains nothing.
+  bool IsAnchored(const Glued& glued) const {
+    return w_.composition.assemblies[static_cast<std::size_t>(glued.assembly)].anchored;
+  }
   Glued* GluedWith(PartId part);
   void AddJoints(Glued* glued);
   void Strain(Glued* glued);
@@ -228,7 +232,7 @@ void GlueStage::AddJoints(Glued* glued) {
 
 void GlueStage::Strain(Glued* glued) {
   b2Body* body = BodyOf(*glued);
-  const bool anchored = body->GetType() == b2_staticBody;
+  const bool anchored = IsAnchored(*glued);
   const double hz = w_.scene.solver.tick_hz;
   const double spin = static_cast<double>(body->GetAngularVelocity());
   const double turning = anchored ? 0 : (spin - glued->spin) * hz;
@@ -269,8 +273,8 @@ void GlueStage::AfterTick() {
   for (Glued& glued : glued_) {
     const b2Body* body = BodyOf(glued);
     const bool moves = body->GetType() == b2_dynamicBody;
-    if (IsAside(*body) || body->GetType() == b2_kinematicBody || (moves && !body->IsAwake()))
-      continue;
+    const bool displayed = body->GetType() == b2_kinematicBody && !IsAnchored(glued);
+    if (IsAside(*body) || displayed || (moves && !body->IsAwake())) continue;
     AddJoints(&glued);
     Strain(&glued);
   }

@@ -12,14 +12,18 @@ namespace {
 /// or rad.
 constexpr float kOutside = 0.011f;
 
-/// What the limits bound, at the start: an angle or shift of 0, or a length.
+/// What the limits bound, at the start: an angle, a length, or how far the ends of a slide are
+/// apart along it.
 float Begins(const Joint& joint) {
-  return joint.kind == JointKind::kDistance ? (joint.anchor_b - joint.anchor_a).norm() : 0;
+  const Vec2 apart = joint.anchor_b - joint.anchor_a;
+  if (joint.kind == JointKind::kDistance) return apart.norm();
+  const bool slides = joint.kind == JointKind::kPrismatic || joint.kind == JointKind::kWheel;
+  return slides ? apart.dot(joint.axis) : joint.turn;
 }
 
 /// Whether a slide of so much would carry its part out of the scene.
 bool LeavesBounds(const Scene& scene, const Joint& joint, float along) {
-  const Vec2 at = joint.anchor_b + along * joint.axis;
+  const Vec2 at = joint.anchor_a + along * joint.axis;
   return (scene.bounds_min - at).maxCoeff() > 0 || (at - scene.bounds_max).maxCoeff() > 0;
 }
 

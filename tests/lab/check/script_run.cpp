@@ -123,7 +123,7 @@ class DryRoom {
     for (const Trigger& trigger : scene_.triggers) {
       const std::size_t parts = trigger.once ? 1 : kPartsMost;
       for (std::size_t i = 0; i < std::min(parts, trigger.parts.size()); ++i) {
-        const std::string& part = NameOf(trigger.parts[i]);
+        const std::string part = NameOf(trigger.parts[i]);  // scripts may make parts
         for (const bool entered : {true, false}) {
           Call("on_trigger('" + trigger.name + "', '" + part + (entered ? "', true)" : "', false)"),
                [&](Script& s) { s.OnTrigger(trigger.name, part, entered); });
