@@ -108,9 +108,9 @@ const BodyState* Replica::SettledPast(int body, std::int64_t tick) const {
 
 const BodyState* Replica::ComparablePast(int body, std::int64_t tick, int revision) const {
   const BodyTrack& track = memory_.track(body);
-  if (track.heard_tick <= track.dynamic_since || EditHidesPast(body, tick, revision)) {
-    return nullptr;
-  }
+  // What was simulated from the room's start on began with the scene's own state.
+  const bool guess = track.dynamic_since > 0 && track.heard_tick <= track.dynamic_since;
+  if (guess || EditHidesPast(body, tick, revision)) return nullptr;
   return SettledPast(body, tick);
 }
 
@@ -120,7 +120,8 @@ bool Replica::FollowsTold() const {
 }
 
 bool Replica::EditHidesPast(int body, std::int64_t tick, int revision) const {
-  return memory_.track(body).heard_tick <= replay_.missed() || replay_.LacksEdit(revision, tick);
+  const bool old = replay_.missed() >= 0 && memory_.track(body).heard_tick <= replay_.missed();
+  return old || replay_.LacksEdit(revision, tick);
 }
 
 std::optional<std::uint64_t> Replica::PastHash(std::int64_t tick) const {
