@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/physics/part_places.h"
+
 namespace seam {
 namespace {
 
@@ -24,15 +26,29 @@ constexpr double kStillFor = 1, kSlowFor = 2.5, kSlowForAnybody = 4;
 /// than the round trip of a slow path.
 constexpr double kBackAfterRoundTrip = 0.75;
 
-/// By mechanism: true if a player whose axes move it, or who owns it, gives any input in this tick.
-/// `inputs`: by player.
+/// By mechanism: true if a player whose axes move it or a belt under it, or who owns it, gives any
+/// input in this tick. `inputs`: by player.
 std::vector<bool> DrivenIn(const World& world, const Drivers& drivers,
                            const std::vector<InputTrack>& inputs, std::int64_t tick) {
   std::vector<bool> driven(world.composition().mechanisms.size(), false);
+  std::vector<PartId> belts;
   for (std::size_t p = 0; p < inputs.size(); ++p) {
     if (inputs[p].At(tick) == Input{}) continue;
     for (const int m : drivers.MovedBy(static_cast<int>(p)))
       driven[static_cast<std::size_t>(m)] = true;
+    const std::vector<PartId>& of_player = drivers.BeltsOf(static_cast<int>(p));
+    belts.insert(belts.end(), of_player.begin(), of_player.end());
+  }
+  if (belts.empty()) return driven;
+  const auto drives = [&](PartId belt, PartId on_it) {
+    const int m = MechanismOf(world, on_it);
+    if (m >= 0 && std::find(belts.begin(), belts.end(), belt) != belts.end()) {
+      driven[static_cast<std::size_t>(m)] = true;
+    }
+  };
+  for (const PartTouch& touch : world.PartTouches()) {
+    drives(touch.a, touch.b);
+    drives(touch.b, touch.a);
   }
   return driven;
 }
