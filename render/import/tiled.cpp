@@ -31,6 +31,7 @@ class TiledReader {
     const XMLElement* map = document.FirstChildElement("map");
     if (map == nullptr) throw OperatorError(file_ + ": has no <map>: is this a Tiled map?");
     height_ = Number(*map, "height", 0) * Number(*map, "tileheight", 0);
+    NoteDropped(*map);
     ReadLayers(*map, {0, 0}, 0);
     if (world_.bodies.empty()) throw OperatorError(file_ + ": has no objects");
     return std::move(world_);
@@ -50,6 +51,26 @@ class TiledReader {
       Fail(element, std::string(key) + " is no number");
     }
     return value;
+  }
+
+  /// Lists what places objects otherwise than they are placed here.
+  void NoteDropped(const XMLElement& map) {
+    const auto text = [](const XMLElement& element, const char* key) {
+      const char* value = element.Attribute(key);
+      return std::string(value != nullptr ? value : "");
+    };
+    const std::string orientation = text(map, "orientation");
+    if (!orientation.empty() && orientation != "orthogonal") {
+      world_.dropped.push_back("map: is " + orientation +
+                               "; objects stand as on an orthogonal one");
+    }
+    for (const XMLElement* e = map.FirstChildElement("tileset"); e != nullptr;
+         e = e->NextSiblingElement("tileset")) {
+      const std::string alignment = text(*e, "objectalignment");
+      if (alignment.empty() || alignment == "unspecified" || alignment == "bottomleft") continue;
+      world_.dropped.push_back("tileset '" + text(*e, "name") + "': objects aligned " + alignment +
+                               "; here by their lower left corner");
+    }
   }
 
   void ReadLayers(const XMLElement& parent, const Vector2d& shift, int depth) {

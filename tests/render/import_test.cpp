@@ -173,6 +173,19 @@ TEST(Import, TiledObjectsStandWhereTheMapShowsThem) {
   EXPECT_EQ(world.dropped.size(), 2u) << "the layer of tiles and the point";
 }
 
+TEST(Import, TiledMapsThatPlaceObjectsOtherwiseAreListed) {
+  std::string text = kTiled;
+  const std::size_t at = text.find("<map ");
+  text.insert(at + 5, "orientation=\"isometric\" ");
+  text.insert(text.find('>', at) + 1, "<tileset name=\"t\" objectalignment=\"center\"/>");
+  const Imported world = ReadTiled(text, "m.tmx", 16);
+  const auto listed = [&](const std::string& line) {
+    return std::count(world.dropped.begin(), world.dropped.end(), line) == 1;
+  };
+  EXPECT_TRUE(listed("map: is isometric; objects stand as on an orthogonal one"));
+  EXPECT_TRUE(listed("tileset 't': objects aligned center; here by their lower left corner"));
+}
+
 TEST(Import, TiledMistakesAreOneLine) {
   for (const char* text :
        {"<map", "<html/>", "<map/>", "<map><objectgroup><object x=\"a\"/></objectgroup></map>"}) {
