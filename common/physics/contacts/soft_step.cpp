@@ -35,6 +35,7 @@ SoftStep::SoftStep(const Solver& solver, b2World* world, const BuiltScene& built
   sets_ = DisjointSets(all_.size());
   islands_.resize(all_.size());
   index_.resize(all_.size());
+  FindReaches();
 }
 
 int SoftStep::PlaceOf(b2Body* body) const {
@@ -82,7 +83,7 @@ bool SoftStep::FindOurs() {
   for (std::size_t i = 0; i < all_.size(); ++i) {
     b2Body* const body = all_[i];
     index_[i] = -1;
-    if (!body->IsEnabled()) continue;
+    if (!body->IsEnabled() || !Moves(body)) continue;
     const Island& island = IslandOf(static_cast<int>(i));
     if (!island.awake) continue;
     left = left || island.jointed;

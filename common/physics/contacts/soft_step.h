@@ -25,6 +25,11 @@ class SoftStep {
   bool Solve(float h);
   void Show();
 
+  /// Called before continuous collision, between Show and Widen: leaves only those contacts in the
+  /// engine's list that need it. Returns false if there are none.
+  bool Narrow();
+  /// Restores the list; new contacts come first.
+  void Widen();
   /// Called before continuous collision solves an impact of the body: takes back the fall of the
   /// rest of the step, so that a body in flight strikes as fast as it is there.
   void AtImpact(b2Body* body);
@@ -42,6 +47,10 @@ class SoftStep {
     int a = -1, b = -1;
   };
 
+  struct Link {  // a contact that stays in the engine's list, and its neighbours there before
+    b2Contact *made, *before, *after;
+  };
+
   Island& IslandOf(int body) { return islands_[static_cast<std::size_t>(sets_.Find(body))]; }
   int PlaceOf(b2Body* body) const;
   void FindIslands();
@@ -51,6 +60,8 @@ class SoftStep {
   void LoadContacts();
   void Save(float h);
   void Report();
+  void FindReaches();
+  bool MayPass(std::size_t i, const b2ContactEdge& edge) const;
 
   const int substeps_, sweeps_;
   b2World* world_;
@@ -68,6 +79,9 @@ class SoftStep {
   float step_s_ = 0;            // of the last Solve
   std::vector<char> touched_;   // by index in soft_.bodies: pushed by a contact
   std::vector<float> untaken_;  // likewise: s of fall that AtImpact has taken back
+  std::vector<float> reach_;    // by index into all_: m, from the centre to the farthest point
+  std::vector<Link> narrowed_;
+  b2Contact* first_contact_ = nullptr;  // in the engine's list, before Narrow
 };
 
 }  // namespace seam

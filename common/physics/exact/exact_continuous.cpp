@@ -77,9 +77,11 @@ void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
   Quiet quiet(listener, this);
   for (Slot& slot : slots_) slot.struck = false;
+  if (soft_ && !soft_->Narrow()) return;
   world_->SetContactListener(&quiet);
   (world_->*Member(EngineSolveToi()))(step);
   world_->SetContactListener(listener);
+  if (soft_) soft_->Widen();
   quiet.End();
   if (soft_) soft_->Fall();
   RejoinMoved(step.dt, pace);

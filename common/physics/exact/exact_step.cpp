@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/base/trig.h"
+#include "common/physics/contacts/engine_parts.h"
 #include "common/physics/engine_members.h"
 #include "common/scene/character.h"
 
@@ -52,8 +53,8 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
     joints_.back().slot_b = SlotOf(made->GetBodyB());
   }
   for (const int assembly : memory.anchored) {
-    const b2Body* const body = built.bodies[static_cast<std::size_t>(assembly)];
-    paths_ = paths_ || body->GetType() == b2_kinematicBody;
+    b2Body* const body = built.bodies[static_cast<std::size_t>(assembly)];
+    if (body->GetType() == b2_kinematicBody) paths_.push_back(body);
   }
   FindMechanisms();
   if (solver_.contacts == ContactSolving::kSoft) {
@@ -261,6 +262,13 @@ bool ExactStep::Told(const Slot& s) {
          v.x == s.engine_vx && v.y == s.engine_vy && s.body->GetAngularVelocity() == s.engine_w;
 }
 
+void ExactStep::MoveKinematics(float h) {
+  for (b2Body* const body : paths_) MoveKinematic(world_, body, h);
+  for (const Slot& slot : slots_) {
+    if (slot.body->GetType() == b2_kinematicBody) MoveKinematic(world_, slot.body, h);
+  }
+}
+
 /// False if the island was too expensive; then nothing has changed.
 bool ExactStep::Solve(const Pace& pace, bool warm, Found* found) {
   Load(found);
@@ -325,8 +333,11 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   }
   if (blows_) blows_->Act(world_, h);
   const bool left = soft_ ? soft_->Solve(h) : moving < slots_.size();
-  if (left || paths_) {
+  if (left || (!soft_ && !paths_.empty())) {
     (world_->*Member(EngineSolve()))(step);
+  } else if (soft_) {
+    MoveKinematics(h);
+    FindNewPairs(world_);
   } else {
     contacts.FindNewContacts();
   }

@@ -93,6 +93,7 @@ class ExactStep {
   void Save(Found* found, float h);
   void SavePoses(const Found& found);
   void Prepare(float h, Found* found);
+  void MoveKinematics(float h);
   bool Solve(const Pace& pace, bool warm, Found* found);
   void LeaveToEngine(float h, const Found& found);
   class Quiet;
@@ -121,7 +122,7 @@ class ExactStep {
   std::vector<std::vector<int>> near_;
   std::vector<char> seen_;
   std::vector<int> order_;
-  bool paths_ = false;  // something anchored moves along a path
+  std::vector<b2Body*> paths_;  // anchored bodies that move along a path
 };
 
 }  // namespace seam
