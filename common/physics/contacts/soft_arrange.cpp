@@ -47,14 +47,15 @@ void SoftContacts::Put(const SoftContact& contact, int lane, Block* block) const
   for (int i = 0; i < contact.count; ++i) {
     const SoftContact::Point& from = contact.point[i];
     Points& to = block->point[i];
-    to.ax[lane] = from.ax;
-    to.ay[lane] = from.ay;
-    to.bx[lane] = from.bx;
-    to.by[lane] = from.by;
-    to.turn_ax[lane] = from.turn_ax;
-    to.turn_ay[lane] = from.turn_ay;
-    to.turn_bx[lane] = from.turn_bx;
-    to.turn_by[lane] = from.turn_by;
+    const float nx = contact.nx, ny = contact.ny;
+    to.lever_an[lane] = from.ax * ny - from.ay * nx;
+    to.lever_bn[lane] = from.bx * ny - from.by * nx;
+    to.lever_at[lane] = -from.ax * nx - from.ay * ny;
+    to.lever_bt[lane] = -from.bx * nx - from.by * ny;
+    to.turn_an[lane] = from.turn_ax * nx + from.turn_ay * ny;
+    to.turn_ac[lane] = from.turn_ax * ny - from.turn_ay * nx;
+    to.turn_bn[lane] = from.turn_bx * nx + from.turn_by * ny;
+    to.turn_bc[lane] = from.turn_bx * ny - from.turn_by * nx;
     to.apart[lane] = from.apart;
     to.mass_n[lane] = from.mass_n;
     to.mass_t[lane] = from.mass_t;

@@ -34,37 +34,48 @@ Four More(Four a, Four b) { return a > b ? a : b; }
 
 }  // namespace
 
-/// The bodies of a block's contacts.
+/// Velocities of the bodies of a block's contacts, and of B's relative to A's along the normal and
+/// the surface.
 struct SoftContacts::Ends {
-  Four avx, avy, aw, adx, bvx, bvy, bw, bdx;
+  Table a, b;  // vx, vy, w, dx
+  Four aw, bw, along_n, along_t;
+  Four push = All(0), rub = All(0);  // N s, given so far
 
-  Four SpeedAlong(const Points& p, Four x, Four y) const {
-    return (bvx - bw * p.by - avx + aw * p.ay) * x + (bvy + bw * p.bx - avy - aw * p.ax) * y;
+  Ends(const std::vector<SoftBody>& bodies, const Block& block) {
+    for (int i = 0; i < kBlockLanes; ++i) {
+      std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block.a[i])].vx, sizeof(Four));
+      std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block.b[i])].vx, sizeof(Four));
+    }
+    a = a.Turned();
+    b = b.Turned();
+    aw = a.row[2];
+    bw = b.row[2];
+    const Four x = b.row[0] - a.row[0], y = b.row[1] - a.row[1];
+    along_n = x * block.nx + y * block.ny;
+    along_t = x * block.ny - y * block.nx;
   }
-  void Apply(const Block& block, const Points& p, Four x, Four y) {
-    avx -= block.im_a * x;
-    avy -= block.im_a * y;
-    aw -= block.ii_a * (p.ax * y - p.ay * x);
-    bvx += block.im_b * x;
-    bvy += block.im_b * y;
-    bw += block.ii_b * (p.bx * y - p.by * x);
+  Four SpeedN(const Points& p) const { return along_n + (bw * p.lever_bn - aw * p.lever_an); }
+  Four SpeedT(const Points& p) const { return along_t + (bw * p.lever_bt - aw * p.lever_at); }
+  void Push(const Block& block, const Points& p, Four more) {
+    push += more;
+    along_n += (block.im_a + block.im_b) * more;
+    aw -= block.ii_a * more * p.lever_an;
+    bw += block.ii_b * more * p.lever_bn;
+  }
+  void Rub(const Block& block, const Points& p, Four more) {
+    rub += more;
+    along_t += (block.im_a + block.im_b) * more;
+    aw -= block.ii_a * more * p.lever_at;
+    bw += block.ii_b * more * p.lever_bt;
   }
 };
 
-inline SoftContacts::Ends SoftContacts::Gather(const Block& block) const {
-  Table a, b;
-  for (int i = 0; i < kBlockLanes; ++i) {
-    std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block.a[i])].vx, sizeof(Four));
-    std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block.b[i])].vx, sizeof(Four));
-  }
-  a = a.Turned();
-  b = b.Turned();
-  return {a.row[0], a.row[1], a.row[2], a.row[3], b.row[0], b.row[1], b.row[2], b.row[3]};
-}
-
 inline void SoftContacts::Scatter(const Block& block, const Ends& e) {
-  const Table a = Table{{e.avx, e.avy, e.aw, e.adx}}.Turned();
-  const Table b = Table{{e.bvx, e.bvy, e.bw, e.bdx}}.Turned();
+  const Four x = e.push * block.nx + e.rub * block.ny, y = e.push * block.ny - e.rub * block.nx;
+  const Table a =
+      Table{{e.a.row[0] - block.im_a * x, e.a.row[1] - block.im_a * y, e.aw, e.a.row[3]}}.Turned();
+  const Table b =
+      Table{{e.b.row[0] + block.im_b * x, e.b.row[1] + block.im_b * y, e.bw, e.b.row[3]}}.Turned();
   for (int i = 0; i < kBlockLanes; ++i) {
     std::memcpy(&bodies[static_cast<std::size_t>(block.a[i])].vx, &a.row[i], sizeof(Four));
     std::memcpy(&bodies[static_cast<std::size_t>(block.b[i])].vx, &b.row[i], sizeof(Four));
@@ -84,13 +95,13 @@ void SoftContacts::Kick(float h) {
 void SoftContacts::WarmStart(float share) {
   const Four scale = All(share);
   for (Block& block : blocks_) {
-    Ends e = Gather(block);
+    Ends e(bodies, block);
     for (int i = 0; i < block.count; ++i) {
       Points& p = block.point[i];
       p.pushed *= scale;
       p.rubbed *= scale;
-      e.Apply(block, p, p.pushed * block.nx + p.rubbed * block.ny,
-              p.pushed * block.ny - p.rubbed * block.nx);
+      e.Push(block, p, p.pushed);
+      e.Rub(block, p, p.rubbed);
     }
     Scatter(block, e);
   }
@@ -101,16 +112,51 @@ void SoftContacts::Watch() {
   const Four none = All(0);
   for (Block& block : blocks_) {
     if (!block.returns) continue;
-    const Ends e = Gather(block);
+    const Ends e(bodies, block);
     for (int i = 0; i < block.count; ++i) {
       Points& p = block.point[i];
-      p.closing = p.sum_n <= none ? e.SpeedAlong(p, block.nx, block.ny) : p.closing;
+      p.closing = p.sum_n <= none ? e.SpeedN(p) : p.closing;
     }
   }
 }
 
-void SoftContacts::Push(float h, bool biased, Block* block) {
-  const Four none = All(0), rate = All(1 / h), most_out = All(-kOutMost);
+/// Sets the response of points at these separations: a free one may come by its separation.
+inline void SoftContacts::Bias(Four apart, float rate, const Block& block, Points* p) {
+  const Four none = All(0), one = All(1);
+  p->bias = apart > none ? apart * All(rate) : More(block.bias_rate * apart, All(-kOutMost));
+  p->soft_mass = apart > none ? p->mass_n : p->mass_n * block.mass_scale;
+  p->lasting = apart > none ? one : one - block.impulse_scale;
+}
+
+inline void SoftContacts::Rub(Block* block, Ends* e) {
+  for (int i = 0; i < block->count; ++i) {
+    Points& p = block->point[i];
+    const Four most = block->friction * p.pushed;
+    const Four to = More(-most, Less(p.rubbed - p.mass_t * (e->SpeedT(p) - block->belt), most));
+    const Four more = to - p.rubbed;
+    p.rubbed = to;
+    e->Rub(*block, p, more);
+  }
+}
+
+/// Solves a block's contacts once, and pushes out what overlaps. Friction comes after the normal
+/// impulse, which bounds it: else it lags behind a growing load.
+void SoftContacts::Push(Block* block) {
+  Ends e(bodies, *block);
+  for (int i = 0; i < block->count; ++i) {
+    Points& p = block->point[i];
+    const Four to = More(p.lasting * p.pushed - p.soft_mass * (e.SpeedN(p) + p.bias), All(0));
+    const Four more = to - p.pushed;
+    p.pushed = to;
+    e.Push(*block, p, more);
+  }
+  Rub(block, &e);
+  Scatter(*block, e);
+}
+
+/// Solves a block's contacts once, without pushing out, and sets the next substep's bias.
+void SoftContacts::Relax(float rate, Block* block) {
+  const Four none = All(0);
   Table a, b;
   for (int i = 0; i < kBlockLanes; ++i) {
     std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block->a[i])].dy, sizeof(Four));
@@ -118,52 +164,31 @@ void SoftContacts::Push(float h, bool biased, Block* block) {
   }
   a = a.Turned();
   b = b.Turned();
-  Ends e = Gather(*block);
-  const Four dx = e.bdx - e.adx, dy = b.row[0] - a.row[0];
+  Ends e(bodies, *block);
   const Four ac = a.row[1], as = a.row[2], bc = b.row[1], bs = b.row[2];
-  const Four nx = block->nx, ny = block->ny;
+  const Four nearer = (e.b.row[3] - e.a.row[3]) * block->nx + (b.row[0] - a.row[0]) * block->ny;
   for (int i = 0; i < block->count; ++i) {
     Points& p = block->point[i];
-    const Four x = dx + (bc * p.turn_bx - bs * p.turn_by) - (ac * p.turn_ax - as * p.turn_ay);
-    const Four y = dy + (bs * p.turn_bx + bc * p.turn_by) - (as * p.turn_ax + ac * p.turn_ay);
-    const Four apart = p.apart + x * nx + y * ny;
-    const Four speed = e.SpeedAlong(p, nx, ny);
-    Four to;
-    if (biased) {
-      const Four ahead = p.pushed - p.mass_n * (speed + apart * rate);
-      const Four out = More(block->bias_rate * apart, most_out);
-      const Four soft =
-          p.pushed - p.mass_n * block->mass_scale * (speed + out) - block->impulse_scale * p.pushed;
-      to = apart > none ? ahead : soft;
-    } else {
-      to = p.pushed - p.mass_n * (speed + More(apart, none) * rate);
-    }
-    to = More(to, none);
+    const Four apart =
+        p.apart + nearer + ((bc * p.turn_bn + bs * p.turn_bc) - (ac * p.turn_an + as * p.turn_ac));
+    Bias(apart, rate, *block, &p);
+    const Four to = More(p.pushed - p.mass_n * (e.SpeedN(p) + More(apart, none) * All(rate)), none);
     const Four more = to - p.pushed;
     p.pushed = to;
-    e.Apply(*block, p, more * nx, more * ny);
+    e.Push(*block, p, more);
   }
-  // After the normal impulse, which bounds it: else friction lags behind a growing load.
-  for (int i = 0; i < block->count; ++i) {
-    Points& p = block->point[i];
-    const Four most = block->friction * p.pushed;
-    const Four speed = e.SpeedAlong(p, ny, -nx) - block->belt;
-    const Four to = More(-most, Less(p.rubbed - p.mass_t * speed, most));
-    const Four more = to - p.rubbed;
-    p.rubbed = to;
-    e.Apply(*block, p, more * ny, -more * nx);
-  }
+  Rub(block, &e);
   Scatter(*block, e);
 }
 
 /// Solves each contact once. With bias from the last to the first, so that both ends of a pile are
 /// heard in a substep.
-void SoftContacts::PushAll(float h, bool biased, std::size_t from) {
-  if (biased) {
-    for (std::size_t i = blocks_.size(); i-- > from;) Push(h, true, &blocks_[i]);
-  } else {
-    for (std::size_t i = from; i < blocks_.size(); ++i) Push(h, false, &blocks_[i]);
-  }
+void SoftContacts::PushAll(std::size_t from) {
+  for (std::size_t i = blocks_.size(); i-- > from;) Push(&blocks_[i]);
+}
+
+void SoftContacts::RelaxAll(float rate, std::size_t from) {
+  for (std::size_t i = from; i < blocks_.size(); ++i) Relax(rate, &blocks_[i]);
 }
 
 void SoftContacts::Drift(float h) {
@@ -208,17 +233,16 @@ void SoftContacts::Restore() {
   const Four none = All(0);
   for (Block& block : blocks_) {
     if (!block.returns) continue;
-    Ends e = Gather(block);
+    Ends e(bodies, block);
     for (int i = 0; i < block.count; ++i) {
       Points& p = block.point[i];
-      const Four speed = e.SpeedAlong(p, block.nx, block.ny);
-      Four to = More(p.pushed - p.mass_n * (speed + block.restitution * p.closing), none);
+      Four to = More(p.pushed - p.mass_n * (e.SpeedN(p) + block.restitution * p.closing), none);
       to = p.closing > -block.threshold ? p.pushed : to;
       to = p.sum_n <= none || block.restitution <= none ? p.pushed : to;
       const Four more = to - p.pushed;
       p.pushed = to;
       p.sum_n += more;
-      e.Apply(block, p, more * block.nx, more * block.ny);
+      e.Push(block, p, more);
     }
     Scatter(block, e);
   }
@@ -232,16 +256,22 @@ void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
     q.from_vy = q.vy;
     q.from_w = q.w;
   }
+  for (Block& block : blocks_) {
+    for (int i = 0; i < block.count; ++i) {
+      Points& p = block.point[i];
+      Bias(p.apart + (p.turn_bn - p.turn_an), 1 / h, block, &p);
+    }
+  }
   for (int i = 0; i < substeps; ++i) {
     Kick(h / 2);
     Watch();
     Kick(h / 2);
     WarmStart(i > 0 ? 1 : warm ? 1 / parts : 0);
-    for (int sweep = 0; sweep < sweeps; ++sweep) PushAll(h, true, 0);
-    for (int sweep = 0; sweep < kMoreInSmall * sweeps; ++sweep) PushAll(h, true, small_from_);
+    for (int sweep = 0; sweep < sweeps; ++sweep) PushAll(0);
+    for (int sweep = 0; sweep < kMoreInSmall * sweeps; ++sweep) PushAll(small_from_);
     Drift(h);
-    PushAll(h, false, 0);
-    for (int sweep = 0; sweep < kMoreInSmall; ++sweep) PushAll(h, false, small_from_);
+    RelaxAll(1 / h, 0);
+    for (int sweep = 0; sweep < kMoreInSmall; ++sweep) RelaxAll(1 / h, small_from_);
     Sum();
   }
   Centre(h, parts * h);

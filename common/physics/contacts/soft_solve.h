@@ -31,31 +31,42 @@ class SoftContacts {
   void Step(float h, int substeps, int sweeps, bool warm);
 
  private:
-  struct Points {  // SoftContact::Point of four contacts
-    Four ax, ay, bx, by, turn_ax, turn_ay, turn_bx, turn_by, apart, mass_n, mass_t;
-    Four pushed, rubbed, sum_n, sum_t;  // pushed, rubbed: in this substep
-    Four closing;                       // m/s, before it was first pushed
+  /// SoftContact::Point of four contacts. An arm's first number is its part along the surface times
+  /// -1, the turning axis' lever of the normal impulse; the second that of friction.
+  struct Points {
+    Four lever_an, lever_bn, lever_at, lever_bt;
+    Four pushed, rubbed;            // N s, in this substep
+    Four bias, soft_mass, lasting;  // of the normal impulse with bias, at this substep's poses
+    Four mass_n, mass_t;
+    Four turn_an, turn_ac, turn_bn, turn_bc;  // m: turning arms along the normal, and turned by 90
+    Four apart;
+    Four sum_n, sum_t;
+    Four closing;  // m/s, before it was first pushed
   };
   struct Block {                         // four contacts without a moving body in common
     int a[kBlockLanes], b[kBlockLanes];  // indices into bodies
     int count;                           // of points, the most of the four
     bool returns;                        // one has restitution
-    Four nx, ny, friction, restitution, threshold, belt;
-    Four im_a, ii_a, im_b, ii_b, bias_rate, mass_scale, impulse_scale;
+    Four nx, ny, friction, belt;
+    Four im_a, ii_a, im_b, ii_b;
     Points point[b2_maxManifoldPoints];
+    Four restitution, threshold, bias_rate, mass_scale, impulse_scale;
   };
   struct Ends;
 
   void Arrange(float h);
   void Put(const SoftContact& contact, int lane, Block* block) const;
   void Take();
-  Ends Gather(const Block& block) const;
   void Scatter(const Block& block, const Ends& ends);
   void Kick(float h);
   void WarmStart(float share);
   void Watch();
-  void Push(float h, bool biased, Block* block);
-  void PushAll(float h, bool biased, std::size_t from);
+  static void Bias(Four apart, float rate, const Block& block, Points* p);
+  void Push(Block* block);
+  void Relax(float rate, Block* block);
+  static void Rub(Block* block, Ends* ends);
+  void PushAll(std::size_t from);
+  void RelaxAll(float rate, std::size_t from);
   void Drift(float h);
   void Centre(float h, float step_s);
   void Sum();
