@@ -1,65 +1,95 @@
-#include "common/physics/contacts/soft_contact.h"
+/// SoftContacts: reads contacts of the engine into lanes of blocks.
+
+#include <algorithm>
+
+#include "common/physics/contacts/soft_solve.h"
 
 namespace seam {
 namespace {
 
-/// Splits the arm from a body's centre to the point in a part that turns with the body, and a part
-/// that does not: from the centre of a circle to its rim.
-b2Vec2 TurningArm(const b2Fixture* fixture, const b2Body* body, const b2Vec2& arm) {
-  if (fixture->GetType() != b2Shape::e_circle) return arm;
-  const auto& circle = *static_cast<const b2CircleShape*>(fixture->GetShape());
-  return b2Mul(body->GetTransform(), circle.m_p) - body->GetWorldCenter();
-}
+/// Arm of a point, and the part of it that turns with the body: the surface of a circle does not.
+struct Arm {
+  b2Vec2 whole, turning;
+};
 
-float MassAlong(const SoftBody& a, const SoftBody& b, const SoftContact::Point& p, float x,
-                float y) {
-  const float aw = p.ax * y - p.ay * x, bw = p.bx * y - p.by * x;
-  const float k = a.im + b.im + a.ii * aw * aw + b.ii * bw * bw;
-  return k > 0 ? 1 / k : 0;
+Arm ArmOf(const b2Fixture* fixture, const b2Body* body, const b2Vec2& point) {
+  const b2Vec2 whole = point - body->GetWorldCenter();
+  if (fixture->GetType() != b2Shape::e_circle) return {whole, whole};
+  const auto& circle = *static_cast<const b2CircleShape*>(fixture->GetShape());
+  return {whole, b2Mul(body->GetTransform(), circle.m_p) - body->GetWorldCenter()};
 }
 
 }  // namespace
 
-void ReadSoftContact(const std::vector<SoftBody>& bodies, SoftContact* contact) {
-  b2Contact* const made = contact->made;
-  b2Fixture* const fixture_a = made->GetFixtureA();
-  b2Fixture* const fixture_b = made->GetFixtureB();
-  b2Body* const body_a = fixture_a->GetBody();
-  b2Body* const body_b = fixture_b->GetBody();
+void SoftContacts::Put(const SoftContact& contact) {
+  Block& block = blocks_[static_cast<std::size_t>(contact.lane / kLanes)];
+  const int lane = contact.lane % kLanes;
+  b2Contact* const made = contact.made;
+  const b2Fixture* const fixture_a = made->GetFixtureA();
+  const b2Fixture* const fixture_b = made->GetFixtureB();
+  const b2Body* const body_a = fixture_a->GetBody();
+  const b2Body* const body_b = fixture_b->GetBody();
   const b2Manifold& manifold = *made->GetManifold();
   b2WorldManifold world;
-  made->GetWorldManifold(&world);
-  contact->count = manifold.pointCount;
-  contact->nx = world.normal.x;
-  contact->ny = world.normal.y;
-  contact->friction = made->GetFriction();
-  contact->restitution = made->GetRestitution();
-  contact->threshold = made->GetRestitutionThreshold();
-  contact->belt = made->GetTangentSpeed();
-  const SoftBody& a = bodies[static_cast<std::size_t>(contact->a)];
-  const SoftBody& b = bodies[static_cast<std::size_t>(contact->b)];
-  for (int i = 0; i < contact->count; ++i) {
-    SoftContact::Point& p = contact->point[i];
-    p = {};
-    const b2Vec2 arm_a = world.points[i] - body_a->GetWorldCenter();
-    const b2Vec2 arm_b = world.points[i] - body_b->GetWorldCenter();
-    const b2Vec2 turn_a = TurningArm(fixture_a, body_a, arm_a);
-    const b2Vec2 turn_b = TurningArm(fixture_b, body_b, arm_b);
-    p.ax = arm_a.x;
-    p.ay = arm_a.y;
-    p.bx = arm_b.x;
-    p.by = arm_b.y;
-    p.turn_ax = turn_a.x;
-    p.turn_ay = turn_a.y;
-    p.turn_bx = turn_b.x;
-    p.turn_by = turn_b.y;
+  world.Initialize(&manifold, body_a->GetTransform(), fixture_a->GetShape()->m_radius,
+                   body_b->GetTransform(), fixture_b->GetShape()->m_radius);
+  const SoftBody& a = bodies[static_cast<std::size_t>(contact.a)];
+  const SoftBody& b = bodies[static_cast<std::size_t>(contact.b)];
+  const float restitution = made->GetRestitution();
+  const b2Vec2 normal = world.normal;
+  block.a[lane] = contact.a;
+  block.b[lane] = contact.b;
+  block.count = std::max(block.count, manifold.pointCount);
+  block.returns = block.returns || restitution > 0;
+  block.nx[lane] = normal.x;
+  block.ny[lane] = normal.y;
+  block.friction[lane] = made->GetFriction();
+  block.belt[lane] = made->GetTangentSpeed();
+  block.restitution[lane] = restitution;
+  block.threshold[lane] = made->GetRestitutionThreshold();
+  block.im_a[lane] = a.im;
+  block.ii_a[lane] = a.ii;
+  block.im_b[lane] = b.im;
+  block.ii_b[lane] = b.ii;
+  const Softness& soft = a.im > 0 && b.im > 0 ? soft_ : stiff_;
+  block.bias_rate[lane] = soft.bias_rate;
+  block.mass_scale[lane] = soft.mass_scale;
+  block.impulse_scale[lane] = soft.impulse_scale;
+  for (int i = 0; i < manifold.pointCount; ++i) {
+    Points& p = block.point[i];
+    const Arm arm_a = ArmOf(fixture_a, body_a, world.points[i]);
+    const Arm arm_b = ArmOf(fixture_b, body_b, world.points[i]);
+    p.lever_an[lane] = b2Cross(arm_a.whole, normal);
+    p.lever_bn[lane] = b2Cross(arm_b.whole, normal);
+    p.lever_at[lane] = -b2Dot(arm_a.whole, normal);
+    p.lever_bt[lane] = -b2Dot(arm_b.whole, normal);
+    p.turn_an[lane] = b2Dot(arm_a.turning, normal);
+    p.turn_ac[lane] = b2Cross(arm_a.turning, normal);
+    p.turn_bn[lane] = b2Dot(arm_b.turning, normal);
+    p.turn_bc[lane] = b2Cross(arm_b.turning, normal);
     // The rims rest as deep in each other as the engine lets them.
-    p.apart = world.separations[i] + b2_linearSlop - b2Dot(turn_b - turn_a, world.normal);
-    p.mass_n = MassAlong(a, b, p, contact->nx, contact->ny);
-    p.mass_t = MassAlong(a, b, p, contact->ny, -contact->nx);
-    p.pushed = manifold.points[i].normalImpulse;
-    p.rubbed = manifold.points[i].tangentImpulse;
+    p.apart[lane] = world.separations[i] + b2_linearSlop - (p.turn_bn[lane] - p.turn_an[lane]);
+    p.pushed[lane] = manifold.points[i].normalImpulse;
+    p.rubbed[lane] = manifold.points[i].tangentImpulse;
+    p.used[lane] = 1;
   }
+}
+
+float SoftContacts::Take(const SoftContact& contact, b2ContactImpulse* impulse) const {
+  const Block& block = blocks_[static_cast<std::size_t>(contact.lane / kLanes)];
+  const int lane = contact.lane % kLanes;
+  b2Manifold& manifold = *contact.made->GetManifold();
+  impulse->count = manifold.pointCount;
+  float sum = 0;
+  for (int i = 0; i < manifold.pointCount; ++i) {
+    const Points& p = block.point[i];
+    manifold.points[i].normalImpulse = p.pushed[lane];
+    manifold.points[i].tangentImpulse = p.rubbed[lane];
+    impulse->normalImpulses[i] = p.sum_n[lane];
+    impulse->tangentImpulses[i] = p.sum_t[lane];
+    sum += p.sum_n[lane];
+  }
+  return sum;
 }
 
 }  // namespace seam

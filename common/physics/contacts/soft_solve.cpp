@@ -15,70 +15,65 @@ constexpr int kMoreInSmall = 2;
 /// body's motion in a step is smooth.
 constexpr float kSmoothMost = 4;
 
-Four All(float x) { return Four{x, x, x, x}; }
-/// Exchanges rows and columns of four times four numbers.
-struct Table {
-  Four row[4];
-  Table Turned() const {
-    const Four a = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-    const Four b = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-    const Four c = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-    const Four d = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    return {{__builtin_shufflevector(a, b, 0, 1, 4, 5), __builtin_shufflevector(a, b, 2, 3, 6, 7),
-             __builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7)}};
-  }
-};
-
-Four Less(Four a, Four b) { return a < b ? a : b; }
-Four More(Four a, Four b) { return a > b ? a : b; }
-
 }  // namespace
 
 /// Velocities of the bodies of a block's contacts, and of B's relative to A's along the normal and
 /// the surface.
 struct SoftContacts::Ends {
-  Table a, b;  // vx, vy, w, dx
-  Four aw, bw, along_n, along_t;
-  Four push = All(0), rub = All(0);  // N s, given so far
+  WideRows a, b;  // vx, vy, w, dx
+  Wide along_n, along_t;
+  Wide push = All(0), rub = All(0);  // N s, given so far
 
-  Ends(const std::vector<SoftBody>& bodies, const Block& block) {
-    for (int i = 0; i < kBlockLanes; ++i) {
-      std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block.a[i])].vx, sizeof(Four));
-      std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block.b[i])].vx, sizeof(Four));
-    }
-    a = a.Turned();
-    b = b.Turned();
-    aw = a.row[2];
-    bw = b.row[2];
-    const Four x = b.row[0] - a.row[0], y = b.row[1] - a.row[1];
+  SEAM_WIDE Ends(const std::vector<SoftBody>& bodies, const Block& block)
+      : a(bodies, block.a, &SoftBody::vx), b(bodies, block.b, &SoftBody::vx) {
+    const Wide x = b.row[0] - a.row[0], y = b.row[1] - a.row[1];
     along_n = x * block.nx + y * block.ny;
     along_t = x * block.ny - y * block.nx;
   }
-  Four SpeedN(const Points& p) const { return along_n + (bw * p.lever_bn - aw * p.lever_an); }
-  Four SpeedT(const Points& p) const { return along_t + (bw * p.lever_bt - aw * p.lever_at); }
-  void Push(const Block& block, const Points& p, Four more) {
+  SEAM_WIDE Wide SpeedN(const Points& p) const {
+    return along_n + (b.row[2] * p.lever_bn - a.row[2] * p.lever_an);
+  }
+  SEAM_WIDE Wide SpeedT(const Points& p) const {
+    return along_t + (b.row[2] * p.lever_bt - a.row[2] * p.lever_at);
+  }
+  SEAM_WIDE void Push(const Block& block, const Points& p, const Wide& more) {
     push += more;
     along_n += (block.im_a + block.im_b) * more;
-    aw -= block.ii_a * more * p.lever_an;
-    bw += block.ii_b * more * p.lever_bn;
+    a.row[2] -= block.ii_a * more * p.lever_an;
+    b.row[2] += block.ii_b * more * p.lever_bn;
   }
-  void Rub(const Block& block, const Points& p, Four more) {
+  SEAM_WIDE void Rub(const Block& block, const Points& p, const Wide& more) {
     rub += more;
     along_t += (block.im_a + block.im_b) * more;
-    aw -= block.ii_a * more * p.lever_at;
-    bw += block.ii_b * more * p.lever_bt;
+    a.row[2] -= block.ii_a * more * p.lever_at;
+    b.row[2] += block.ii_b * more * p.lever_bt;
+  }
+  SEAM_WIDE void Write(const Block& block, std::vector<SoftBody>* bodies) {
+    const Wide x = push * block.nx + rub * block.ny, y = push * block.ny - rub * block.nx;
+    a.row[0] -= block.im_a * x;
+    a.row[1] -= block.im_a * y;
+    b.row[0] += block.im_b * x;
+    b.row[1] += block.im_b * y;
+    a.Write(block.a, &SoftBody::vx, bodies);
+    b.Write(block.b, &SoftBody::vx, bodies);
   }
 };
 
-inline void SoftContacts::Scatter(const Block& block, const Ends& e) {
-  const Four x = e.push * block.nx + e.rub * block.ny, y = e.push * block.ny - e.rub * block.nx;
-  const Table a =
-      Table{{e.a.row[0] - block.im_a * x, e.a.row[1] - block.im_a * y, e.aw, e.a.row[3]}}.Turned();
-  const Table b =
-      Table{{e.b.row[0] + block.im_b * x, e.b.row[1] + block.im_b * y, e.bw, e.b.row[3]}}.Turned();
-  for (int i = 0; i < kBlockLanes; ++i) {
-    std::memcpy(&bodies[static_cast<std::size_t>(block.a[i])].vx, &a.row[i], sizeof(Four));
-    std::memcpy(&bodies[static_cast<std::size_t>(block.b[i])].vx, &b.row[i], sizeof(Four));
+/// Computes the points' masses, and their first bias.
+SEAM_WIDE_CLONES void SoftContacts::Prepare(float rate) {
+  const Wide none = All(0);
+  for (Block& block : blocks_) {
+    for (int i = 0; i < block.count; ++i) {
+      Points& p = block.point[i];
+      const Wide mass = block.im_a + block.im_b;
+      const Wide n =
+          mass + block.ii_a * p.lever_an * p.lever_an + block.ii_b * p.lever_bn * p.lever_bn;
+      const Wide t =
+          mass + block.ii_a * p.lever_at * p.lever_at + block.ii_b * p.lever_bt * p.lever_bt;
+      p.mass_n = n > none ? p.used / n : none;
+      p.mass_t = t > none ? p.used / t : none;
+      Bias(p.apart + (p.turn_bn - p.turn_an), rate, block, &p);
+    }
   }
 }
 
@@ -92,8 +87,8 @@ void SoftContacts::Kick(float h) {
 }
 
 /// Begins a substep with `share` of the last one's impulses.
-void SoftContacts::WarmStart(float share) {
-  const Four scale = All(share);
+SEAM_WIDE_CLONES void SoftContacts::WarmStart(float share) {
+  const Wide scale = All(share);
   for (Block& block : blocks_) {
     Ends e(bodies, block);
     for (int i = 0; i < block.count; ++i) {
@@ -103,13 +98,13 @@ void SoftContacts::WarmStart(float share) {
       e.Push(block, p, p.pushed);
       e.Rub(block, p, p.rubbed);
     }
-    Scatter(block, e);
+    e.Write(block, &bodies);
   }
 }
 
 /// Notes how fast points come that have not been pushed yet, for restitution.
 void SoftContacts::Watch() {
-  const Four none = All(0);
+  const Wide none = All(0);
   for (Block& block : blocks_) {
     if (!block.returns) continue;
     const Ends e(bodies, block);
@@ -121,19 +116,19 @@ void SoftContacts::Watch() {
 }
 
 /// Sets the response of points at these separations: a free one may come by its separation.
-inline void SoftContacts::Bias(Four apart, float rate, const Block& block, Points* p) {
-  const Four none = All(0), one = All(1);
+SEAM_WIDE void SoftContacts::Bias(const Wide& apart, float rate, const Block& block, Points* p) {
+  const Wide none = All(0), one = All(1);
   p->bias = apart > none ? apart * All(rate) : More(block.bias_rate * apart, All(-kOutMost));
   p->soft_mass = apart > none ? p->mass_n : p->mass_n * block.mass_scale;
   p->lasting = apart > none ? one : one - block.impulse_scale;
 }
 
-inline void SoftContacts::Rub(Block* block, Ends* e) {
+SEAM_WIDE void SoftContacts::Rub(Block* block, Ends* e) {
   for (int i = 0; i < block->count; ++i) {
     Points& p = block->point[i];
-    const Four most = block->friction * p.pushed;
-    const Four to = More(-most, Less(p.rubbed - p.mass_t * (e->SpeedT(p) - block->belt), most));
-    const Four more = to - p.rubbed;
+    const Wide most = block->friction * p.pushed;
+    const Wide to = More(-most, Less(p.rubbed - p.mass_t * (e->SpeedT(p) - block->belt), most));
+    const Wide more = to - p.rubbed;
     p.rubbed = to;
     e->Rub(*block, p, more);
   }
@@ -141,53 +136,47 @@ inline void SoftContacts::Rub(Block* block, Ends* e) {
 
 /// Solves a block's contacts once, and pushes out what overlaps. Friction comes after the normal
 /// impulse, which bounds it: else it lags behind a growing load.
-void SoftContacts::Push(Block* block) {
+SEAM_WIDE void SoftContacts::Push(Block* block) {
   Ends e(bodies, *block);
   for (int i = 0; i < block->count; ++i) {
     Points& p = block->point[i];
-    const Four to = More(p.lasting * p.pushed - p.soft_mass * (e.SpeedN(p) + p.bias), All(0));
-    const Four more = to - p.pushed;
+    const Wide to = More(p.lasting * p.pushed - p.soft_mass * (e.SpeedN(p) + p.bias), All(0));
+    const Wide more = to - p.pushed;
     p.pushed = to;
     e.Push(*block, p, more);
   }
   Rub(block, &e);
-  Scatter(*block, e);
+  e.Write(*block, &bodies);
 }
 
 /// Solves a block's contacts once, without pushing out, and sets the next substep's bias.
-void SoftContacts::Relax(float rate, Block* block) {
-  const Four none = All(0);
-  Table a, b;
-  for (int i = 0; i < kBlockLanes; ++i) {
-    std::memcpy(&a.row[i], &bodies[static_cast<std::size_t>(block->a[i])].dy, sizeof(Four));
-    std::memcpy(&b.row[i], &bodies[static_cast<std::size_t>(block->b[i])].dy, sizeof(Four));
-  }
-  a = a.Turned();
-  b = b.Turned();
+SEAM_WIDE void SoftContacts::Relax(float rate, Block* block) {
+  const Wide none = All(0);
+  const WideRows a(bodies, block->a, &SoftBody::dy), b(bodies, block->b, &SoftBody::dy);
   Ends e(bodies, *block);
-  const Four ac = a.row[1], as = a.row[2], bc = b.row[1], bs = b.row[2];
-  const Four nearer = (e.b.row[3] - e.a.row[3]) * block->nx + (b.row[0] - a.row[0]) * block->ny;
+  const Wide &ac = a.row[1], &as = a.row[2], &bc = b.row[1], &bs = b.row[2];
+  const Wide nearer = (e.b.row[3] - e.a.row[3]) * block->nx + (b.row[0] - a.row[0]) * block->ny;
   for (int i = 0; i < block->count; ++i) {
     Points& p = block->point[i];
-    const Four apart =
+    const Wide apart =
         p.apart + nearer + ((bc * p.turn_bn + bs * p.turn_bc) - (ac * p.turn_an + as * p.turn_ac));
     Bias(apart, rate, *block, &p);
-    const Four to = More(p.pushed - p.mass_n * (e.SpeedN(p) + More(apart, none) * All(rate)), none);
-    const Four more = to - p.pushed;
+    const Wide to = More(p.pushed - p.mass_n * (e.SpeedN(p) + More(apart, none) * All(rate)), none);
+    const Wide more = to - p.pushed;
     p.pushed = to;
     e.Push(*block, p, more);
   }
   Rub(block, &e);
-  Scatter(*block, e);
+  e.Write(*block, &bodies);
 }
 
 /// Solves each contact once. With bias from the last to the first, so that both ends of a pile are
 /// heard in a substep.
-void SoftContacts::PushAll(std::size_t from) {
+SEAM_WIDE_CLONES void SoftContacts::PushAll(std::size_t from) {
   for (std::size_t i = blocks_.size(); i-- > from;) Push(&blocks_[i]);
 }
 
-void SoftContacts::RelaxAll(float rate, std::size_t from) {
+SEAM_WIDE_CLONES void SoftContacts::RelaxAll(float rate, std::size_t from) {
   for (std::size_t i = from; i < blocks_.size(); ++i) Relax(rate, &blocks_[i]);
 }
 
@@ -230,21 +219,21 @@ void SoftContacts::Sum() {
 
 /// Gives points that were pushed their restitution, once.
 void SoftContacts::Restore() {
-  const Four none = All(0);
+  const Wide none = All(0);
   for (Block& block : blocks_) {
     if (!block.returns) continue;
     Ends e(bodies, block);
     for (int i = 0; i < block.count; ++i) {
       Points& p = block.point[i];
-      Four to = More(p.pushed - p.mass_n * (e.SpeedN(p) + block.restitution * p.closing), none);
+      Wide to = More(p.pushed - p.mass_n * (e.SpeedN(p) + block.restitution * p.closing), none);
       to = p.closing > -block.threshold ? p.pushed : to;
       to = p.sum_n <= none || block.restitution <= none ? p.pushed : to;
-      const Four more = to - p.pushed;
+      const Wide more = to - p.pushed;
       p.pushed = to;
       p.sum_n += more;
       e.Push(block, p, more);
     }
-    Scatter(block, e);
+    e.Write(block, &bodies);
   }
 }
 
@@ -256,12 +245,7 @@ void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
     q.from_vy = q.vy;
     q.from_w = q.w;
   }
-  for (Block& block : blocks_) {
-    for (int i = 0; i < block.count; ++i) {
-      Points& p = block.point[i];
-      Bias(p.apart + (p.turn_bn - p.turn_an), 1 / h, block, &p);
-    }
-  }
+  Prepare(1 / h);
   for (int i = 0; i < substeps; ++i) {
     Kick(h / 2);
     Watch();
@@ -282,7 +266,6 @@ void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
       block.point[i].rubbed *= All(parts);
     }
   }
-  Take();
 }
 
 }  // namespace seam

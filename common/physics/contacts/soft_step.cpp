@@ -147,7 +147,6 @@ void SoftStep::LoadContacts() {
     contact.b = pair.b < 0 ? Fixed(pair.made->GetFixtureB()->GetBody())
                            : index_[static_cast<std::size_t>(pair.b)];
     contact.small = IslandOf(std::max(pair.a, pair.b)).points <= kPointsOfSmall;
-    ReadSoftContact(soft_.bodies, &contact);
     soft_.contacts.push_back(contact);
   }
 }
@@ -188,18 +187,8 @@ void SoftStep::Report() {
   untaken_.assign(soft_.bodies.size(), 0);
   b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
   for (const SoftContact& contact : soft_.contacts) {
-    b2Manifold& manifold = *contact.made->GetManifold();
     b2ContactImpulse impulse;
-    impulse.count = contact.count;
-    float sum = 0;
-    for (int i = 0; i < contact.count; ++i) {
-      const SoftContact::Point& p = contact.point[i];
-      manifold.points[i].normalImpulse = p.pushed;
-      manifold.points[i].tangentImpulse = p.rubbed;
-      impulse.normalImpulses[i] = p.sum_n;
-      impulse.tangentImpulses[i] = p.sum_t;
-      sum += p.sum_n;
-    }
+    const float sum = soft_.Take(contact, &impulse);
     if (sum > 0) {
       touched_[static_cast<std::size_t>(contact.a)] = 1;
       touched_[static_cast<std::size_t>(contact.b)] = 1;
