@@ -83,8 +83,8 @@ float SoftContacts::Take(const SoftContact& contact, b2ContactImpulse* impulse) 
   float sum = 0;
   for (int i = 0; i < manifold.pointCount; ++i) {
     const Points& p = block.point[i];
-    manifold.points[i].normalImpulse = p.pushed[lane];
-    manifold.points[i].tangentImpulse = p.rubbed[lane];
+    manifold.points[i].normalImpulse = parts_ * p.pushed[lane];
+    manifold.points[i].tangentImpulse = parts_ * p.rubbed[lane];
     impulse->normalImpulses[i] = p.sum_n[lane];
     impulse->tangentImpulses[i] = p.sum_t[lane];
     sum += p.sum_n[lane];

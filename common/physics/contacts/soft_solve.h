@@ -1,5 +1,5 @@
 #pragma once
-/// Solves soft contacts in substeps (docs/solver.md, Soft contacts), eight contacts at a time.
+/// Solves soft contacts in substeps (docs/solver.md, Soft contacts), four contacts at a time.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,19 +30,19 @@ class SoftContacts {
   float Take(const SoftContact& contact, b2ContactImpulse* impulse) const;
 
  private:
-  /// SoftContact::Point of eight contacts. An arm's first number is its part along the surface
+  /// SoftContact::Point of four contacts. An arm's first number is its part along the surface
   /// times -1, the turning axis' lever of the normal impulse; the second that of friction.
   struct Points {
     Wide lever_an, lever_bn, lever_at, lever_bt;
     Wide pushed, rubbed;            // N s, in this substep
     Wide bias, soft_mass, lasting;  // of the normal impulse with bias, at this substep's poses
     Wide mass_n, mass_t;
-    Wide turn_an, turn_ac, turn_bn, turn_bc;  // m: turning arms along the normal, and turned by 90
+    Wide turn_an, turn_ac, turn_bn, turn_bc;  // m: turning arms along the normal; across
     Wide apart, used;                         // used: 1 where a lane has this point
     Wide sum_n, sum_t;
     Wide closing;  // m/s, before it was first pushed
   };
-  struct Block {                         // eight contacts without a moving body in common
+  struct Block {                         // four contacts without a moving body in common
     int a[kLanes], b[kLanes];            // indices into bodies
     int count;                           // of points, the most of the four
     bool returns;                        // one has restitution
@@ -51,26 +51,21 @@ class SoftContacts {
     Points point[b2_maxManifoldPoints];
     Wide restitution, threshold, bias_rate, mass_scale, impulse_scale;
   };
-  struct Ends;
+  enum class Work { kPrepare, kWarmStart, kWatch, kPush, kRelax, kRestore };
+  struct Rounds;
 
   void Arrange(float h);
   void Put(const SoftContact& contact);
-  void Prepare(float rate);
+  /// Does one round of work over the blocks from `from` on. `number`: the rate of substeps, or the
+  /// share of the impulses to begin with.
+  void Do(Work work, float number, std::size_t from);
   void Kick(float h);
-  void WarmStart(float share);
-  void Watch();
-  static void Bias(const Wide& apart, float rate, const Block& block, Points* p);
-  void Push(Block* block);
-  void Relax(float rate, Block* block);
-  static void Rub(Block* block, Ends* ends);
-  void PushAll(std::size_t from);
-  void RelaxAll(float rate, std::size_t from);
   void Drift(float h);
   void Centre(float h, float step_s);
   void Sum();
-  void Restore();
 
   Softness soft_, stiff_;
+  float parts_ = 1;  // substeps of the last Step
   std::vector<Block> blocks_;
   std::vector<int> layer_;      // by body: the first layer that has no contact of it
   std::vector<int> first_;      // by layer: its first lane
