@@ -57,6 +57,7 @@ void SoftContacts::Arrange(float h) {
   Block empty{};
   for (int i = 0; i < kLanes; ++i) empty.a[i] = empty.b[i] = static_cast<int>(moving);
   blocks_.assign(static_cast<std::size_t>(lanes / kLanes), empty);
+  returns_ = false;
   for (const SoftContact& contact : contacts) Put(contact);
 }
 

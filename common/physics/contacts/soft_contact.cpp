@@ -19,6 +19,46 @@ Arm ArmOf(const b2Fixture* fixture, const b2Body* body, const b2Vec2& point) {
   return {whole, b2Mul(body->GetTransform(), circle.m_p) - body->GetWorldCenter()};
 }
 
+/// As b2WorldManifold::Initialize, which is compiled elsewhere.
+struct WorldPoints {
+  b2Vec2 normal = {1, 0};
+  b2Vec2 points[b2_maxManifoldPoints];
+  float separations[b2_maxManifoldPoints];
+
+  WorldPoints(const b2Manifold& manifold, const b2Transform& a, float radius_a,
+              const b2Transform& b, float radius_b) {
+    if (manifold.type == b2Manifold::e_circles) {
+      const b2Vec2 from = b2Mul(a, manifold.localPoint);
+      const b2Vec2 to = b2Mul(b, manifold.points[0].localPoint);
+      if (b2DistanceSquared(from, to) > b2_epsilon * b2_epsilon) {
+        normal = to - from;
+        normal.Normalize();
+      }
+      Set(0, from + radius_a * normal, to - radius_b * normal);
+      return;
+    }
+    // The face's sign: the normal leads from A to B.
+    const bool of_a = manifold.type == b2Manifold::e_faceA;
+    const b2Transform &face = of_a ? a : b, &other = of_a ? b : a;
+    const float radius_face = of_a ? radius_a : radius_b, radius = of_a ? radius_b : radius_a;
+    const b2Vec2 out = b2Mul(face.q, manifold.localNormal);
+    const b2Vec2 on = b2Mul(face, manifold.localPoint);
+    normal = of_a ? out : -out;
+    for (int i = 0; i < manifold.pointCount; ++i) {
+      const b2Vec2 clip = b2Mul(other, manifold.points[i].localPoint);
+      const b2Vec2 near = clip + (radius_face - b2Dot(clip - on, out)) * out;
+      const b2Vec2 far = clip - radius * out;
+      Set(i, of_a ? near : far, of_a ? far : near);
+    }
+  }
+
+ private:
+  void Set(int i, b2Vec2 at_a, b2Vec2 at_b) {
+    points[i] = 0.5f * (at_a + at_b);
+    separations[i] = b2Dot(at_b - at_a, normal);
+  }
+};
+
 }  // namespace
 
 void SoftContacts::Put(const SoftContact& contact) {
@@ -30,9 +70,8 @@ void SoftContacts::Put(const SoftContact& contact) {
   const b2Body* const body_a = fixture_a->GetBody();
   const b2Body* const body_b = fixture_b->GetBody();
   const b2Manifold& manifold = *made->GetManifold();
-  b2WorldManifold world;
-  world.Initialize(&manifold, body_a->GetTransform(), fixture_a->GetShape()->m_radius,
-                   body_b->GetTransform(), fixture_b->GetShape()->m_radius);
+  const WorldPoints world(manifold, body_a->GetTransform(), fixture_a->GetShape()->m_radius,
+                          body_b->GetTransform(), fixture_b->GetShape()->m_radius);
   const SoftBody& a = bodies[static_cast<std::size_t>(contact.a)];
   const SoftBody& b = bodies[static_cast<std::size_t>(contact.b)];
   const float restitution = made->GetRestitution();
@@ -41,6 +80,7 @@ void SoftContacts::Put(const SoftContact& contact) {
   block.b[lane] = contact.b;
   block.count = std::max(block.count, manifold.pointCount);
   block.returns = block.returns || restitution > 0;
+  returns_ = returns_ || restitution > 0;
   block.nx[lane] = normal.x;
   block.ny[lane] = normal.y;
   block.friction[lane] = made->GetFriction();

@@ -62,20 +62,29 @@ void SoftStep::FindReaches() {
   }
 }
 
+/// True if the body can have passed through nothing that stands still. A bullet that passes through
+/// it is found at the bullet.
+bool SoftStep::IsSlow(std::size_t i) const {
+  if (!all_[i]->IsAwake()) return true;
+  const b2Sweep& sweep = all_[i]->*Member(BodySweep());
+  const float turn = std::fabs(sweep.a - sweep.a0) * reach_[i];
+  return index_[i] >= 0 && (sweep.c - sweep.c0).Length() + turn <= kNearerMin;
+}
+
 /// True if continuous collision has to look at a contact of the moving body `i`.
 bool SoftStep::MayPass(std::size_t i, const b2ContactEdge& edge) const {
   b2Body* const body = all_[i];
   b2Body* const other = edge.other;
   if (!body->IsAwake() && (Moves(other) || !other->IsAwake())) return false;
-  if (Moves(other) && !body->IsBullet() && !other->IsBullet()) return false;
+  if (Moves(other) && !body->IsBullet()) return false;
   return index_[i] < 0 || Nearer(edge.contact, body, other, reach_[i]) > kNearerMin;
 }
 
-bool SoftStep::Narrow() {
+bool SoftStep::Narrow(bool driven) {
   narrowed_.clear();
   for (std::size_t i = 0; i < all_.size(); ++i) {
     b2Body* const body = all_[i];
-    if (!body->IsEnabled()) continue;
+    if (!body->IsEnabled() || (!driven && IsSlow(i))) continue;
     for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
       if (!MayPass(i, *edge)) continue;
       b2Contact* const made = edge->contact;

@@ -13,12 +13,16 @@ constexpr float kSmoothMost = 4;
 
 }  // namespace
 
-void SoftContacts::Kick(float h) {
+/// `times`: half a substep's kick, or two of them.
+void SoftContacts::Kick(float h, int times) {
   for (std::size_t i = 0; i < moving; ++i) {
     SoftBody& q = bodies[i];
-    q.vx = (q.vx + h * q.ax) / (1 + h * q.slow);
-    q.vy = (q.vy + h * q.ay) / (1 + h * q.slow);
-    q.w = (q.w + h * q.turn) / (1 + h * q.slow_spin);
+    const float keep = 1 / (1 + h * q.slow), keep_spin = 1 / (1 + h * q.slow_spin);
+    for (int k = 0; k < times; ++k) {
+      q.vx = (q.vx + h * q.ax) * keep;
+      q.vy = (q.vy + h * q.ay) * keep;
+      q.w = (q.w + h * q.turn) * keep_spin;
+    }
   }
 }
 
@@ -60,9 +64,11 @@ void SoftContacts::Step(float h, int substeps, int sweeps, bool warm) {
   }
   Do(Work::kPrepare, 1 / h, 0);
   for (int i = 0; i < substeps; ++i) {
-    Kick(h / 2);
-    Do(Work::kWatch, 0, 0);
-    Kick(h / 2);
+    if (returns_) {
+      Kick(h / 2, 1);
+      Do(Work::kWatch, 0, 0);
+    }
+    Kick(h / 2, returns_ ? 1 : 2);
     Do(Work::kWarmStart, i > 0 ? 1 : warm ? 1 / parts : 0, 0);
     for (int sweep = 0; sweep < sweeps; ++sweep) Do(Work::kPush, 0, 0);
     for (int sweep = 0; sweep < kMoreInSmall * sweeps; ++sweep) Do(Work::kPush, 0, small_from_);

@@ -59,12 +59,13 @@ class SoftContacts {
   /// Does one round of work over the blocks from `from` on. `number`: the rate of substeps, or the
   /// share of the impulses to begin with.
   void Do(Work work, float number, std::size_t from);
-  void Kick(float h);
+  void Kick(float h, int times);
   void Drift(float h);
   void Centre(float h, float step_s);
   void Sum();
 
   Softness soft_, stiff_;
+  bool returns_ = false;  // a contact has restitution
   float parts_ = 1;  // substeps of the last Step
   std::vector<Block> blocks_;
   std::vector<int> layer_;      // by body: the first layer that has no contact of it

@@ -26,8 +26,8 @@ class SoftStep {
   void Show();
 
   /// Called before continuous collision, between Show and Widen: leaves only those contacts in the
-  /// engine's list that need it. Returns false if there are none.
-  bool Narrow();
+  /// engine's list that need it. `driven`: a kinematic body moves. Returns false if there are none.
+  bool Narrow(bool driven);
   /// Restores the list; new contacts come first.
   void Widen();
   /// Called before continuous collision solves an impact of the body: takes back the fall of the
@@ -61,6 +61,7 @@ class SoftStep {
   void Save(float h);
   void Report();
   void FindReaches();
+  bool IsSlow(std::size_t i) const;
   bool MayPass(std::size_t i, const b2ContactEdge& edge) const;
 
   const int substeps_, sweeps_;

@@ -77,7 +77,7 @@ void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
   Quiet quiet(listener, this);
   for (Slot& slot : slots_) slot.struck = false;
-  if (soft_ && !soft_->Narrow()) return;
+  if (soft_ && !soft_->Narrow(Driven())) return;
   world_->SetContactListener(&quiet);
   (world_->*Member(EngineSolveToi()))(step);
   world_->SetContactListener(listener);

@@ -269,6 +269,15 @@ void ExactStep::MoveKinematics(float h) {
   }
 }
 
+/// True if a kinematic body is awake.
+bool ExactStep::Driven() const {
+  const auto awake = [](const b2Body* body) {
+    return body->GetType() == b2_kinematicBody && body->IsAwake();
+  };
+  return std::any_of(paths_.begin(), paths_.end(), awake) ||
+         std::any_of(slots_.begin(), slots_.end(), [&](const Slot& s) { return awake(s.body); });
+}
+
 /// False if the island was too expensive; then nothing has changed.
 bool ExactStep::Solve(const Pace& pace, bool warm, Found* found) {
   Load(found);

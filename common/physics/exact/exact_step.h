@@ -94,6 +94,7 @@ class ExactStep {
   void SavePoses(const Found& found);
   void Prepare(float h, Found* found);
   void MoveKinematics(float h);
+  bool Driven() const;
   bool Solve(const Pace& pace, bool warm, Found* found);
   void LeaveToEngine(float h, const Found& found);
   class Quiet;
