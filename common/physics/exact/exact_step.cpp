@@ -68,9 +68,11 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
     blows_ = std::make_unique<ElasticImpacts>(built, std::move(jointed));
     if (!blows_->needed()) blows_.reset();
   }
-  if (solver_.joints != JointSolving::kAuto) return;
-  LeaveCharacters(scene);
-  LeaveLarge();
+  if (solver_.joints == JointSolving::kAuto) {
+    LeaveCharacters(scene);
+    LeaveLarge();
+  }
+  if (soft_) FindLoads();
 }
 
 /// Leaves characters to the engine: their gait is tuned on its joints, which are cheaper in a heap.
@@ -315,8 +317,10 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   const bool iterative = solver_.joints == JointSolving::kIterative;
   for (std::size_t m = 0; m < mechanisms_.size() && !iterative; ++m) {
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
+    if (!Counts(mechanisms_[m])) continue;
+    const bool load = mechanisms_[m].joints.empty();
     Found& found = found_[m];
-    bool ours = Gather(static_cast<int>(m), &found);
+    bool ours = Gather(static_cast<int>(m), &found) && !(load && IsHeap(found));
     const bool left = ours && found.fallback_steps > 0;
     if (left) --found.fallback_steps;
     const bool easy = Easy(found);
@@ -329,7 +333,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
       ours = found.relaxed && Solve(pace, step.warmStarting, &found);
     }
     if (!ours || !found.island) {
-      LeaveToEngine(h, found);
+      if (!load) LeaveToEngine(h, found);
       continue;
     }
     Save(&found, h);

@@ -54,7 +54,7 @@ class ExactStep {
     double lasting = 0;  // ExactBody::lasting
     float engine_x = 0, engine_y = 0, engine_a = 0, engine_vx = 0, engine_vy = 0, engine_w = 0;
   };
-  struct Mechanism {
+  struct Mechanism {          // without joints: a load
     std::vector<int> slots;   // in the order of the system
     std::vector<int> joints;  // indices into joints_
     bool exact = true;        // false: too expensive to factor
@@ -75,6 +75,8 @@ class ExactStep {
     return moving < 0 ? -1 : slot_of_[static_cast<std::size_t>(moving)];
   }
   void FindMechanisms();
+  void FindLoads();
+  bool Counts(const Mechanism& mechanism) const;
   /// Returns the least mass that tears between heavy ends, kg; b2_maxFloat: none does.
   float LightestLink(const Mechanism& mechanism) const;
   /// True if the engine solves the island's mechanisms well at any moment.

@@ -124,6 +124,67 @@ TEST(SoftWorlds, AnIslandWithAJointRestsBesideOthersAsDeep) {
   }
 }
 
+/// Loads of 10 to 1000 times the mass of each of three boxes.
+TEST(SoftWorlds, AHeavyLoadStandsOnLightBoxes) {
+  for (const double heavy : {10.0, 100.0, 400.0, 1000.0}) {
+    const auto world = SmallWorld(
+        std::string(kGround) +
+            "[[part]]\nname = \"light\"\nbox = [1, 1]\nposition = [0, 0.5]\nfriction = 0.6\n"
+            "density = 0.1\nrepeat = {count = 3, step = [0, 1]}\n"
+            "[[part]]\nname = \"load\"\nbox = [1, 1]\nposition = [0, 3.5]\nfriction = 0.6\n"
+            "density = " +
+            FloatDigits(heavy / 10) + "\n",
+        kSoft, "gravity = [0, -10]");
+    Steps(world.get(), 1200);
+    for (int body = 0; body < 4; ++body) {
+      EXPECT_NEAR(world->Read(body).position.y(), 0.5f + static_cast<float>(body), 0.01) << heavy;
+      EXPECT_NEAR(world->Read(body).position.x(), 0, 0.01) << heavy;
+    }
+  }
+}
+
+/// A kinematic room turns around boxes that lie in it: none gets out, and none passes its walls.
+TEST(SoftWorlds, ATurningRoomKeepsItsBoxes) {
+  std::string parts;
+  const char* const walls[] = {
+      "box = [1, 10]\nposition = [5, 5]", "box = [1, 10]\nposition = [-5, 5]",
+      "box = [10, 1]\nposition = [0, 10]", "box = [10, 1]\nposition = [0, 0]"};
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "wall" + std::to_string(i);
+    parts += "[[part]]\nname = \"" + name + "\"\n" + walls[i] + "\nanchored = true\n";
+    if (i > 0) {
+      parts += "[[joint]]\nname = \"join" + name + "\"\nkind = \"weld\"\na = \"wall0\"\nb = \"" +
+               name + "\"\n";
+    }
+  }
+  parts +=
+      "[[joint]]\nname = \"turn\"\nkind = \"kinematic\"\nb = \"wall0\"\nanchor = [0, 5]\n"
+      "turning = 2\n";
+  for (int row = 0; row < 8; ++row) {
+    parts += "[[part]]\nname = \"row" + std::to_string(row) +
+             "\"\nbox = [0.4, 0.4]\nposition = [-2, " + FloatDigits(2.5 + 0.6 * row) +
+             "]\nrepeat = {count = 7, step = [0.6, 0]}\n";
+  }
+  const auto world = SmallWorld(parts, kSoft, "gravity = [0, -10]");
+  Steps(world.get(), 600);
+  for (int body = 0; body < world->body_count(); ++body) {
+    EXPECT_LT((world->Read(body).position - Vec2(0, 5)).norm(), 6.7f) << body;
+  }
+}
+
+/// Past many resting boxes, so that its contacts are few among many.
+TEST(SoftWorlds, ABulletStopsAtAWallBesideAPile) {
+  const auto world = SmallWorld(
+      Pile(12) +
+          "[[part]]\nname = \"wall\"\nbox = [0.1, 8]\nposition = [20, 4]\nanchored = true\n" +
+          "[[part]]\nname = \"shot\"\ncircle = 0.1\nbullet = true\nposition = [3, 4]\n"
+          "velocity = [100, 0]\n",
+      kSoft, "gravity = [0, -10]");
+  Steps(world.get(), 60);
+  EXPECT_LT(world->Read(12).position.x(), 20);
+  EXPECT_NEAR(world->Read(11).position.y(), 11.5, 0.02);
+}
+
 TEST(SoftWorlds, AConveyorCarriesWhatStandsOnIt) {
   const auto world = SmallWorld(
       "[[part]]\nname = \"band\"\nbox = [40, 1]\nposition = [0, -0.5]\nanchored = true\n"
