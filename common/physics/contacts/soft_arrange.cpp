@@ -33,7 +33,7 @@ void SoftContacts::Arrange(float h) {
   layer_.assign(moving, 0);
   int lanes = 0;
   for (const bool small : {false, true}) {
-    if (small) small_from_ = static_cast<std::size_t>(lanes / kLanes);
+    if (small) small_from_ = static_cast<std::size_t>(lanes / kBlockLanes);
     first_.clear();
     for (SoftContact& contact : contacts) {
       if (contact.small != small) continue;
@@ -46,17 +46,17 @@ void SoftContacts::Arrange(float h) {
       ++first_[static_cast<std::size_t>(layer)];
     }
     for (int& first : first_) {
-      const int blocks = (first + kLanes - 1) / kLanes;
+      const int blocks = (first + kBlockLanes - 1) / kBlockLanes;
       first = lanes;
-      lanes += blocks * kLanes;
+      lanes += blocks * kBlockLanes;
     }
     for (SoftContact& contact : contacts) {
       if (contact.small == small) contact.lane = first_[static_cast<std::size_t>(contact.lane)]++;
     }
   }
   Block empty{};
-  for (int i = 0; i < kLanes; ++i) empty.a[i] = empty.b[i] = static_cast<int>(moving);
-  blocks_.assign(static_cast<std::size_t>(lanes / kLanes), empty);
+  for (int i = 0; i < kBlockLanes; ++i) empty.a[i] = empty.b[i] = static_cast<int>(moving);
+  blocks_.assign(static_cast<std::size_t>(lanes / kBlockLanes), empty);
   returns_ = false;
   for (const SoftContact& contact : contacts) Put(contact);
 }

@@ -62,8 +62,8 @@ struct WorldPoints {
 }  // namespace
 
 void SoftContacts::Put(const SoftContact& contact) {
-  Block& block = blocks_[static_cast<std::size_t>(contact.lane / kLanes)];
-  const int lane = contact.lane % kLanes;
+  Block& block = blocks_[static_cast<std::size_t>(contact.lane / kBlockLanes)];
+  const int lane = contact.lane % kBlockLanes;
   b2Contact* const made = contact.made;
   const b2Fixture* const fixture_a = made->GetFixtureA();
   const b2Fixture* const fixture_b = made->GetFixtureB();
@@ -116,8 +116,8 @@ void SoftContacts::Put(const SoftContact& contact) {
 }
 
 float SoftContacts::Take(const SoftContact& contact, b2ContactImpulse* impulse) const {
-  const Block& block = blocks_[static_cast<std::size_t>(contact.lane / kLanes)];
-  const int lane = contact.lane % kLanes;
+  const Block& block = blocks_[static_cast<std::size_t>(contact.lane / kBlockLanes)];
+  const int lane = contact.lane % kBlockLanes;
   b2Manifold& manifold = *contact.made->GetManifold();
   impulse->count = manifold.pointCount;
   float sum = 0;

@@ -43,7 +43,7 @@ class SoftContacts {
     Wide closing;  // m/s, before it was first pushed
   };
   struct Block {                         // four contacts without a moving body in common
-    int a[kLanes], b[kLanes];            // indices into bodies
+    int a[kBlockLanes], b[kBlockLanes];  // indices into bodies
     int count;                           // of points, the most of the four
     bool returns;                        // one has restitution
     Wide nx, ny, friction, belt;

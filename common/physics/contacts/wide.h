@@ -11,7 +11,7 @@
 
 namespace seam {
 
-constexpr int kLanes = 4;
+constexpr int kBlockLanes = 4;
 using Wide = float __attribute__((vector_size(16)));
 
 SEAM_WIDE Wide All(float x) { return Wide{x, x, x, x}; }
@@ -24,14 +24,14 @@ struct WideRows {
 
   /// Reads the four numbers from `first` on.
   SEAM_WIDE WideRows(const std::vector<SoftBody>& bodies, const int* of, float SoftBody::*first) {
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < kBlockLanes; ++i) {
       std::memcpy(&row[i], &(bodies[static_cast<std::size_t>(of[i])].*first), sizeof(Wide));
     }
     Turn();
   }
   SEAM_WIDE void Write(const int* of, float SoftBody::*first, std::vector<SoftBody>* bodies) {
     Turn();
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < kBlockLanes; ++i) {
       std::memcpy(&((*bodies)[static_cast<std::size_t>(of[i])].*first), &row[i], sizeof(Wide));
     }
   }

@@ -1,9 +1,10 @@
-/// ExactStep: continuous collision, which ignores joints.
+/// ExactStep: kinematic bodies, and continuous collision, which ignores joints.
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "common/physics/contacts/engine_parts.h"
 #include "common/physics/engine_members.h"
 #include "common/physics/exact/exact_step.h"
 
@@ -71,6 +72,22 @@ class ExactStep::Quiet : public b2ContactListener {
   ExactStep& step_;
   std::vector<std::pair<b2Contact*, float>> gave_back_;
 };
+
+void ExactStep::MoveKinematics(float h) {
+  for (b2Body* const body : paths_) MoveKinematic(world_, body, h);
+  for (const Slot& slot : slots_) {
+    if (slot.body->GetType() == b2_kinematicBody) MoveKinematic(world_, slot.body, h);
+  }
+}
+
+/// True if a kinematic body is awake.
+bool ExactStep::Driven() const {
+  const auto awake = [](const b2Body* body) {
+    return body->GetType() == b2_kinematicBody && body->IsAwake();
+  };
+  return std::any_of(paths_.begin(), paths_.end(), awake) ||
+         std::any_of(slots_.begin(), slots_.end(), [&](const Slot& s) { return awake(s.body); });
+}
 
 /// As the engine's, but bodies moved back to their impact keep their velocity and their joints.
 void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {

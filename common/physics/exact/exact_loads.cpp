@@ -10,7 +10,7 @@ namespace seam {
 namespace {
 
 /// A body is a load for one that has less than this share of its mass. Soft contacts carry others.
-constexpr float kLightShare = 1.0f / 30;
+constexpr float kLoadShare = 1.0f / 30;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void ExactStep::FindLoads() {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     Slot& slot = slots_[i];
     if (slot.mechanism >= 0 || !Moves(slot.body)) continue;
-    if (lightest >= kLightShare * slot.body->GetMass()) continue;
+    if (lightest >= kLoadShare * slot.body->GetMass()) continue;
     slot.mechanism = static_cast<int>(mechanisms_.size());
     mechanisms_.emplace_back();
     mechanisms_.back().slots.push_back(static_cast<int>(i));
@@ -39,7 +39,7 @@ bool ExactStep::Counts(const Mechanism& mechanism) const {
   const b2Vec2 gravity = world_->GetGravity();
   for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
     const b2Body* const other = edge->other;
-    if (!Moves(other) || other->GetMass() >= kLightShare * body->GetMass()) continue;
+    if (!Moves(other) || other->GetMass() >= kLoadShare * body->GetMass()) continue;
     if (!Pushes(edge->contact)) continue;
     if (b2Dot(other->GetWorldCenter() - body->GetWorldCenter(), gravity) > 0) return true;
   }

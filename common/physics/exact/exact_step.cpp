@@ -264,22 +264,6 @@ bool ExactStep::Told(const Slot& s) {
          v.x == s.engine_vx && v.y == s.engine_vy && s.body->GetAngularVelocity() == s.engine_w;
 }
 
-void ExactStep::MoveKinematics(float h) {
-  for (b2Body* const body : paths_) MoveKinematic(world_, body, h);
-  for (const Slot& slot : slots_) {
-    if (slot.body->GetType() == b2_kinematicBody) MoveKinematic(world_, slot.body, h);
-  }
-}
-
-/// True if a kinematic body is awake.
-bool ExactStep::Driven() const {
-  const auto awake = [](const b2Body* body) {
-    return body->GetType() == b2_kinematicBody && body->IsAwake();
-  };
-  return std::any_of(paths_.begin(), paths_.end(), awake) ||
-         std::any_of(slots_.begin(), slots_.end(), [&](const Slot& s) { return awake(s.body); });
-}
-
 /// False if the island was too expensive; then nothing has changed.
 bool ExactStep::Solve(const Pace& pace, bool warm, Found* found) {
   Load(found);
