@@ -28,8 +28,11 @@ constexpr float kGrossAudited = 4;
 /// A mechanism that may have met more is not compared: piles are chaos.
 constexpr std::size_t kIslandMost = 6;
 /// An honest gain is so many times as great where a mechanism touches others, as two worlds part
-/// there; and of a character, as its step is not in its states.
-constexpr double kInCompany = 8, kOfCharacter = 20;
+/// there.
+constexpr double kInCompany = 8;
+/// A character's step is known once it has been followed for so long, s: three steps. The other
+/// foot is tried as seldom as this, s.
+constexpr double kStepKnownS = 1, kOtherFootS = 0.5;
 
 }  // namespace
 
@@ -39,8 +42,9 @@ Auditor::Auditor(const Replica& replica, std::uint64_t seed)
       tracks_(replica.table(),
               [](int, const std::vector<const Track*>& before) {
                 Track track = before.size() == 1 ? *before.front() : Track{};
-                track.since = track.put = -1;
+                track.since = track.put = track.from = -1;
                 track.active = false;
+                track.step.Take();
                 return track;
               }),
       renumbered_(replica.table(), [this](const BodyRemap&) { NoteRenumbered(); }),
@@ -56,7 +60,9 @@ int Auditor::Seconds(double s) const {
 
 void Auditor::NoteRenumbered() {
   const World& world = replica_.world();
-  spare_.reset();
+  if (spare_ != nullptr && spare_->world().composition().hash != world.composition().hash) {
+    spare_.reset();
+  }
   active_.clear();
   draw_at_ = 0;
   place_.assign(static_cast<std::size_t>(world.body_count()), 0);
@@ -67,6 +73,7 @@ void Auditor::NoteRenumbered() {
   }
   characters_.assign(size_.size(), 0);
   for (const Character& character : world.scene().characters) {
+    if (!character.active) continue;
     const int m = MechanismOf(world, character.parts[kTorso]);
     if (m >= 0) characters_[static_cast<std::size_t>(m)] = 1;
   }
@@ -77,6 +84,7 @@ void Auditor::NoteRenumbered() {
 
 void Auditor::Forget(int mechanism) {
   Leave(mechanism);
+  LoseStep(mechanism);
   tracks_[mechanism].told.Forget();
 }
 
@@ -95,7 +103,10 @@ void Auditor::NoteEdit(const Edit& edit) {
     Forget(m);
     tracks_[m].revision = replica_.revision() + 1;
   }
-  if (edit.As<PushEdit>() == nullptr) spare_.reset();
+  if (spare_ == nullptr) return;
+  // Its controllers remember their steps, and learn from pushes that they are limp.
+  for (int m = 0; edit.As<PushEdit>() == nullptr && m < tracks_.size(); ++m) Leave(m);
+  spare_->Apply(edit);
 }
 
 void Auditor::NoteTold(int player, const States& states) {
@@ -135,15 +146,21 @@ void Auditor::Build() {
 }
 
 void Auditor::JumpTo(std::int64_t tick) {
-  for (int m = 0; m < tracks_.size(); ++m) Leave(m);
+  for (int m = 0; m < tracks_.size(); ++m) {
+    Leave(m);
+    LoseStep(m);
+  }
   spare_->SetTick(std::max<std::int64_t>(0, tick));
 }
 
 void Auditor::Leave(int mechanism) {
   Track& track = tracks_[mechanism];
   if (track.since >= 0 && spare_ != nullptr) spare_->Take(mechanism);
-  track.since = track.put = -1;
+  track.since = track.put = track.from = -1;
+  track.step.Take();
 }
+
+void Auditor::LoseStep(int mechanism) { tracks_[mechanism].step_since = -1; }
 
 void Auditor::Work() {
   const std::int64_t now = replica_.tick();
@@ -196,18 +213,42 @@ void Auditor::Visit(int mechanism, std::int64_t tick) {
   if (told == nullptr) {
     const bool still = track.put < 0 && track.told.empty() && Asleep(mechanism);
     const bool silent = track.put >= 0 && tick - track.put > Seconds(kOutS);
+    if (silent) LoseStep(mechanism);
     if (track.since >= 0 && (silent || (track.put < 0 && !still))) Leave(mechanism);
     return;
   }
-  if (tick < track.due) return;
-  Compare(mechanism, *told);
-  track.due = tick + Seconds(random_.Uniform(kPutAfterS, kPutWithinS));
-  if (const auto whole = track.told.Whole(Seconds(kMovedOnS), spare_->world().dt())) {
-    spare_->Put(mechanism, track.peer, *whole);
-    if (track.since < 0) track.since = tick;
-    track.put = tick;
-    surroundings_.EachNear(mechanism, tick, tick, [&](int other) { PutStill(other, tick); });
+  const bool due = tick >= track.due;
+  if (!due && !Walks(mechanism)) return;
+  std::optional<Gain> gain;
+  if (track.put >= 0) gain = spare_->Compare(mechanism, told->states);
+  if (Walks(mechanism) && track.put >= 0) {
+    const bool other_foot = track.step.Add(tick, Seconds(kOtherFootS), gain);
+    if (other_foot) spare_->ExchangeSides(mechanism);
+    if (due) gain = track.step.Take();
+    if (track.step_since < 0 || tick - track.step_since < Seconds(kStepKnownS)) gain.reset();
   }
+  if (due) {
+    Compare(mechanism, *told, gain);
+    track.due = tick + Seconds(random_.Uniform(kPutAfterS, kPutWithinS));
+  }
+  PutTold(mechanism, tick, due);
+}
+
+/// `anew`: it is compared from here on.
+void Auditor::PutTold(int mechanism, std::int64_t tick, bool anew) {
+  Track& track = tracks_[mechanism];
+  const auto whole = track.told.Whole(Seconds(kMovedOnS), spare_->world().dt());
+  if (!whole) {
+    if (Walks(mechanism)) Leave(mechanism);
+    return;
+  }
+  spare_->Put(mechanism, track.peer, *whole);
+  if (track.since < 0) track.since = tick;
+  if (track.step_since < 0) track.step_since = tick;
+  track.put = tick;
+  if (!anew && track.from >= 0) return;
+  track.from = tick;
+  surroundings_.EachNear(mechanism, tick, tick, [&](int other) { PutStill(other, tick); });
 }
 
 /// Something of the same holder that nobody tells of as it lies still, in the way of the rest.
@@ -250,18 +291,17 @@ bool Auditor::Knows(int mechanism, std::int64_t from, std::int64_t to) const {
   return alone;
 }
 
-void Auditor::Compare(int mechanism, const ToldStates::Told& told) {
+void Auditor::Compare(int mechanism, const ToldStates::Told& told,
+                      const std::optional<Gain>& gain) {
   Track& track = tracks_[mechanism];
   if (track.player < 0) return;
-  const std::int64_t from = track.put >= 0 ? track.put : told.tick;
+  const std::int64_t from = track.from >= 0 ? track.from : told.tick;
   const bool all =
       ToldInputs(track.player, from, told.tick) && !track.told.LeavesOut(Seconds(kOutS));
   track.gain.NoteAllTold(all);
-  if (all && track.put >= 0 && Knows(mechanism, from, told.tick)) {
-    const std::optional<Gain> gain = spare_->Compare(mechanism, told.states);
-    const bool character = characters_[static_cast<std::size_t>(mechanism)] != 0;
-    if (gain) track.gain.Add(*gain, character ? kOfCharacter : gain->met ? kInCompany : 1);
-    counts_.compared += gain ? 1 : 0;
+  if (gain && all && Knows(mechanism, from, told.tick)) {
+    track.gain.Add(*gain, gain->met ? kInCompany : 1);
+    ++counts_.compared;
   }
   counts_.greatest = std::max(counts_.greatest, track.gain.share());
   if (track.gain.lies()) NoteLie(mechanism, told);

@@ -18,6 +18,7 @@
 
 #include "common/base/random.h"
 #include "common/codec/messages.h"
+#include "common/sync/audit/followed_step.h"
 #include "common/sync/audit/spare_world.h"
 #include "common/sync/audit/steady_gain.h"
 #include "common/sync/replica.h"
@@ -69,8 +70,11 @@ class Auditor {
     ToldStates told;          // in the order of SpareWorld::bodies
     std::int64_t since = -1;  // tick from which it is in the spare world; -1: it is not
     std::int64_t put = -1;    // tick at which it was last put at told states; -1: not
+    std::int64_t from = -1;   // tick from which it is compared
     std::int64_t due = 0;     // tick of the next comparison
     SteadyGain gain;
+    FollowedStep step;             // of a character
+    std::int64_t step_since = -1;  // tick from which its step is followed; -1: it is not
   };
 
   void Draw();
@@ -78,10 +82,13 @@ class Auditor {
   void JumpTo(std::int64_t tick);
   void StepOnce();
   void Visit(int mechanism, std::int64_t tick);
+  void PutTold(int mechanism, std::int64_t tick, bool anew);
   void PutStill(int mechanism, std::int64_t tick);
   void Leave(int mechanism);
   void Activate(int mechanism);
-  void Compare(int mechanism, const ToldStates::Told& told);
+  void Compare(int mechanism, const ToldStates::Told& told, const std::optional<Gain>& gain);
+  void LoseStep(int mechanism);
+  bool Walks(int mechanism) const { return characters_[static_cast<std::size_t>(mechanism)] != 0; }
   void NoteLie(int mechanism, const ToldStates::Told& told);
   bool ToldInputs(int player, std::int64_t from, std::int64_t to) const;
   bool Knows(int mechanism, std::int64_t from, std::int64_t to) const;
@@ -97,7 +104,7 @@ class Auditor {
   Surroundings surroundings_;
   std::vector<std::size_t> place_;      // rebuilt at edits, by body: its place in its mechanism
   std::vector<std::size_t> size_;       // rebuilt at edits, by mechanism: number of bodies
-  std::vector<char> characters_;        // rebuilt at edits, by mechanism: has a character
+  std::vector<char> characters_;        // rebuilt at edits, by mechanism: has an active character
   std::unique_ptr<SpareWorld> spare_;   // null: to be built
   std::vector<int> active_;             // mechanisms that are told of, or in the spare world
   std::vector<int> players_;            // their clients'

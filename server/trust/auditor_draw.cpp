@@ -69,6 +69,7 @@ void Auditor::Draw() {
     tracks_[m].drawn = in[static_cast<std::size_t>(m)] != 0;
     if (!tracks_[m].drawn) {
       Leave(m);
+      LoseStep(m);
     } else if (!tracks_[m].told.empty()) {
       Activate(m);
     }

@@ -1,12 +1,25 @@
 #include "common/sync/audit/spare_world.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "common/base/geometry.h"
+#include "common/physics/part_places.h"
+#include "common/scene/character.h"
 
 namespace seam {
 namespace {
+
+/// The limbs of a character, left and right.
+constexpr std::array<std::pair<CharacterPart, CharacterPart>, 5> kSides = {
+    {{kUpperArmLeft, kUpperArmRight},
+     {kLowerArmLeft, kLowerArmRight},
+     {kUpperLegLeft, kUpperLegRight},
+     {kLowerLegLeft, kLowerLegRight},
+     {kFootLeft, kFootRight}}};
 
 /// Position of a body's centre of mass, m.
 Vec2 CentreOf(const World& world, int body, const BodyState& state) {
@@ -27,21 +40,69 @@ struct Whole {
 
 }  // namespace
 
-SpareWorld::SpareWorld(const Topology& topology, Present present)
-    : world_(topology),
-      bodies_(world_.composition().mechanisms.size()),
-      standings_(bodies_.size()) {
+SpareWorld::SpareWorld(const Topology& topology, Present present) : world_(topology) {
+  Number();
+  if (present == Present::kAll) return;
   for (int body = 0; body < world_.body_count(); ++body) {
-    bodies_[static_cast<std::size_t>(world_.mechanism(body))].push_back(body);
-    if (present == Present::kNone) world_.SetActivity(body, Activity::kParked);
+    world_.SetActivity(body, Activity::kParked);
   }
 }
 
-void SpareWorld::Put(int mechanism, int holder, const std::vector<BodyState>& states) {
+void SpareWorld::Number() {
+  const auto count = static_cast<std::size_t>(world_.body_count());
+  const std::size_t mechanisms = world_.composition().mechanisms.size();
+  turns_.emplace(world_);
+  bodies_.assign(mechanisms, {});
+  standings_.assign(mechanisms, {});
+  for (int body = 0; body < world_.body_count(); ++body) {
+    bodies_[static_cast<std::size_t>(world_.mechanism(body))].push_back(body);
+  }
+  other_side_.resize(count);
+  std::iota(other_side_.begin(), other_side_.end(), 0);
+  character_of_.assign(mechanisms, -1);
+  const auto& characters = world_.scene().characters;
+  exchanged_.resize(characters.size(), 0);
+  for (std::size_t c = 0; c < characters.size(); ++c) {
+    const int m = MechanismOf(world_, characters[c].parts[kTorso]);
+    if (m < 0 || character_of_[static_cast<std::size_t>(m)] >= 0) continue;
+    character_of_[static_cast<std::size_t>(m)] = static_cast<int>(c);
+    for (const auto& [left, right] : kSides) {
+      const int a = world_.BodyOfId(characters[c].parts[static_cast<std::size_t>(left)]);
+      const int b = world_.BodyOfId(characters[c].parts[static_cast<std::size_t>(right)]);
+      if (a < 0 || b < 0 || world_.mechanism(a) != m || world_.mechanism(b) != m) continue;
+      std::swap(other_side_[static_cast<std::size_t>(a)], other_side_[static_cast<std::size_t>(b)]);
+    }
+  }
+}
+
+void SpareWorld::Apply(const Edit& edit) {
+  if (!world_.Apply({edit})) return;
+  Number();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    world_.SetActivity(body, Activity::kParked);
+  }
+}
+
+void SpareWorld::ExchangeSides(int mechanism) {
+  const int character = character_of_[static_cast<std::size_t>(mechanism)];
+  if (character < 0) return;
+  char& exchanged = exchanged_[static_cast<std::size_t>(character)];
+  exchanged = exchanged == 0 ? 1 : 0;
+}
+
+int SpareWorld::PlaceOf(int mechanism, int body) const {
+  const int character = character_of_[static_cast<std::size_t>(mechanism)];
+  const bool stays = character < 0 || exchanged_[static_cast<std::size_t>(character)] == 0;
+  return stays ? body : other_side_[static_cast<std::size_t>(body)];
+}
+
+void SpareWorld::Put(int mechanism, int holder, std::vector<BodyState> states) {
   const std::vector<int>& own = bodies(mechanism);
+  turns_->Right(own, &states);
   for (std::size_t i = 0; i < own.size(); ++i) {
-    world_.SetActivity(own[i], Activity::kSimulated);
-    world_.Write(own[i], states[i]);
+    const int body = PlaceOf(mechanism, own[i]);
+    world_.SetActivity(body, Activity::kSimulated);
+    world_.Write(body, states[i]);
   }
   standings_[static_cast<std::size_t>(mechanism)] = {holder, false, false, world_.tick()};
 }
@@ -71,7 +132,7 @@ std::optional<Gain> SpareWorld::Compare(int mechanism, const ToldNow& told) cons
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (!told[i]) continue;
     const float mass = world_.mass(own[i]);
-    const BodyState stepped = world_.Read(own[i]);
+    const BodyState stepped = world_.Read(PlaceOf(mechanism, own[i]));
     is.Add(CentreOf(world_, own[i], *told[i]), *told[i], mass);
     would_be.Add(CentreOf(world_, own[i], stepped), stepped, mass);
   }
@@ -84,7 +145,7 @@ std::optional<Gain> SpareWorld::Compare(int mechanism, const ToldNow& told) cons
   gain.stepped = would_be.velocity / is.mass;
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (!told[i]) continue;
-    const BodyState stepped = world_.Read(own[i]);
+    const BodyState stepped = world_.Read(PlaceOf(mechanism, own[i]));
     const Vec2 moved = CentreOf(world_, own[i], *told[i]) - CentreOf(world_, own[i], stepped);
     gain.apart = std::max(gain.apart, double{(moved - gain.position).norm()});
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/physics/world.h"
+#include "common/sync/audit/turns.h"
 
 namespace seam {
 
@@ -34,11 +35,17 @@ class SpareWorld {
     return bodies_[static_cast<std::size_t>(mechanism)];
   }
   void SetTick(std::int64_t tick) { world_.SetTick(tick); }
+  /// Applies an edit. If it renumbers bodies, all mechanisms leave the world. What controllers
+  /// remember stays. Requires Present::kNone.
+  void Apply(const Edit& edit);
   /// Puts a mechanism at these states and into the world. `holder`: its peer; mechanisms of other
   /// holders that it touches from now on make it incomparable. 0: it is only in the way of others.
-  void Put(int mechanism, int holder, const std::vector<BodyState>& states);
+  /// Full turns of hinged bodies are put right.
+  void Put(int mechanism, int holder, std::vector<BodyState> states);
   /// Takes a mechanism out of the world. Requires Present::kNone.
   void Take(int mechanism);
+  /// From its next Put on, the limbs of a character on its left are put for those on its right.
+  void ExchangeSides(int mechanism);
   /// Steps once; `inputs` sets those of the tick.
   void Step(const std::function<void(World*)>& inputs);
   /// Compares a mechanism's bodies with states told for now, but for those that were left out.
@@ -54,9 +61,19 @@ class SpareWorld {
     std::int64_t put = 0;  // tick
   };
 
+  void Number();
+  /// Body in which the told state of this one is put.
+  int PlaceOf(int mechanism, int body) const;
+
   World world_;
-  std::vector<std::vector<int>> bodies_;  // rebuilt for each topology, by mechanism
-  std::vector<Standing> standings_;       // rebuilt for each topology, by mechanism
+  // Rebuilt for each topology:
+  std::optional<Turns> turns_;
+  std::vector<std::vector<int>> bodies_;  // by mechanism
+  std::vector<Standing> standings_;       // by mechanism
+  std::vector<int> other_side_;           // by body: itself, or the same limb on the other side
+  // By mechanism, with `exchanged_` by its first character, which edits do not renumber.
+  std::vector<int> character_of_;
+  std::vector<char> exchanged_;
 };
 
 }  // namespace seam
