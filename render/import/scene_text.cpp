@@ -22,8 +22,6 @@ namespace {
 using Eigen::Vector2d;
 using Kind = ImportedBody::Kind;
 
-/// Farther along its axis than this no wheel comes, m.
-constexpr double kFree = 1000;
 /// A centre of mass set by hand that differs by less is the shapes', m.
 constexpr double kCentreOff = 0.01;
 
@@ -296,10 +294,8 @@ class SceneWriter {
     if (line) text += fmt::format("length = {:.9g}\n", j.length);
     if (j.kind != "hinge" && j.kind != "rope") text += SpringText(j, a, b, what);
     if (j.kind == "rope" || j.kind == "weld") return text;
-    if (j.kind == "wheel" && j.frequency <= 0 && j.stiffness <= 0 && !j.limited) {
-      // Nothing holds it along its axis, but a wheel without a spring is rigid here.
-      text += fmt::format("limits = [{0:g}, {1:g}]\n", -kFree, kFree);
-    }
+    const bool sprung = j.frequency > 0 || j.stiffness > 0;  // else a wheel would be rigid here
+    if (j.kind == "wheel" && !sprung && !j.limited) text += "limits = [-1000, 1000]\n";
     if (j.limited && j.lower <= j.upper) {
       const double low = j.kind == "distance" ? std::max(j.lower, double{kEdgeMin}) : j.lower;
       const double most = j.kind == "distance" ? 10000 : HUGE_VAL;

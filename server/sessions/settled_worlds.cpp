@@ -33,7 +33,7 @@ void SettledWorlds::Send(std::int64_t now_us) {
         if (!world.empty()) pieces = ToWorldPieces(world, now_us);
       }
       if (world.empty()) continue;  // not yet
-      owed = {owed.peer, owed.news, -1, now_us + kAgainUs, owed.news > owed.from};
+      owed = {owed.peer, owed.news, -1, now_us + kNextWorldUs, owed.news > owed.from};
       SendTo(*session, pieces);
     }
   }

@@ -41,7 +41,7 @@ class SettledWorlds {
   std::int64_t HeardUntil() const;
   void SendTo(Session& session, const std::vector<Chunk>& pieces);
 
-  static constexpr std::int64_t kAgainUs = 1000000;
+  static constexpr std::int64_t kNextWorldUs = 1000000;
 
   const Replica& replica_;
   SessionTable& sessions_;

@@ -14,7 +14,7 @@ namespace seam {
 namespace {
 
 /// The limbs of a character, left and right.
-constexpr std::array<std::pair<CharacterPart, CharacterPart>, 5> kSides = {
+constexpr std::array<std::pair<CharacterPart, CharacterPart>, 5> kLimbSides = {
     {{kUpperArmLeft, kUpperArmRight},
      {kLowerArmLeft, kLowerArmRight},
      {kUpperLegLeft, kUpperLegRight},
@@ -66,7 +66,7 @@ void SpareWorld::Number() {
     const int m = MechanismOf(world_, characters[c].parts[kTorso]);
     if (m < 0 || character_of_[static_cast<std::size_t>(m)] >= 0) continue;
     character_of_[static_cast<std::size_t>(m)] = static_cast<int>(c);
-    for (const auto& [left, right] : kSides) {
+    for (const auto& [left, right] : kLimbSides) {
       const int a = world_.BodyOfId(characters[c].parts[static_cast<std::size_t>(left)]);
       const int b = world_.BodyOfId(characters[c].parts[static_cast<std::size_t>(right)]);
       if (a < 0 || b < 0 || world_.mechanism(a) != m || world_.mechanism(b) != m) continue;

@@ -6,14 +6,14 @@
 namespace seam {
 namespace {
 
-constexpr float kTurn = 6.283185307f;
+constexpr float kWholeTurn = 6.283185307f;
 
 }  // namespace
 
 Turns::Turns(const World& world) : hinges_(static_cast<std::size_t>(world.body_count())) {
   for (const Pin& pin : world.Pins()) {
     const bool moves = pin.a.body >= 0 && pin.b.body >= 0;
-    if (!moves || !(pin.angle_upper - pin.angle_lower < kTurn)) continue;
+    if (!moves || !(pin.angle_upper - pin.angle_lower < kWholeTurn)) continue;
     const float middle = (pin.angle_lower + pin.angle_upper) / 2;
     hinges_[static_cast<std::size_t>(pin.a.body)].push_back({pin.b.body, middle});
     hinges_[static_cast<std::size_t>(pin.b.body)].push_back({pin.a.body, -middle});
@@ -37,7 +37,7 @@ void Turns::Right(const std::vector<int>& bodies, std::vector<BodyState>* states
         reached[to] = 1;
         next.push_back(to);
         const float off = (*states)[to].angle - (*states)[from].angle - hinge.middle;
-        (*states)[to].angle -= kTurn * std::round(off / kTurn);
+        (*states)[to].angle -= kWholeTurn * std::round(off / kWholeTurn);
       }
     }
   }
