@@ -95,6 +95,9 @@ void Broadcast::FindFollowers() {
 
 void Broadcast::NoteDiffering(int peer, int mechanism) {
   NoteUnsettled(mechanism);
+  const World& world = replica_.world();
+  const int body = world.BodyOfId(replica_.authority().id(mechanism));
+  if (body < 0 || world.activity(body) != Activity::kSimulated) return;  // we know no better
   if (peer > 0) return settled_worlds_.NoteDiffering(peer);
   EachSimulating(mechanism,
                  [this](const Session& each) { settled_worlds_.NoteDiffering(each.peer); });
