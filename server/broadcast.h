@@ -51,7 +51,7 @@ class Broadcast {
   void Publish(const Message& message) {
     if (publisher_.listening() && !muted_) publisher_.Publish(message);
   }
-  /// Publishes on the bus what the log has already.
+  /// Publishes on the bus a message that the log has already.
   template <class Message>
   void Repeat(const Message& message) {
     if (publisher_.listening() && !muted_) publisher_.Repeat(message);
@@ -98,7 +98,7 @@ class Broadcast {
     peer_became_ready_ = true;
     settled_worlds_.NoteReady(peer);
   }
-  /// Copies of the mechanism differ: a peer's (0: the server's) from what its authority has told.
+  /// Copies of the mechanism, a peer's or (0) the server's, differ from its authority's states.
   void NoteDiffering(int peer, int mechanism);
   /// Sends clients the world as it has settled since. To be called every tick.
   void SendSettledWorlds(std::int64_t now_us) { settled_worlds_.Send(now_us); }

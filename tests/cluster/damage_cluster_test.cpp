@@ -105,7 +105,8 @@ AuthoritySource::ReportCounts LieAboutImpacts(const char* impair, TrustMode trus
     return std::unique_ptr<Net>(
         std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
           rewritten.Rewrite(message, [velocities](States* states) {
-            if (!velocities) return;
+            // Just before she arrives: later she has the world in which it is true.
+            if (!velocities || states->tick < 75) return;
             for (auto& vx : states->vx) vx = static_cast<std::int16_t>(110 * kQuantaPerSpeed);
           });
           AnyMessage any = Decode(*message);

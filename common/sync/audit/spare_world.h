@@ -66,14 +66,13 @@ class SpareWorld {
   int PlaceOf(int mechanism, int body) const;
 
   World world_;
-  // Rebuilt for each topology:
   std::optional<Turns> turns_;
-  std::vector<std::vector<int>> bodies_;  // by mechanism
-  std::vector<Standing> standings_;       // by mechanism
-  std::vector<int> other_side_;           // by body: itself, or the same limb on the other side
-  // By mechanism, with `exchanged_` by its first character, which edits do not renumber.
-  std::vector<int> character_of_;
-  std::vector<char> exchanged_;
+  std::vector<std::vector<int>> bodies_;  // rebuilt for each topology, by mechanism
+  std::vector<Standing> standings_;       // rebuilt for each topology, by mechanism
+  // The body itself, or the same limb on the other side.
+  std::vector<int> other_side_;    // rebuilt for each topology, by body
+  std::vector<int> character_of_;  // rebuilt for each topology, by mechanism: its first one
+  std::vector<char> exchanged_;    // by character, which edits do not renumber
 };
 
 }  // namespace seam

@@ -23,7 +23,7 @@ class Turns {
     int to = -1;
     float middle = 0;  // rad, the angle of `to` less that of the body
   };
-  std::vector<std::vector<Hinge>> hinges_;  // by body
+  std::vector<std::vector<Hinge>> hinges_;  // rebuilt for each world, by body
 };
 
 }  // namespace seam
