@@ -98,6 +98,8 @@ AuthoritySource::ReportCounts LieAboutImpacts(const char* impair, TrustMode trus
   config.scene_text = kOwn;
   config.impair = impair;
   config.trust = trust;
+  // With copies at the server, and without trust, a settled world would make her lie true.
+  config.keep = !velocities;
   std::int64_t reported = 0;  // impacts
   RewrittenStates rewritten(ParseScene(kOwn, "own.toml"));
   config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
@@ -105,8 +107,7 @@ AuthoritySource::ReportCounts LieAboutImpacts(const char* impair, TrustMode trus
     return std::unique_ptr<Net>(
         std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
           rewritten.Rewrite(message, [velocities](States* states) {
-            // Just before she arrives: later she has the world in which it is true.
-            if (!velocities || states->tick < 75) return;
+            if (!velocities) return;
             for (auto& vx : states->vx) vx = static_cast<std::int16_t>(110 * kQuantaPerSpeed);
           });
           AnyMessage any = Decode(*message);
