@@ -116,10 +116,10 @@ class Replica {
   /// Corrector::TakeOver.
   BodyState TakeOver(const ExactStates& exact);
   /// Returns the newest world, of ticks `from` to `to`, that no input can change any more, for a
-  /// peer of the same edits; empty if there is none yet.
+  /// peer of the same edits; empty if there is none yet, or if this peer only displays some body.
   Bytes SettledWorld(std::int64_t from, std::int64_t to) const;
-  /// Goes on from another peer's settled world, to the last bit, if its tick can be reached: bodies
-  /// that both simulate are stepped again from there. Returns an error if it is no such world.
+  /// Goes on from another peer's settled world, to the last bit, if its tick can be reached and
+  /// this peer simulates all bodies, too. Returns an error if it is no such world.
   Status TakeWorld(ByteView settled);
   /// Calls `call(body, off)` with the difference between received states and this peer's copies,
   /// for bodies that it simulated at that tick.

@@ -1,6 +1,7 @@
 #include "server/sessions/settled_worlds.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/codec/codec.h"
 #include "common/sync/inputs/world_pieces.h"
@@ -18,27 +19,33 @@ void SettledWorlds::Owe(int peer) {
 
 void SettledWorlds::Send(std::int64_t now_us) {
   const auto due = [&](const Owed& owed) { return owed.due && now_us >= owed.at_us; };
-  if (std::any_of(owed_.begin(), owed_.end(), due)) {
-    const std::int64_t until = HeardUntil();
-    Bytes world;  // the newest: what is later than one tick is good for an earlier one
-    std::vector<Chunk> pieces;
-    std::int64_t from = -1;
-    for (Owed& owed : owed_) {
-      Session* const session = sessions_.Find(owed.peer);
-      if (session == nullptr || session->stage != SessionStage::kReady) owed.due = false;
-      if (!due(owed)) continue;
-      if (world.empty() || owed.from > from) {
-        from = owed.from;
-        world = replica_.SettledWorld(from, until);
-        if (!world.empty()) pieces = ToWorldPieces(world, now_us);
-      }
-      if (world.empty()) continue;  // not yet
-      owed = {owed.peer, owed.news, -1, now_us + kNextWorldUs, owed.news > owed.from};
-      SendTo(*session, pieces);
-    }
+  std::int64_t from = std::numeric_limits<std::int64_t>::max();
+  for (Owed& owed : owed_) {
+    Session* const session = sessions_.Find(owed.peer);
+    if (session == nullptr || session->stage != SessionStage::kReady) owed.due = false;
+    if (due(owed)) from = std::min(from, owed.from);
   }
+  if (from < std::numeric_limits<std::int64_t>::max()) SendSince(now_us, from);
   const auto over = [&](const Owed& owed) { return !owed.due && now_us >= owed.at_us; };
   owed_.erase(std::remove_if(owed_.begin(), owed_.end(), over), owed_.end());
+}
+
+/// `from`: the earliest of those that are due.
+void SettledWorlds::SendSince(std::int64_t now_us, std::int64_t from) {
+  const std::int64_t until = HeardUntil();
+  Bytes world = replica_.SettledWorld(from, until);  // the newest, so it may do for all
+  if (world.empty()) return;                         // not yet
+  std::vector<Chunk> pieces = ToWorldPieces(world, now_us);
+  for (Owed& owed : owed_) {
+    if (!owed.due || now_us < owed.at_us) continue;
+    if (owed.from > from) {
+      world = replica_.SettledWorld(owed.from, until);
+      if (world.empty()) continue;
+      from = owed.from;
+    }
+    SendTo(*sessions_.Find(owed.peer), pieces);
+    owed = {owed.peer, owed.news, -1, now_us + kNextWorldUs, owed.news > owed.from};
+  }
 }
 
 /// Who is ready again counts as absent until its first input is here; and a client may be a tick or

@@ -39,6 +39,7 @@ class SettledWorlds {
   void Owe(int peer);
   /// Returns the newest tick of which the inputs of all ready players are here.
   std::int64_t HeardUntil() const;
+  void SendSince(std::int64_t now_us, std::int64_t from);
   void SendTo(Session& session, const std::vector<Chunk>& pieces);
 
   static constexpr std::int64_t kNextWorldUs = 1000000;
