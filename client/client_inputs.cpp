@@ -63,6 +63,7 @@ bool Client::MayStep() {
 }
 
 void Client::OnWorldPiece(const Chunk& chunk) {
+  if (chunk.offset_bytes == 0) world_bytes_.clear();
   const bool next = static_cast<std::size_t>(chunk.offset_bytes) == world_bytes_.size();
   if (replica_ == nullptr || (policy_->InputsOnly() && started_) || !next) {
     ++stats_.dropped_stale;

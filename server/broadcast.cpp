@@ -97,6 +97,7 @@ void Broadcast::NoteDiffering(int peer, int mechanism) {
   NoteUnsettled(mechanism);
   const World& world = replica_.world();
   const int body = world.BodyOfId(replica_.authority().id(mechanism));
+  if (!config_.policy->SendsCompleteTicks()) return;
   if (body < 0 || world.activity(body) != Activity::kSimulated) return;  // we know no better
   if (peer > 0) return settled_worlds_.NoteDiffering(peer);
   EachSimulating(mechanism,

@@ -96,7 +96,7 @@ class Broadcast {
   /// To be called when a peer becomes ready. LookAround is due then.
   void NotePeerReady(int peer) {
     peer_became_ready_ = true;
-    settled_worlds_.NoteReady(peer);
+    if (config_.policy->SendsCompleteTicks()) settled_worlds_.NoteReady(peer);
   }
   /// Copies of the mechanism, a peer's or (0) the server's, differ from its authority's states.
   void NoteDiffering(int peer, int mechanism);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/base/geometry.h"
 #include "common/codec/quanta.h"
 #include "common/scene/mass.h"
-#include "common/stages/kinematic.h"
 #include "common/sync/reach/zones.h"
 
 namespace seam {
@@ -161,27 +161,28 @@ std::vector<int> ImpactCheck::IslandOf(int body) {
 }
 
 /// Takes the motion of around that tick: it may change from one tick to the next.
-float ImpactCheck::FastestMover(const std::vector<int>& island,
-                                const std::vector<Vec2>& frame) const {
+float ImpactCheck::FastestMover(const std::vector<int>& island, const std::vector<Vec2>& frame) {
   const Composition& composition = world_.composition();
-  const ImposedMotions movers(world_.scene(), composition);
+  if (!movers_) movers_.emplace(world_.scene(), composition);
+  if (movers_->count() == 0) return 0;
+  std::vector<std::pair<Vec2, float>> discs;  // around each body: place and reach
+  for (const int body : island) {
+    const Trail seen = trail_.Around(body, tick_, tick_);
+    if (seen.empty()) continue;
+    const BodyState& at = seen.front().state;
+    const float moves = at.velocity.norm() * world_.dt() * static_cast<float>(kTicksAround);
+    discs.emplace_back(at.position, ExtentOf(world_, body) + kNear + moves);
+  }
   float fastest = 0;
-  for (int m = 0; m < movers.count(); ++m) {
-    const auto& assembly = composition.assemblies[static_cast<std::size_t>(movers.assembly(m))];
+  for (int m = 0; m < movers_->count(); ++m) {
+    const auto& assembly = composition.assemblies[static_cast<std::size_t>(movers_->assembly(m))];
     const float extent = ExtentOf(world_, assembly);
-    const auto meets = [&](const Vec2& place) {
-      return std::any_of(island.begin(), island.end(), [&](int body) {
-        const Trail seen = trail_.Around(body, tick_, tick_);
-        if (seen.empty()) return false;
-        const float moves =
-            seen.front().state.velocity.norm() * world_.dt() * static_cast<float>(kTicksAround);
-        const float reach = extent + ExtentOf(world_, body) + kNear + moves;
-        return (seen.front().state.position - place).norm() <= reach;
-      });
-    };
     for (const std::int64_t tick : {tick_ - 1, tick_, tick_ + 1}) {
-      const BodyState at = movers.At(m, static_cast<double>(tick));
-      if (!meets(at.position)) continue;
+      const BodyState at = movers_->At(m, static_cast<double>(tick));
+      const bool meets = std::any_of(discs.begin(), discs.end(), [&](const auto& disc) {
+        return (disc.first - at.position).norm() <= disc.second + extent;
+      });
+      if (!meets) continue;
       const float turning = std::fabs(at.spin) * extent;
       fastest = std::max(fastest, LargestApart({at.velocity}, frame) + turning);
     }

@@ -8,9 +8,11 @@
 /// So the momentum that entered the whole island explains it, not that of the two bodies alone.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/physics/world.h"
+#include "common/stages/kinematic.h"
 #include "server/rules/rule_source.h"
 #include "server/rules/state_trail.h"
 
@@ -50,7 +52,7 @@ class ImpactCheck {
   bool IsNear(int body, const Vec2& point) const;
   bool Explained(const Blow& blow);
   /// Returns the greatest speed, in that frame, of parts on a path that meet the island, m/s.
-  float FastestMover(const std::vector<int>& island, const std::vector<Vec2>& frame) const;
+  float FastestMover(const std::vector<int>& island, const std::vector<Vec2>& frame);
   /// True if the struck body could not give way: another body or an anchored part is behind it, or
   /// joints hold it.
   bool IsHeld(const Blow& blow, const std::vector<int>& island) const;
@@ -61,6 +63,7 @@ class ImpactCheck {
   const StateTrail& trail_;
   const std::int64_t tick_;
   std::vector<int> island_;  // rebuilt by each check, by mechanism
+  std::optional<ImposedMotions> movers_;
 };
 
 }  // namespace seam

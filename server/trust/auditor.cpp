@@ -103,7 +103,10 @@ void Auditor::NoteEdit(const Edit& edit) {
     Forget(m);
     tracks_[m].revision = replica_.revision() + 1;
   }
+  if (credit_ < 0) spare_.reset();  // one that is built anew has all edits
   if (spare_ == nullptr) return;
+  const auto parts = static_cast<std::int64_t>(replica_.world().scene().parts.size());
+  if (edit.As<PushEdit>() == nullptr) credit_ -= kBuildSteps * parts;
   // Its controllers remember their steps, and learn from pushes that they are limp.
   for (int m = 0; edit.As<PushEdit>() == nullptr && m < tracks_.size(); ++m) Leave(m);
   spare_->Apply(edit);
@@ -320,7 +323,7 @@ void Auditor::NoteLie(int mechanism, const ToldStates::Told& told) {
   found.doubt.body = spare_->bodies(mechanism)[place];
   found.doubt.tick = told.tick;
   found.doubt.told = **first;
-  found.doubt.expected = spare_->world().Read(found.doubt.body);
+  found.doubt.expected = spare_->Stepped(mechanism, found.doubt.body);
   found.doubt.kind = track.gain.leaves_out() ? DoubtKind::kLeftOut : DoubtKind::kGain;
   found.doubt.weight =
       static_cast<float>(std::clamp(since, 0.0, 1.0)) * (track.gain.gross() ? kGrossAudited : 1);

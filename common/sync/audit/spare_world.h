@@ -48,6 +48,8 @@ class SpareWorld {
   void ExchangeSides(int mechanism);
   /// Steps once; `inputs` sets those of the tick.
   void Step(const std::function<void(World*)>& inputs);
+  /// Returns the state of the body in whose place it was put (ExchangeSides).
+  BodyState Stepped(int mechanism, int body) const { return world_.Read(PlaceOf(mechanism, body)); }
   /// Compares a mechanism's bodies with states told for now, but for those that were left out.
   /// nullopt if it has no holder, or has touched another one's.
   using ToldNow = std::vector<std::optional<BodyState>>;

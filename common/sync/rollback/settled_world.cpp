@@ -53,17 +53,18 @@ Status Replica::TakeWorld(ByteView settled) {
   if (a.ok() && a.left() > 0) a.Fail("there is more than the world");
   if (!a.ok()) return a.status();
   ApplyEdits();
-  const WorldSnapshot now = world_.Barrier();
-  const bool same = edits == revision() && world.composition == now.composition;
-  if (!same || world.joints_there != now.joints_there) return Status::Ok();  // edited since
-  if (world.bodies.size() != now.bodies.size()) {
+  if (edits != revision() || world.composition != world_.composition().hash) return Status::Ok();
+  if (world.bodies.size() != static_cast<std::size_t>(world_.body_count())) {
     return Status::Error("it has another number of bodies than its edits");
   }
   const auto joins = [&](int body) {
     return roles_.Simulates(body) && memory_.track(body).placed &&
            memory_.history().At(world.tick, body) != nullptr;
   };
-  if (drivers_.concerned().empty() || !AreAll(world_, joins)) return Status::Ok();
+  const bool reached = replay_.oldest() <= world.tick && world.tick <= tick();
+  if (!reached || drivers_.concerned().empty() || !AreAll(world_, joins)) return Status::Ok();
+  const WorldSnapshot now = world_.Keep();
+  if (world.joints_there != now.joints_there) return Status::Ok();  // edited since
   // Joints that only one of us has in its world.
   for (std::size_t j = 0; j < std::min(world.joints.size(), now.joints.size()); ++j) {
     if (world.joints[j].size() != now.joints[j].size()) world.joints[j] = now.joints[j];
@@ -74,7 +75,10 @@ Status Replica::TakeWorld(ByteView settled) {
   if (!replay_.GoOnFrom(std::make_shared<const WorldSnapshot>(world))) return Status::Ok();
   for (int body = 0; body < world_.body_count(); ++body) {
     *memory_.history().At(world.tick, body) = world.bodies[static_cast<std::size_t>(body)].state;
-    memory_.track(body).dynamic_since = world.tick;
+    BodyTrack& track = memory_.track(body);
+    track.dynamic_since = world.tick;
+    // Older states say nothing any more; a commitment to rest is newer than its states.
+    if (!track.at_rest) track.heard_tick = std::max(track.heard_tick, world.tick);
   }
   return Status::Ok();
 }
