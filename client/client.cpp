@@ -189,7 +189,7 @@ void Client::StartIfDue(std::int64_t now_us) {
   started_ = true;
   held_.GiveTo(*replica_);
   if (late) CatchUp(tick);
-  GoOnFrom(held_.GiveWorldTo(*replica_));
+  EndUnlessGood(held_.GiveWorldTo(*replica_));
   held_.Clear();
 }
 

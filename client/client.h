@@ -235,7 +235,7 @@ class Client {
   /// it was a moment ago, to be the same.
   void OnWorldPiece(const Chunk& chunk);
   void BeginWith(ByteView world);
-  void GoOnFrom(const Status& taken);
+  void EndUnlessGood(const Status& world);
   /// Where peers send inputs alone: adds the hash of a past tick, so that the server finds a world
   /// that has parted.
   void AddWorldHash(Ping* ping) const;

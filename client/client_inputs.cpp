@@ -77,12 +77,12 @@ void Client::OnWorldPiece(const Chunk& chunk) {
   } else if (!started_) {
     held_.AddWorld(world);
   } else if (!released_) {
-    GoOnFrom(replica_->TakeWorld(world));
+    EndUnlessGood(replica_->TakeWorld(world));
   }
 }
 
-void Client::GoOnFrom(const Status& taken) {
-  if (!taken.ok()) fatal_ = "cannot use the server's world: " + taken.why();
+void Client::EndUnlessGood(const Status& world) {
+  if (!world.ok()) fatal_ = "cannot use the server's world: " + world.why();
 }
 
 void Client::BeginWith(ByteView world) {
@@ -95,7 +95,7 @@ void Client::BeginWith(ByteView world) {
   MakeReplica(&replica_->world().topology());
   replica_->Persist(archive, Replica::Past::kNone);
   if (archive.ok() && archive.left() > 0) archive.Fail("there is more than the world");
-  GoOnFrom(archive.status());
+  EndUnlessGood(archive.status());
   if (!archive.ok()) return;
   for (const Inputs& inputs : came) {
     for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
