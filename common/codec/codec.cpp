@@ -306,7 +306,9 @@ std::optional<std::int64_t> SessionOf(ByteView bytes) {
 }
 
 const std::vector<MessageType>& MessageTypes() {
-#define SEAM_MESSAGE_NAME(Struct, lcm_type, ...) {#lcm_type, WireHash<Struct>()},
+#define SEAM_MESSAGE_NAME(Struct, lcm_type, ...) \
+  {#lcm_type, WireHash<Struct>(),                \
+   kHashWithoutSession<Struct> != 0 ? kHashWithoutSession<Struct> : WireHash<Struct>()},
   static const std::vector<MessageType> types = {SEAM_MESSAGES(SEAM_MESSAGE_NAME)};
 #undef SEAM_MESSAGE_NAME
   return types;

@@ -35,10 +35,11 @@ AnyMessage Decode(ByteView bytes);
 /// nullopt for other bytes.
 std::optional<std::int64_t> SessionOf(ByteView bytes);
 
-/// A message's LCM type: its name ("hello_t") and the hash at the start of its bytes.
+/// A message's LCM type: its name ("hello_t"), and the hash at the start of its bytes on the bus
+/// and on the edge. They differ where the form of the bus alone has a session.
 struct MessageType {
   const char* name;
-  std::uint64_t hash;
+  std::uint64_t hash, on_edge;
 };
 /// Returns all types that Decode knows.
 const std::vector<MessageType>& MessageTypes();

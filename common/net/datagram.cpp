@@ -1,6 +1,7 @@
 #include "common/net/datagram.h"
 
 #include "common/base/check.h"
+#include "common/codec/short_form.h"
 #include "common/net/link.h"
 #include "common/net/wire_number.h"
 
@@ -15,7 +16,7 @@ constexpr std::uint16_t kReliableBit = 0x8000;
 DatagramWriter::DatagramWriter() : data_(kDatagramHeaderBytes) { data_.reserve(kDatagramBytesMax); }
 
 void DatagramWriter::Append(const DatagramMessage& message) {
-  SEAM_ASSERT(message.bytes.size >= 1 && message.bytes.size <= kMessageBytesMax);
+  SEAM_ASSERT(message.bytes.size >= 1 && message.bytes.size <= kShortFormBytesMax);
   SEAM_ASSERT(bytes() + FramedBytes(message.bytes.size, message.reliable) <= kDatagramBytesMax);
   std::uint8_t header[4];
   PutNumber(header, message.bytes.size | (message.reliable ? kReliableBit : 0u), 2);
@@ -63,7 +64,7 @@ bool ReadMessages(ByteView plain, std::vector<DatagramMessage>* messages) {
     DatagramMessage message;
     message.reliable = (word & kReliableBit) != 0;
     const std::size_t bytes = word & (kReliableBit - 1u);
-    if (bytes < 1 || bytes > kMessageBytesMax) return false;
+    if (bytes < 1 || bytes > kShortFormBytesMax) return false;
     if (plain.size - at < FramedBytes(bytes, message.reliable)) return false;
     if (message.reliable) {
       message.id = static_cast<std::uint16_t>(GetNumber(plain.data + at + 2, 2));

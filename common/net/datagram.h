@@ -5,7 +5,7 @@
 ///   magic  session   sequence   ack   ack_bits   messages...   tag
 ///   u32    u64       u16        u16   u32                      16 bytes
 ///
-///   message:   header u16 (bit 15: reliable, bits 0..14: bytes) | [reliable id u16] | bytes
+///   message:   header u16 (bit 15: reliable, bits 0..14: bytes) | [reliable id u16] | short form
 ///
 /// All big-endian; everything from `ack` on is encrypted, everything authenticated (seal.h).
 /// docs/protocol.md is the reference.
@@ -34,7 +34,7 @@ struct DatagramHeader {
 struct DatagramMessage {
   bool reliable = false;
   std::uint16_t id = 0;  ///< reliable messages only
-  ByteView bytes;        ///< into the datagram
+  ByteView bytes;        ///< into the datagram: the short form (common/codec/short_form.h)
 };
 
 /// Returns the bytes that a message and its header take in a datagram.

@@ -64,13 +64,17 @@ class Link {
   void Flush(std::int64_t now_us, const Sink& send,
              std::size_t reliable_bytes = std::numeric_limits<std::size_t>::max());
 
-  /// Reads a datagram and calls `deliver` for each new message in it. Returns false, counts it and
-  /// delivers nothing when it does not open, is a duplicate, too old or malformed. `deliver`
-  /// may send on this link, but must neither destroy it nor call Receive.
-  bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver);
   /// Called for each good new datagram before it has any effect, with its number of messages. If it
   /// returns false, the datagram counts as lost.
   using Gate = std::function<bool(std::size_t messages)>;
+  /// Reads a datagram and calls `deliver` for each new message in it, with no bytes for one that is
+  /// no short form of a message (short_form.h). Returns false, counts it and
+  /// delivers nothing when it does not open, is a duplicate, too old or malformed. `deliver`
+  /// may send on this link, but must neither destroy it nor call Receive.
+  bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver) {
+    return Receive(
+        now_us, datagram, [](std::size_t) { return true; }, deliver);
+  }
   bool Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, const Sink& deliver);
 
   /// Returns the largest acknowledged `number` of the slot; -1 if none.

@@ -2,8 +2,10 @@
 
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "common/codec/codec.h"
+#include "common/codec/short_form.h"
 #include "common/net/loose_datagram.h"
 
 namespace seam {
@@ -27,18 +29,15 @@ std::int8_t KindOfType(const std::string& name) {
   return found == kinds.end() ? kTrafficOther : found->second;
 }
 
-/// Finds the kind by the type's hash, with which a message begins.
-std::int8_t KindOf(ByteView message) {
+/// Finds the kind of a message in its short form.
+std::int8_t KindOf(ByteView bytes) {
   static const auto kinds = [] {
-    std::unordered_map<std::uint64_t, std::int8_t> by_hash;
-    for (const MessageType& type : MessageTypes()) by_hash[type.hash] = KindOfType(type.name);
-    return by_hash;
+    std::vector<std::int8_t> by_type;
+    for (const MessageType& type : MessageTypes()) by_type.push_back(KindOfType(type.name));
+    return by_type;
   }();
-  if (message.size < 8) return kTrafficOther;
-  std::uint64_t hash = 0;
-  for (std::size_t i = 0; i < 8; ++i) hash = hash << 8 | message.data[i];
-  const auto found = kinds.find(hash);
-  return found == kinds.end() ? kTrafficOther : found->second;
+  const int type = TypeOfShortForm(bytes);
+  return type < 0 ? kTrafficOther : kinds[static_cast<std::size_t>(type)];
 }
 
 }  // namespace
@@ -62,8 +61,8 @@ void TrafficCount::AddPlain(ByteView plain, bool out) {
 
 void TrafficCount::AddLoose(ByteView datagram, bool out) {
   const bool ours = LooseNumber(datagram) != 0;
-  const std::int8_t kind = ours ? KindOf(LooseMessage(datagram)) : std::int8_t{kTrafficOther};
-  (out ? out_ : in_)[static_cast<std::size_t>(kind)] += static_cast<std::int64_t>(datagram.size);
+  const std::size_t kind = ours ? kTrafficJoining : kTrafficOther;
+  (out ? out_ : in_)[kind] += static_cast<std::int64_t>(datagram.size);
 }
 
 void TrafficCount::Write(Load* load) const {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/codec/codec.h"
+#include "common/codec/short_form.h"
 #include "common/net/link.h"
 #include "common/net/loose_datagram.h"
 #include "common/net/memory.h"
@@ -134,7 +135,7 @@ TEST(TrafficCount, CountsEveryByteByItsKindOfMessage) {
     out += load.bytes_out[i];
     in += load.bytes_in[i];
     if (load.kind[i] == kTrafficClock) {
-      EXPECT_EQ(load.bytes_out[i], static_cast<std::int64_t>(Encode(Ping{}).size()));
+      EXPECT_EQ(load.bytes_out[i], static_cast<std::int64_t>(ShortForm(Encode(Ping{})).size()));
     }
     if (load.kind[i] == kTrafficOther) {
       EXPECT_EQ(load.bytes_in[i], 30);

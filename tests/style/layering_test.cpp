@@ -60,10 +60,10 @@ const std::vector<Room>& Rooms() {
   };
   static const std::vector<Room> rooms = {
       {"common/base", {}},
-      {"common/net", {"common/base"}},
-      {"common/fleet", {"common/base", "common/net"}},
       {"seam", {}},  // generated from lcmtypes
       {"common/codec", {"common/base", "seam"}},
+      {"common/net", {"common/base", "common/codec"}},
+      {"common/fleet", {"common/base", "common/net"}},
       {"common/record", {"common/base", "common/net", "common/codec"}},
       {"common/scene", {"common/base"}},
       {"common/topology", {"common/base", "common/scene"}},

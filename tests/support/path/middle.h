@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/codec/codec.h"
+#include "common/codec/short_form.h"
 #include "common/net/datagram.h"
 #include "common/net/key_exchange.h"
 #include "common/net/loose_datagram.h"
@@ -63,10 +64,14 @@ class Middle {
     }
     *newest = std::max(*newest, number);
     std::vector<Bytes> messages;
-    for (const DatagramMessage& m : read) messages.emplace_back(m.bytes.begin(), m.bytes.end());
+    for (const DatagramMessage& m : read) {
+      messages.emplace_back();
+      if (!ReadShortForm(m.bytes, &messages.back())) return Bytes(datagram.begin(), datagram.end());
+    }
     if (change && !change(&header, &messages)) return std::nullopt;
     DatagramWriter writer;
     for (std::size_t i = 0; i < read.size(); ++i) {
+      messages[i] = ShortForm(messages[i]);
       read[i].bytes = messages[i];
       writer.Append(read[i]);
     }
