@@ -69,7 +69,10 @@ void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
       if (m < 0) continue;
       followers_[m].clear();
       table.at(m).secondaries.Each([&](int peer) { followers_[m].push_back(peer); });
-      NoteUnsettled(m);
+      const PeerSet now = table.at(m).simulators();
+      PeerSet joined = now;
+      joined.Remove(std::exchange(simulators_of_[m], now));
+      if (!joined.empty()) NoteUnsettled(m);  // new copies may differ
     }
   }
 }
@@ -217,7 +220,7 @@ void Broadcast::RequeueLost(std::int64_t now_us, Session& session) {
     const int body = newest_.has(id) ? replica_.world().BodyOfId(id) : -1;
     if (body < 0) return false;
     const int mechanism = replica_.world().mechanism(body);
-    return !Simulates(session.peer, mechanism) &&
+    return !Predicts(session.peer, mechanism) &&
            interest_.Of(session.peer, mechanism) != Relevance::kNone;
   };
   const std::int64_t late_us = LateUs(session.link.rtt_us());

@@ -38,6 +38,7 @@ class Broadcast {
         rest_audience_(replica),
         settled_worlds_(replica, sessions),
         followers_(replica.table(), AddFollowers),
+        simulators_of_(replica.table(), MechanismRule::kFresh),
         unsettled_until_(replica.table(), MechanismRule::kFresh) {}
 
   /// True if views are published and something listens to the bus.
@@ -137,7 +138,7 @@ class Broadcast {
   int ticks_per_look() const { return std::max(1, config_.tick_hz / kInterestHz); }
   /// True if there was no LookAround since an edit changed bodies: it is due then.
   bool stale() const { return looked_at_ != replica_.table().renumbered(); }
-  /// True if a peer simulates or predicts a mechanism: it then needs the inputs that move it.
+  /// True if a peer needs the inputs that move a mechanism: it may simulate or predict it.
   bool Simulates(int peer, int mechanism) const;
   /// Calls `visit(Session&)` for each ready client that simulates the mechanism, maybe more than
   /// once.
@@ -211,8 +212,8 @@ class Broadcast {
   /// True if the body's followers, too, are sent the server's states of it in the name of its
   /// silent holder.
   bool SendsToFollowers(std::int64_t now_us, int holder, int body);
-  /// True if the peer comes to the mechanism's states by itself.
-  bool Agrees(int peer, int mechanism) const;
+  /// True if the peer simulates or predicts the mechanism, and does not only display it.
+  bool Predicts(int peer, int mechanism) const;
   bool Unsettled(int mechanism) const { return replica_.tick() < unsettled_until_[mechanism]; }
   /// True if every client is sent everything: the mode does not use relevance.
   bool Plain() const { return !config_.policy->SelectsTraffic(); }
@@ -235,6 +236,7 @@ class Broadcast {
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
   bool peer_became_ready_ = true;            // a peer became ready: followers_ is out of date
   MechanismColumn<std::vector<int>> followers_;  // peers, in large rooms only
+  MechanismColumn<PeerSet> simulators_of_;       // as of the last grants
   MechanismColumn<std::int64_t> unsettled_until_;  // tick
   std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_

@@ -9,24 +9,24 @@
 
 namespace seam {
 
-bool Broadcast::Agrees(int peer, int mechanism) const {
-  if (!replica_.CopiesAgree(mechanism) || !Simulates(peer, mechanism)) return false;
+bool Broadcast::Predicts(int peer, int mechanism) const {
+  if (!Simulates(peer, mechanism)) return false;
   if (simulators_ != Policy::Simulators::kNear) return true;
   const Session* const session = sessions_.Find(peer);
-  return session != nullptr && session->player >= 0;  // a spectator predicts nothing
+  if (session == nullptr || session->player < 0) return false;  // a spectator predicts nothing
+  const std::vector<int>& own = replica_.drivers().MechanismsOf(session->player);
+  return config_.policy->CopiesAgree() || std::binary_search(own.begin(), own.end(), mechanism);
 }
 
 std::optional<Urgency> Broadcast::DueTo(int peer, const Entry& entry) const {
-  const bool has = Simulates(peer, entry.mechanism);
-  const Relevance relevance = has ? Relevance::kClose : interest_.Of(peer, entry.mechanism);
-  if (relevance == Relevance::kClose) {
-    const bool due = entry.refresh || !Agrees(peer, entry.mechanism);
+  if (Predicts(peer, entry.mechanism)) {
+    const bool due = entry.refresh || !replica_.CopiesAgree(entry.mechanism);
     if (entry.to_followers && due) return Urgency::kFollowed;
-  } else if (relevance == Relevance::kNear && entry.news >= News::kNear) {
-    return Urgency::kNear;
-  } else if (relevance == Relevance::kFar && entry.news == News::kAll) {
-    return Urgency::kFar;
+    return std::nullopt;
   }
+  const Relevance relevance = interest_.Of(peer, entry.mechanism);
+  if (relevance >= Relevance::kNear && entry.news >= News::kNear) return Urgency::kNear;
+  if (relevance == Relevance::kFar && entry.news == News::kAll) return Urgency::kFar;
   return std::nullopt;
 }
 

@@ -34,6 +34,16 @@ bool FellBetween(const BodyState& before, const BodyState& after, const Vec2& pu
   return off < 2 * kVelocityQuantum;
 }
 
+/// Returns the time after `a`, s, at which its straight path is nearest to that of `b`, which is
+/// `whole` s later; the whole time if they are parallel.
+float MeetingTime(const BodyState& a, const BodyState& b, float whole) {
+  const Vec2 apart = b.position - whole * b.velocity - a.position;
+  const Vec2 parting = b.velocity - a.velocity;
+  const float speed = parting.norm();
+  if (speed < 2 * kVelocityQuantum) return whole;
+  return std::clamp(-apart.dot(parting) / (speed * speed), 0.0f, whole);
+}
+
 }  // namespace
 
 Vec2 SpeedGained(const Vec2& acceleration, float forward) {
@@ -135,12 +145,15 @@ BodyState Snapshots::Interpolate(int body, double tick, float dt, const Vec2& gr
     const Stamped& b = ring.FromNewest(k - 1);
     const float whole = static_cast<float>(b.tick - a.tick) * dt;
     const float since = static_cast<float>(tick - static_cast<double>(a.tick)) * dt;
-    BodyState off = Minus(b.state, seam::Extrapolate(a.state, whole));
-    off.angle = WrapAngle(off.angle);
-    BodyState out = PlusScaled(seam::Extrapolate(a.state, since), off, since / whole);
-    if (FellBetween(a.state, b.state, whole * gravity)) {
-      out.position += (since * (since - whole) / 2) * gravity;
-    }
+    const bool fell = FellBetween(a.state, b.state, whole * gravity);
+    const float turned = fell ? whole : MeetingTime(a.state, b.state, whole);
+    BodyState left =
+        Minus(seam::Extrapolate(b.state, turned - whole), seam::Extrapolate(a.state, turned));
+    left.angle = WrapAngle(left.angle);
+    const BodyState& near = since < turned ? a.state : b.state;
+    const float by = since < turned ? since : since - whole;
+    BodyState out = PlusScaled(seam::Extrapolate(near, by), left, by / whole);
+    if (fell) out.position += (since * (since - whole) / 2) * gravity;
     return out;
   }
   return ring.FromNewest(ring.size() - 1).state;

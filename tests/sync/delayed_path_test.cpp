@@ -52,6 +52,34 @@ TEST(Snapshots, InterpolateAFallAlongItsParabolaAndATurnByItsSpin) {
   EXPECT_NEAR(WrapAngle(half.angle - 2.3f), 0, 1e-5f) << "not backwards, the shorter way";
 }
 
+TEST(Snapshots, InterpolateABounceAtItsPlaceHoweverLongBetweenStates) {
+  constexpr float kDt = 1 / 60.0f;
+  const BodyTable bodies(1, 0);
+  for (const int ticks : {2, 36}) {
+    for (const float share : {0.1f, 0.4f, 0.9f}) {
+      Snapshots snapshots(bodies);
+      const float whole = static_cast<float>(ticks) * kDt, blow = share * whole;
+      const auto truth = [&](float at) {
+        BodyState s;
+        s.position = Vec2(4 * std::min(at, blow) - 3 * std::max(at - blow, 0.0f), 2 * at);
+        s.velocity = Vec2(at < blow ? 4 : -3, 2);
+        s.spin = at < blow ? 1 : 5;
+        s.angle = std::min(at, blow) + 5 * std::max(at - blow, 0.0f);
+        return s;
+      };
+      snapshots.Add(0, 0, truth(0));
+      snapshots.Add(0, ticks, truth(whole));
+      for (int n = 0; n < 20; ++n) {
+        const double tick = ticks * n / 20.0;
+        const BodyState wanted = truth(static_cast<float>(tick) * kDt);
+        const BodyState shown = snapshots.Interpolate(0, tick, kDt, Vec2(0, 0));
+        EXPECT_LT((shown.position - wanted.position).norm(), 1e-4f) << ticks << " " << share;
+        EXPECT_NEAR(shown.angle, wanted.angle, 1e-4f) << ticks << " " << share;
+      }
+    }
+  }
+}
+
 TEST(DisplayDelay, CoversNearlyAllArrivalsAndMovesSlowly) {
   DisplayDelay delay(2);
   for (int i = 0; i < 90; ++i) delay.AddAge(i % 10 == 0 ? 9 : 6);
