@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kPingFastUs = 50000;      // until the room has begun
 constexpr std::int64_t kPingSettlingUs = 20000;  // then, until the clock has settled
-constexpr std::int64_t kPingSlowUs = 100000;
+constexpr std::int64_t kPingSlowUs = 250000;
 constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
 /// An unanswered ping of a quiet room is repeated after the usual round trip and this, us: after
 /// the lease nobody would know the authorities.

@@ -19,7 +19,7 @@
 namespace seam {
 
 /// Raised when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 18;
+constexpr std::int32_t kProtocolVersion = 19;
 /// Oldest version with today's messages on the bus: recordings since that version can be read.
 constexpr std::int32_t kOldestReadableProtocol = 8;
 

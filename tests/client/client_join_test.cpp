@@ -70,15 +70,15 @@ TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
   server_->Send({2, 1}, old);
   Next(10000);
   EXPECT_EQ(client_.fatal(),
-            "the server speaks protocol 2, this client speaks 18: they need the same version");
+            "the server speaks protocol 2, this client speaks 19: they need the same version");
 }
 
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksANewerOne) {
   Next(0);
-  Answer(Refusal("protocol 19 is spoken here, you speak 18"));
+  Answer(Refusal("protocol 20 is spoken here, you speak 19"));
   Next(10000);
   EXPECT_EQ(client_.fatal(),
-            "the server speaks protocol 19, this client speaks 18: they need the same version");
+            "the server speaks protocol 20, this client speaks 19: they need the same version");
 }
 
 TEST_F(ClientJoin, RetriesForThreeSecondsAfterAnyOtherRefusal) {

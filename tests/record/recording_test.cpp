@@ -236,23 +236,23 @@ TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
   Room newer = MakeRoom();
   newer.protocol = kProtocolVersion + 1;
   EXPECT_EQ(refusal(Encode(newer)),
-            file.path() + ": recorded with protocol 19; this program reads protocol 8 to 18");
+            file.path() + ": recorded with protocol 20; this program reads protocol 8 to 19");
   Room before = MakeRoom();
   before.protocol = 6;  // its bodies had ids of 16 bits
   EXPECT_EQ(refusal(Encode(before)),
-            file.path() + ": recorded with protocol 6; this program reads protocol 8 to 18");
+            file.path() + ": recorded with protocol 6; this program reads protocol 8 to 19");
   before.protocol = kOldestReadableProtocol;
   EXPECT_EQ(refusal(Encode(before)), "read") << "on the bus nothing has changed since";
   // The beginning of protocol 2's room_t: hash, utime, sequence, protocol.
   const Bytes older = {0xfc, 0x29, 0x58, 0x2c, 0x30, 0xd1, 0x35, 0x4e, 0, 0, 0, 0, 0, 0,   0,
                        1,    0,    0,    0,    0,    0,    0,    0,    2, 0, 0, 0, 2, 'r', 0};
   EXPECT_EQ(refusal(older),
-            file.path() + ": recorded with protocol 2; this program reads protocol 8 to 18");
+            file.path() + ": recorded with protocol 2; this program reads protocol 8 to 19");
   // And of protocol 3's, with 8 bytes of sequence.
   const Bytes third = {0xc7, 0xe4, 0x1b, 0x86, 0x53, 0x87, 0x67, 0xb7, 0, 0, 0, 0, 0, 0,   0, 1,
                        0,    0,    0,    0,    0,    0,    0,    0,    0, 0, 0, 3, 2, 'r', 0};
   EXPECT_EQ(refusal(third),
-            file.path() + ": recorded with protocol 3; this program reads protocol 8 to 18");
+            file.path() + ": recorded with protocol 3; this program reads protocol 8 to 19");
 }
 
 TEST(Recording, SeparatesRoomsAndCountsForeignMessages) {

@@ -282,7 +282,7 @@ TEST_F(SessionTableTest, AnotherProtocolIsRefusedWithBothVersionsWithinTheByteCr
     bob.Read(now_us_);
     EXPECT_LE(3 * bob.bytes_in, sent);
   }
-  EXPECT_EQ(bob.refusal, "protocol 18 is spoken here, you speak 2");
+  EXPECT_EQ(bob.refusal, "protocol 19 is spoken here, you speak 2");
   EXPECT_EQ(table_.count(), 0);
   EXPECT_TRUE(events_.empty());
 }
