@@ -69,10 +69,7 @@ void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
       if (m < 0) continue;
       followers_[m].clear();
       table.at(m).secondaries.Each([&](int peer) { followers_[m].push_back(peer); });
-      const PeerSet now = table.at(m).simulators();
-      PeerSet joined = now;
-      joined.Remove(std::exchange(simulators_of_[m], now));
-      if (!joined.empty()) NoteUnsettled(m);  // new copies may differ
+      NoteUnsettled(m);
     }
   }
 }

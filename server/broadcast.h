@@ -38,7 +38,6 @@ class Broadcast {
         rest_audience_(replica),
         settled_worlds_(replica, sessions),
         followers_(replica.table(), AddFollowers),
-        simulators_of_(replica.table(), MechanismRule::kFresh),
         unsettled_until_(replica.table(), MechanismRule::kFresh) {}
 
   /// True if views are published and something listens to the bus.
@@ -235,8 +234,7 @@ class Broadcast {
   std::vector<Due> due_;                     // in Relay, by peer; else empty
   std::vector<int> hearing_;                 // in Relay: peers with a non-empty due_
   bool peer_became_ready_ = true;            // a peer became ready: followers_ is out of date
-  MechanismColumn<std::vector<int>> followers_;  // peers, in large rooms only
-  MechanismColumn<PeerSet> simulators_of_;       // as of the last grants
+  MechanismColumn<std::vector<int>> followers_;    // peers, in large rooms only
   MechanismColumn<std::int64_t> unsettled_until_;  // tick
   std::vector<int> pressing_;                // peers marked by MarkForSending
   std::vector<char> presses_;                // by peer: is in pressing_

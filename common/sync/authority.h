@@ -17,13 +17,6 @@ struct AuthorityRecord {
   int authority = 0;
   std::int32_t epoch = 0;
   PeerSet secondaries;
-
-  /// Returns the peers that simulate the mechanism.
-  PeerSet simulators() const {
-    PeerSet all = secondaries;
-    all.Add(authority);
-    return all;
-  }
 };
 
 /// One entry per mechanism of the composition, by index. Initially the server has authority over

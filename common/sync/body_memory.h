@@ -74,7 +74,7 @@ class BodyMemory {
   const BodyState* ComparablePast(int body, std::int64_t tick) const;
   /// True if the mechanism touches one of another authority, or did a moment ago.
   bool Coupled(int mechanism) const;
-  /// True if a new copy, an edit or a report has changed the mechanism within kSettleS.
+  /// True if a grant, an edit or a report has changed the mechanism within kSettleS.
   bool Unsettled(int mechanism) const {
     return world_.tick() < mechanisms_[mechanism].unsettled_until;
   }

@@ -173,7 +173,7 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   queue_->Hurry(tick());
   ApplyEdits();  // the grants refer to the topology after the edits
   GrantsApplied applied = roles_.Apply(grants);
-  for (const int m : applied.joined) memory_.NoteUnsettled(m);  // new copies may differ
+  NoteDiffering({grants.mechanism});  // a new holder's or follower's copies may
   // Before activities follow the roles: the holder's last simulated states.
   for (ExactStates& exact : MakeExact(applied.let_go, 0)) released_.push_back(std::move(exact));
   // In a large room most grants that a client receives are between other peers.

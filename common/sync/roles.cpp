@@ -109,24 +109,16 @@ bool Roles::Finds(int mechanism) const {
 }
 
 GrantsApplied Roles::Apply(const Grants& grants) {
-  struct Before {
-    std::int8_t role = kRoleRemote;
-    bool had = false;  // authority
-    PeerSet simulators;
-  };
-  std::map<int, Before> all;
+  std::map<int, std::pair<std::int8_t, bool>> before;  // role, and true if it had authority
   for (const PartId id : grants.mechanism) {
     const int m = table_.IndexOf(id);
-    if (m >= 0) all[m] = {RoleOf(m), IsAuthority(m), table_.at(m).simulators()};
+    if (m >= 0) before[m] = {RoleOf(m), IsAuthority(m)};
   }
   GrantsApplied applied;
   for (const int m : table_.Apply(grants)) {
-    const Before& before = all[m];
-    if (before.role != RoleOf(m)) applied.roles.push_back(m);
-    if (before.had && !IsAuthority(m)) applied.let_go.push_back(m);
-    PeerSet joined = table_.at(m).simulators();
-    joined.Remove(before.simulators);
-    if (!joined.empty()) applied.joined.push_back(m);
+    const auto& [role, had] = before[m];
+    if (role != RoleOf(m)) applied.roles.push_back(m);
+    if (had && !IsAuthority(m)) applied.let_go.push_back(m);
   }
   return applied;
 }

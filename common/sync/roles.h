@@ -15,7 +15,6 @@ namespace seam {
 struct GrantsApplied {
   std::vector<int> let_go;  ///< mechanisms that the peer held and no longer holds
   std::vector<int> roles;   ///< mechanisms in which its role changed
-  std::vector<int> joined;  ///< mechanisms that some peer begins to simulate
 };
 
 class Roles {

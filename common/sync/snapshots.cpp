@@ -135,7 +135,8 @@ const BodyState* Snapshots::At(int body, std::int64_t tick) const {
   return nullptr;
 }
 
-BodyState Snapshots::Interpolate(int body, double tick, float dt, const Vec2& gravity) const {
+BodyState Snapshots::Interpolate(int body, double tick, float dt, const Vec2& gravity,
+                                 bool alone) const {
   const Ring& ring = rings_[body];
   SEAM_ASSERT(ring.size() > 0);
   if (tick >= static_cast<double>(ring.newest_tick())) return ring.newest();
@@ -146,7 +147,7 @@ BodyState Snapshots::Interpolate(int body, double tick, float dt, const Vec2& gr
     const float whole = static_cast<float>(b.tick - a.tick) * dt;
     const float since = static_cast<float>(tick - static_cast<double>(a.tick)) * dt;
     const bool fell = FellBetween(a.state, b.state, whole * gravity);
-    const float turned = fell ? whole : MeetingTime(a.state, b.state, whole);
+    const float turned = fell || !alone ? whole : MeetingTime(a.state, b.state, whole);
     BodyState left =
         Minus(seam::Extrapolate(b.state, turned - whole), seam::Extrapolate(a.state, turned));
     left.angle = WrapAngle(left.angle);

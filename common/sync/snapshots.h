@@ -46,12 +46,12 @@ class Snapshots {
 
   /// Returns the state of exactly this tick; nullptr if it is not kept.
   const BodyState* At(int body, std::int64_t tick) const;
-  /// Returns the state at a (fractional) tick between two kept ones: onward from the one before, to
-  /// where its path comes nearest to that back from the one after, as where a blow was, then along
-  /// that one, with what is left between the two added in proportion to time. Along a parabola
-  /// where gravity (m/s^2) alone has changed the velocity. Outside the kept range the oldest or
-  /// newest. Requires has(body).
-  BodyState Interpolate(int body, double tick, float dt, const Vec2& gravity) const;
+  /// Returns the state at a (fractional) tick between two kept ones: dead-reckoned from the one
+  /// before, with a share of its error at the one after that grows with time. A body `alone`, on
+  /// which no joint acts, goes on so until its path comes nearest to that back from the one after,
+  /// as where a blow was, then along that one. Along a parabola where gravity (m/s^2) alone has
+  /// changed the velocity. Outside the kept range the oldest or newest. Requires has(body).
+  BodyState Interpolate(int body, double tick, float dt, const Vec2& gravity, bool alone) const;
   /// Returns the common acceleration of the last two intervals between states, m/s^2. 0 if they
   /// oppose each other, if one is too large to last or too long, or if the newest state is not of
   /// `tick`.

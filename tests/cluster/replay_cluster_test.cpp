@@ -97,6 +97,9 @@ TEST(ReplayCluster, AnotherInputIsFoundInItsTick) {
     for (AnyMessage& message : tick.before) {
       auto* inputs = std::get_if<Inputs>(&message);
       if (inputs == nullptr || tick.tick < 100 || changed >= 0) continue;
+      const std::int64_t newest =
+          inputs->first_tick + static_cast<std::int64_t>(inputs->drive.size()) - 1;
+      if (newest <= tick.tick + 1) continue;  // too late, or nearly
       inputs->drive.back() = static_cast<std::int8_t>(inputs->drive.back() > 0 ? -127 : 127);
       changed = tick.tick;
     }

@@ -25,11 +25,11 @@ TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {
   s.position = Vec2(2, 0);
   snapshots.Add(0, 20, s);
   snapshots.Add(0, 15, BodyState{});
-  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 15, kDt, gravity).position.x(), 1.5f)
+  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 15, kDt, gravity, true).position.x(), 1.5f)
       << "older news is not taken";
-  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 25, kDt, gravity).position.x(), 2)
+  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 25, kDt, gravity, true).position.x(), 2)
       << "never extrapolated";
-  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 5, kDt, gravity).position.x(), 1);
+  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 5, kDt, gravity, true).position.x(), 1);
   EXPECT_FLOAT_EQ(snapshots.Extrapolate(0, 26, 1 / 60.0f, 0.5f).position.x(), 2.6f);
   EXPECT_FLOAT_EQ(snapshots.Extrapolate(0, 2000, 1 / 60.0f, 0.5f).position.x(), 5);
 }
@@ -46,7 +46,7 @@ TEST(Snapshots, InterpolateAFallAlongItsParabolaAndATurnByItsSpin) {
   s.velocity = Vec2(3, -1);
   s.angle = WrapAngle(4.6f);
   snapshots.Add(0, 30, s);
-  const BodyState half = snapshots.Interpolate(0, 15, 1 / 60.0f, gravity);
+  const BodyState half = snapshots.Interpolate(0, 15, 1 / 60.0f, gravity, true);
   EXPECT_NEAR(half.position.x(), 0.75f, 1e-5f);
   EXPECT_NEAR(half.position.y(), 4 * 0.25f - 5 * 0.0625f, 1e-5f);
   EXPECT_NEAR(WrapAngle(half.angle - 2.3f), 0, 1e-5f) << "not backwards, the shorter way";
@@ -72,7 +72,7 @@ TEST(Snapshots, InterpolateABounceAtItsPlaceHoweverLongBetweenStates) {
       for (int n = 0; n < 20; ++n) {
         const double tick = ticks * n / 20.0;
         const BodyState wanted = truth(static_cast<float>(tick) * kDt);
-        const BodyState shown = snapshots.Interpolate(0, tick, kDt, Vec2(0, 0));
+        const BodyState shown = snapshots.Interpolate(0, tick, kDt, Vec2(0, 0), true);
         EXPECT_LT((shown.position - wanted.position).norm(), 1e-4f) << ticks << " " << share;
         EXPECT_NEAR(shown.angle, wanted.angle, 1e-4f) << ticks << " " << share;
       }

@@ -45,7 +45,9 @@ PathSpeed DelayedPath::Speed(int body) const {
 BodyState DelayedPath::At(int body, double tick) const {
   const double beyond = tick - static_cast<double>(snapshots_.newest_tick(body));
   const float dt = world_.dt();
-  if (beyond <= 0) return snapshots_.Interpolate(body, tick, dt, world_.scene().gravity);
+  if (beyond <= 0) {
+    return snapshots_.Interpolate(body, tick, dt, world_.scene().gravity, !world_.Joined(body));
+  }
   const BodyState& newest = snapshots_.newest(body);
   const float seconds = std::min(static_cast<float>(beyond) * dt, kReckonShownMax);
   if (snapshots_.falls(body)) return world_.AfterFlight(body, newest, seconds);
