@@ -80,6 +80,27 @@ TEST(Reach, GrowsWithTheNumberOfMissingInputs) {
   EXPECT_EQ(later.Missing("hers"), 40);
 }
 
+TEST(Reach, ACompleteTickStaysCompleteWhenAMissingPlayersBoxComesNear) {
+  Lot lot(3);
+  lot.Heard(1, 6);
+  ASSERT_EQ(lot.Missing("hers"), 0);
+  for (int t = 0; t < 34; ++t) lot.lot.Step();
+  EXPECT_EQ(lot.Missing("hers"), 34) << "40 ticks are missing, and the first 6 did not matter";
+  EXPECT_EQ(lot.Missing("his"), 40);
+  lot.Heard(1, 2);
+  EXPECT_EQ(lot.Missing("hers"), 0) << "two ticks do not take him there";
+}
+
+TEST(Reach, APlayerMissedAnewLimitsAsFarBackAsItIsMissing) {
+  Lot lot(0.1f);
+  lot.Heard(1, 0);
+  for (int t = 0; t < 181; ++t) lot.lot.Step();
+  ASSERT_EQ(lot.Missing("hers"), 0) << "he is absent";
+  lot.lot.Step();
+  lot.Heard(1, 20);
+  EXPECT_EQ(lot.Missing("hers"), 20);
+}
+
 TEST(Reach, TheLeastHeardOfSeveralNearPlayersLimits) {
   Lot server(0.1f, -1);  // plays nobody
   server.Heard(0, 5);

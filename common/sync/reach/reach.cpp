@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
@@ -70,20 +71,26 @@ std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool 
   return BoxesOf(world, drivers, all);
 }
 
-std::vector<std::pair<int, std::int64_t>> Reach::Missing() const {
+bool Reach::WaitsFor(int player) const {
+  if (player == roles_.own_player()) return false;
   const std::int64_t now = world_.tick();
+  const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
+  const std::int64_t newest = std::max<std::int64_t>(0, track.newest());
+  if (track.newest() < 0 && now >= static_cast<std::int64_t>(kFirstInputs * config_.tick_hz)) {
+    return false;
+  }
+  const double silent = track.At(newest) == Input{} ? kSilentIdle : kSilent;
+  return newest >= now - static_cast<std::int64_t>(silent * config_.tick_hz);
+}
+
+std::vector<std::pair<int, std::int64_t>> Reach::Missing() const {
   std::vector<std::pair<int, std::int64_t>> missing;
   // Inputs of players that do not matter here arrive rarely and are not needed.
   for (const int player : drivers_.concerned()) {
+    if (!WaitsFor(player)) continue;
     const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
     const std::int64_t newest = std::max<std::int64_t>(0, track.newest());
-    if (player == roles_.own_player()) continue;
-    if (track.newest() < 0 && now >= static_cast<std::int64_t>(kFirstInputs * config_.tick_hz)) {
-      continue;
-    }
-    const double silent = track.At(newest) == Input{} ? kSilentIdle : kSilent;
-    if (newest < now - static_cast<std::int64_t>(silent * config_.tick_hz)) continue;
-    missing.emplace_back(player, std::max<std::int64_t>(0, now - newest));
+    missing.emplace_back(player, std::max<std::int64_t>(0, world_.tick() - newest));
   }
   return missing;
 }
@@ -96,12 +103,21 @@ std::int64_t Reach::LongestMissing() const {
 
 void Reach::Look() {
   const std::int64_t now = world_.tick();
+  const int revision = world_.topology().revision();
+  const std::int64_t looked =
+      std::exchange(revision_, revision) == revision ? std::min(looked_, now) : -1;
   looked_ = now;
-  for (const int m : open_) complete_[static_cast<std::size_t>(m)] = kComplete;
-  open_.clear();
+  // What was complete before; the others were at `looked`.
+  std::vector<std::pair<int, std::int64_t>> before;
+  for (const int m : std::exchange(open_, {})) {
+    std::int64_t& complete = complete_[static_cast<std::size_t>(m)];
+    before.emplace_back(m, std::exchange(complete, kComplete));
+  }
   complete_.resize(world_.composition().mechanisms.size(), kComplete);
+  const std::vector<char> waited = std::exchange(waited_, std::vector<char>(inputs_.size(), 0));
   const std::vector<std::pair<int, std::int64_t>> missing = Missing();
   if (missing.empty()) return;
+  for (const auto& [player, ticks] : missing) waited_[static_cast<std::size_t>(player)] = 1;
   const int every = std::max(config_.send_every(), BarrierEvery(config_.tick_hz));
   const float seconds = static_cast<float>(LongestMissing() + 2 * every) * world_.dt();
   // The belts of a player are a group behind the mechanisms. Groups are indexed by their place
@@ -128,18 +144,28 @@ void Reach::Look() {
   for (MovingBox& box : boxes) box.group = place(box.group);
   const std::vector<int> island =
       Components(static_cast<int>(groups.size()), MeetingGroups(boxes, seconds));
-  std::vector<std::int64_t> of_island(groups.size(), now);
+  // By island: of all missing players, and of those that are missed only since the last look, whose
+  // boxes did not count until then.
+  std::vector<std::int64_t> of_island(groups.size(), now), of_new(groups.size(), now);
   for (const auto& [player, ticks] : missing) {
     const std::int64_t complete = now - ticks;
+    const auto p = static_cast<std::size_t>(player);
+    const bool counted = p < waited.size() && waited[p] != 0;
     each_driven(player, [&](int group) {
       const auto i = static_cast<std::size_t>(island[static_cast<std::size_t>(place(group))]);
       of_island[i] = std::min(of_island[i], complete);
+      if (!counted) of_new[i] = std::min(of_new[i], complete);
     });
   }
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const std::int64_t complete = of_island[static_cast<std::size_t>(island[i])];
-    if (complete >= now || groups[i] >= mechanisms) continue;
-    complete_[static_cast<std::size_t>(groups[i])] = complete;
+    const auto its = static_cast<std::size_t>(island[i]);
+    if (of_island[its] >= now || groups[i] >= mechanisms) continue;
+    const auto was =
+        std::lower_bound(before.begin(), before.end(), std::pair(groups[i], std::int64_t{-1}));
+    const bool opened = was != before.end() && was->first == groups[i];
+    const std::int64_t least =
+        std::min(opened ? std::min(looked, was->second) : looked, of_new[its]);
+    complete_[static_cast<std::size_t>(groups[i])] = std::max(of_island[its], least);
     open_.push_back(groups[i]);
   }
 }

@@ -32,7 +32,8 @@ class Reach {
   /// Returns the greatest of those numbers; 0 if nothing is missing.
   std::int64_t LongestMissing() const;
   /// Newest input-complete tick, at most the world's; -1 before the first Look. Requires a Look
-  /// since the bodies changed.
+  /// since the bodies changed. It does not fall while the missing players stay the same: a box that
+  /// reaches the mechanism now did not reach it then.
   std::int64_t CompleteTick(int mechanism) const {
     if (looked_ < 0) return -1;  // grants may come before the first step
     return std::min(looked_, complete_[static_cast<std::size_t>(mechanism)]);
@@ -41,6 +42,9 @@ class Reach {
   std::int64_t CompleteTickOfAll() const;
 
  private:
+  /// True if this peer waits for the player's inputs.
+  bool WaitsFor(int player) const;
+
   const SyncConfig& config_;
   const World& world_;
   const Roles& roles_;
@@ -50,6 +54,8 @@ class Reach {
   std::int64_t looked_ = -1;            // tick of the last Look
   std::vector<std::int64_t> complete_;  // rebuilt by Look, by mechanism; kComplete: all
   std::vector<int> open_;               // mechanisms with missing inputs
+  std::vector<char> waited_;            // by player: counted at the last Look
+  int revision_ = -1;                   // of the bodies at the last Look
 };
 
 /// Returns the box of a body, without acceleration.
