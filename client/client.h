@@ -326,8 +326,7 @@ class Client {
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
-  std::int64_t worst_late_us_ = 0;
-  std::int64_t late_us_ = 0;  // worst lateness of this call's ticks
+  std::int64_t worst_late_us_ = 0, late_us_ = 0;  // worst of all ticks, and of this call's
   LoadMeter load_;
   std::int64_t sessions_ = 0;  // that became ready
   std::int64_t corrections_ = 0;
@@ -337,6 +336,7 @@ class Client {
   InputFeed feed_;
   SendCredit credit_;        // for the path to the server
   bool line_ready_ = false;  // in this call of Tick
+  std::vector<std::pair<std::int64_t, Bytes>> unsent_;  // states that the path did not carry yet
   double offered_bytes_ = 0;
   std::int64_t offered_us_ = -1;
   std::int16_t line_permille_ = -1;

@@ -55,6 +55,7 @@ void Client::Forget(std::int64_t now_us) {
   link_.reset();
   unpacker_.reset();
   packer_.reset();
+  unsent_.clear();
   replica_.reset();
   scene_.reset();
   snapshot_.reset();

@@ -1,6 +1,7 @@
 /// Client: sends to the server, no faster than the path carries.
 
 #include <algorithm>
+#include <utility>
 
 #include "client/client.h"
 #include "client/goodbye.h"
@@ -13,14 +14,19 @@ bool Client::LineReady(std::int64_t now_us) {
   return credit_.Ready();
 }
 
-/// States that the path cannot carry now are left out, as if they were lost: newer ones follow.
+/// States that the path cannot carry now wait for the next tick in which it can, unless newer ones
+/// follow: on a thin line those ticks may never be ticks of a send.
 void Client::SendStates(std::int64_t now_us) {
   for (const std::int64_t number : link_->TakeAckedNumbers()) packer_->Acknowledge(number);
   for (const States& states : replica_->TakeStates()) packer_->Add(states);
+  if (!packer_->empty()) unsent_.clear();
   for (const StatesPacker::Message& message : packer_->Take(now_us)) {
-    const Bytes bytes = Encode(message.packed);
-    offered_bytes_ += static_cast<double>(bytes.size());
-    if (line_ready_) link_->SendUnreliable(bytes, {{kListedSlot, message.number}});
+    unsent_.emplace_back(message.number, Encode(message.packed));
+    offered_bytes_ += static_cast<double>(unsent_.back().second.size());
+  }
+  if (!line_ready_) return;
+  for (const auto& [number, bytes] : std::exchange(unsent_, {})) {
+    link_->SendUnreliable(bytes, {{kListedSlot, number}});
   }
 }
 
