@@ -185,6 +185,8 @@ void Broadcast::RefreshDistant(std::int64_t now_us, Session& session) {
   int& next = session.send_queue.nothing;
   int told = 0;
   std::vector<int> resting;
+  // On a thin line grants wait for what was queued before them: poses at rest only fill gaps.
+  const bool gap = now_us - session.link.SentUntilUs(now_us) <= 1000000 / kInterestHz;
   for (int i = 0; i < std::min(kLookedAtMost, mechanisms) && told < kEach; ++i) {
     if (next + 1 >= mechanisms) {
       if (now_us - session.send_queue.distant_round_us < kDistantEveryUs) break;
@@ -192,7 +194,7 @@ void Broadcast::RefreshDistant(std::int64_t now_us, Session& session) {
       next = -1;
     }
     ++next;
-    const bool owed = rest_audience_.IsPendingFor(session.peer, next);
+    const bool owed = gap && rest_audience_.IsPendingFor(session.peer, next);
     if (owed) resting.push_back(next);
     told += owed ? 1 : 0;
     if (interest_.Of(session.peer, next) != Relevance::kNone) continue;
