@@ -1,6 +1,8 @@
 #include "server/trust/strikers.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/physics/part_places.h"
@@ -12,6 +14,8 @@ namespace {
 
 /// Most that a collision gives, in speeds of the striker: a heavy elastic one.
 constexpr float kMostThrown = 2;
+/// Moments before and after now at which the motion of a part on a path is looked at, each.
+constexpr int kMoverLooks = 10;
 
 }  // namespace
 
@@ -22,7 +26,7 @@ void Strikers::Look() {
   const int revision = world_.topology().revision();
   if (looked_ == world_.tick() && revision_ == revision) return;
   looked_ = world_.tick();
-  revision_ = revision;
+  if (std::exchange(revision_, revision) != revision) movers_.reset();
   const Composition& c = world_.composition();
   std::vector<MovingBox> boxes;
   for (int body = 0; body < world_.body_count(); ++body) {
@@ -47,6 +51,36 @@ void Strikers::Look() {
     fastest_[own].Note(world_.mechanism(body), speed);
     momentum_[own] += world_.mass(body) * speed;
     mass_[own] += world_.mass(body);
+  }
+  AddMovers(boxes);
+}
+
+/// A mover joins no islands: it may be as large as the scene. Each counts as an own mechanism, with
+/// its greatest speed of that time.
+void Strikers::AddMovers(const std::vector<MovingBox>& boxes) {
+  const Composition& c = world_.composition();
+  if (!movers_) movers_.emplace(world_.scene(), c);
+  const double reach = kSeconds / world_.dt();
+  for (int m = 0; m < movers_->count(); ++m) {
+    const float extent =
+        ExtentOf(world_, c.assemblies[static_cast<std::size_t>(movers_->assembly(m))]);
+    float speed = 0;
+    Eigen::AlignedBox2f swept;
+    for (int i = -kMoverLooks; i <= kMoverLooks; ++i) {
+      const double tick = static_cast<double>(world_.tick()) + reach * i / kMoverLooks;
+      const BodyState at = movers_->At(m, tick);
+      speed = std::max(speed, at.velocity.norm() + extent * std::fabs(at.spin));
+      swept.extend(at.position);
+    }
+    // Between two looks it goes farther than both.
+    const float margin = extent + speed * kSeconds / kMoverLooks;
+    swept.min() -= Vec2::Constant(margin);
+    swept.max() += Vec2::Constant(margin);
+    for (const MovingBox& box : boxes) {
+      if (!swept.intersects(Eigen::AlignedBox2f(box.min, box.max))) continue;
+      fastest_[static_cast<std::size_t>(island_[static_cast<std::size_t>(box.group)])].Note(
+          static_cast<int>(c.mechanisms.size()) + m, speed);
+    }
   }
 }
 

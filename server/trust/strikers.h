@@ -2,14 +2,19 @@
 /// Bounds what collisions can have done to a body: by the speeds and masses of all bodies that it
 /// may have met within kSeconds, directly or through others (its island).
 ///
-///   speed after a collision  <=  v + 2 max v_i        v_i: speeds of the island's other mechanisms
+///   speed after a collision  <=  v + 2 max v_i        v_i: speeds of the island's other
+///   mechanisms,
+///                                                     and of parts on a path that may meet it
 ///   force on a joint         <=  2 sum m_i v_i / h + weight      h: duration of a substep
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/physics/world.h"
+#include "common/stages/kinematic.h"
+#include "common/sync/reach/zones.h"
 
 namespace seam {
 
@@ -28,6 +33,8 @@ class Strikers {
 
  private:
   void Look();
+  /// Adds the speeds of parts on a path (ImposedMotions) to the islands that they may meet.
+  void AddMovers(const std::vector<MovingBox>& boxes);
 
   const World& world_;
   const std::function<float(int)> speed_of_;
@@ -41,6 +48,7 @@ class Strikers {
     void Note(int its, float its_speed);
   };
   std::vector<Fastest> fastest_;  // by island
+  std::optional<ImposedMotions> movers_;  // of that revision
   std::vector<float> momentum_, mass_;
 };
 
