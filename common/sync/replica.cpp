@@ -110,7 +110,7 @@ void Replica::RecordInputs(const Inputs& inputs) {
   std::int64_t wrong = -1;
   for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
     const std::int64_t t = inputs.first_tick + static_cast<std::int64_t>(i);
-    if (t > tick() || track.knows(t)) continue;
+    if (t <= taken_tick_ || t > tick() || track.knows(t)) continue;
     late.push_back(t);
     const Input is{inputs.drive[i], inputs.lift[i], inputs.buttons[i]};
     if (wrong < 0 && !(track.At(t) == is)) wrong = t;

@@ -302,6 +302,8 @@ class Replica {
   std::vector<int> pressed_now_;                     // by player
   std::vector<int> pressed_missed_;                  // by player: presses that came too late for a
                                                      // replay
+  std::int64_t taken_tick_ = -1;                     // of the last world taken: the inputs until
+                                                     // then have acted in it
   std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
   std::vector<Awaited> awaited_;                     // pending proposals; only if this peer rolls
                                                      // back

@@ -73,6 +73,7 @@ Status Replica::TakeWorld(ByteView settled) {
   if (!good.ok()) return good;
   SEAM_ASSERT(world_.Restore(now).ok());
   if (!replay_.GoOnFrom(std::make_shared<const WorldSnapshot>(world))) return Status::Ok();
+  taken_tick_ = world.tick;
   for (int body = 0; body < world_.body_count(); ++body) {
     *memory_.history().At(world.tick, body) = world.bodies[static_cast<std::size_t>(body)].state;
     BodyTrack& track = memory_.track(body);

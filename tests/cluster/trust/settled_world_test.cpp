@@ -237,5 +237,38 @@ TEST_F(SettledWorldOfReplicas, IsRefusedOrHarmlessWhereAByteIsWrong) {
   EXPECT_FALSE(replicas_.at(2).TakeWorld(Bytes()).ok());
 }
 
+/// Ann's button kicks his sledge, which his client has. It hears of it only after it was given a
+/// world in which the kick has acted.
+TEST(SettledWorld, APressFromBeforeItThatIsHeardAfterItDoesNotActAgain) {
+  std::string text = kTower;
+  const std::string of = "vehicle = \"hers\"\n";
+  text.insert(text.find(of), "actions = [{button = 0, part = \"his\", impulse = [0, 8]}]\n");
+  WiredReplicas replicas(ParseScene(text, "kick.toml"), MakeSyncConfig("buffer", "rollback"), 3,
+                         [](int peer, std::int64_t tick) {
+                           const bool pressed = peer == 1 && tick >= 60 && tick < 64;
+                           return Input{0, 0, static_cast<std::int16_t>(pressed ? 1 : 0)};
+                         });
+  replicas.states_flow = false;
+  replicas.held_up = [&](int from, int to) {
+    return from == 1 && to == 2 && replicas.at(0).tick() >= 55 && replicas.at(0).tick() < 85;
+  };
+  replicas.StepTo(80);
+  const Bytes world = replicas.at(0).SettledWorld(65, 76);
+  ASSERT_FALSE(world.empty());
+  EXPECT_NE(replicas.Read(0, "his").velocity.y(), replicas.Read(2, "his").velocity.y());
+  ASSERT_TRUE(replicas.at(2).TakeWorld(world).ok());
+  float highest[3] = {};
+  while (replicas.at(0).tick() < 150) {
+    replicas.Step();
+    for (const int peer : {0, 2}) {
+      const float height = replicas.Read(peer, "his").position.y();
+      highest[peer] = std::max(highest[peer], replicas.at(0).tick() > 84 ? height : 0);
+    }
+  }
+  EXPECT_GT(highest[0], 0.8f) << "it is kicked";
+  EXPECT_EQ(highest[2], highest[0]) << "and once";
+  EXPECT_EQ(replicas.Read(2, "his").position.x(), replicas.Read(0, "his").position.x());
+}
+
 }  // namespace settled_world_test
 }  // namespace seam
