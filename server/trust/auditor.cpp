@@ -63,6 +63,7 @@ void Auditor::NoteRenumbered() {
   if (spare_ != nullptr && spare_->world().composition().hash != world.composition().hash) {
     spare_.reset();
   }
+  watched_.clear();
   active_.clear();
   draw_at_ = 0;
   place_.assign(static_cast<std::size_t>(world.body_count()), 0);
@@ -171,7 +172,7 @@ void Auditor::Work() {
   worked_ = now;
   const int tick_hz = replica_.world().scene().solver.tick_hz;
   credit_ = std::min<std::int64_t>(kStepsPerS, credit_ + kStepsPerS / tick_hz);
-  surroundings_.AfterTick(active_);
+  surroundings_.AfterTick(watched_);
   if (now >= draw_at_) Draw();
   if (active_.empty() || credit_ < 0) return;
   if (spare_ == nullptr) Build();
@@ -197,8 +198,13 @@ void Auditor::StepOnce() {
   counts_.steps += steps;
   credit_ -= steps;
   // Visit may add some.
-  for (std::size_t i = 0; i < active_.size(); ++i) Visit(active_[i], tick);
-  const auto idle = [this](int m) { return tracks_[m].since < 0 && tracks_[m].told.empty(); };
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (tracks_[active_[i]].drawn) Visit(active_[i], tick);
+  }
+  const auto idle = [this](int m) {
+    const Track& track = tracks_[m];
+    return track.since < 0 && (!track.drawn || track.told.empty());
+  };
   const auto end = std::remove_if(active_.begin(), active_.end(), [&](int m) {
     if (idle(m)) tracks_[m].active = false;
     return idle(m);
@@ -231,6 +237,8 @@ void Auditor::Visit(int mechanism, std::int64_t tick) {
     if (track.step_since < 0 || tick - track.step_since < Seconds(kStepKnownS)) gain.reset();
   }
   if (due) {
+    // Without the forces of its contacts, which are not told, it moves otherwise at first.
+    if (track.from == track.since) gain.reset();
     Compare(mechanism, *told, gain);
     track.due = tick + Seconds(random_.Uniform(kPutAfterS, kPutWithinS));
   }

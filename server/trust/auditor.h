@@ -96,6 +96,7 @@ class Auditor {
   void NoteRenumbered();
   int Seconds(double s) const;
   bool Asleep(int mechanism) const;
+  bool Moves(int mechanism) const;
 
   const Replica& replica_;
   Random random_;
@@ -106,6 +107,7 @@ class Auditor {
   std::vector<std::size_t> size_;       // rebuilt at edits, by mechanism: number of bodies
   std::vector<char> characters_;        // rebuilt at edits, by mechanism: has an active character
   std::unique_ptr<SpareWorld> spare_;   // null: to be built
+  std::vector<int> watched_;            // mechanisms of clients that moved at the last draw
   std::vector<int> active_;             // mechanisms that are told of, or in the spare world
   std::vector<int> players_;            // their clients'
   std::vector<char> driven_by_others_;  // rebuilt by Draw, by mechanism

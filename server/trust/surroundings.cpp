@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <utility>
 
 #include "common/scene/mechanism_ids.h"
 #include "common/sync/quantize.h"
@@ -15,6 +16,9 @@ namespace {
 /// No client is thought to be later than this, s: what it does with others' bodies is not audited
 /// meanwhile.
 constexpr float kLagMostS = 1;
+
+/// Old looks are dropped at each of so many: reaches are larger until then, which no result shows.
+constexpr std::int64_t kLooksToDrop = 5;
 
 /// Side of a cell, and the greatest extent and way within kLagMostS of bodies that are only looked
 /// at in the cells of others, m.
@@ -68,6 +72,7 @@ void Surroundings::Forget() {
   first_ = newest_ = -1;
   trails_.assign(c.mechanisms.size(), Trail());
   reach_.assign(c.mechanisms.size(), Box());
+  seen_.clear();
   large_.assign(static_cast<std::size_t>(world.body_count()), 0);
   for (int body = 0; body < world.body_count(); ++body) {
     const int assembly = c.assembly_of_part[static_cast<std::size_t>(world.id(body))];
@@ -96,7 +101,12 @@ void Surroundings::Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tic
   look.place.extend(place);
   look.velocity.extend(state.velocity);
   trail.newest = std::max(trail.newest, number);
-  reach_[mechanism].extend(Swept(place, Box(state.velocity), kLagMostS));
+  Widen(mechanism, Swept(place, Box(state.velocity), kLagMostS));
+}
+
+void Surroundings::Widen(std::size_t mechanism, const Box& places) {
+  if (reach_[mechanism].isEmpty()) seen_.push_back(static_cast<int>(mechanism));
+  reach_[mechanism].extend(places);
 }
 
 void Surroundings::NoteTold(const States& states) {
@@ -112,26 +122,29 @@ void Surroundings::NoteTold(const States& states) {
   }
 }
 
-void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
-  const World& world = replica_.world();
-  if (world.tick() % kEvery != 0) return;
-  // A lag that was worse a while ago counts less and less.
-  for (std::int64_t& lag : lag_) lag = std::max<std::int64_t>(0, lag - 1);
-  const std::int64_t oldest = world.tick() / kEvery - static_cast<std::int64_t>(kLooks);
-  for (std::size_t m = 0; m < trails_.size(); ++m) {
+void Surroundings::DropOldLooks() {
+  const std::int64_t oldest = replica_.world().tick() / kEvery - static_cast<std::int64_t>(kLooks);
+  for (const int seen : std::exchange(seen_, {})) {
+    const auto m = static_cast<std::size_t>(seen);
     Trail& trail = trails_[m];
-    if (reach_[m].isEmpty()) continue;
     reach_[m].setEmpty();
     if (trail.newest <= oldest) trail = Trail();
     if (trail.newest < 0) continue;
     for (auto* const looks : {&trail.told, &trail.had}) {
       for (Look& look : *looks) {
         if (look.number <= oldest) look = Look();
-        if (look.number < 0) continue;
-        reach_[m].extend(Swept(look.place, look.velocity, kLagMostS));
+        if (look.number >= 0) Widen(m, Swept(look.place, look.velocity, kLagMostS));
       }
     }
   }
+}
+
+void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
+  const World& world = replica_.world();
+  if (world.tick() % kEvery != 0) return;
+  // A lag that was worse a while ago counts less and less.
+  for (std::int64_t& lag : lag_) lag = std::max<std::int64_t>(0, lag - 1);
+  if (world.tick() % (kEvery * kLooksToDrop) == 0) DropOldLooks();
   Cells cells;
   for (const int m : mechanisms) {
     EachIdOf(world.composition(), m, [&](PartId id) {
@@ -144,7 +157,7 @@ void Surroundings::AfterTick(const std::vector<int>& mechanisms) {
   }
   for (int body = 0; !mechanisms.empty() && body < world.body_count(); ++body) {
     const BodyState state = world.Read(body);
-    const bool fast = state.velocity.norm() * kLagMostS > kSmall;
+    const bool fast = state.velocity.squaredNorm() * kLagMostS * kLagMostS > kSmall * kSmall;
     const bool large = large_[static_cast<std::size_t>(body)] != 0;
     if (!fast && !large && !cells.Has(state.position)) continue;
     Note(&Trail::had, world.tick(), body, state);

@@ -32,7 +32,7 @@ class Surroundings {
   bool EachNear(int mechanism, std::int64_t from, std::int64_t to, const Visit& visit) const {
     const Box own = PlacesOf(mechanism, from, to);
     if (own.isEmpty() || newest_ < to || first_ > from) return false;
-    for (int other = 0; other < static_cast<int>(trails_.size()); ++other) {
+    for (const int other : seen_) {
       if (other != mechanism && MayTouch(own, mechanism, other, from, to)) visit(other);
     }
     return true;
@@ -55,6 +55,8 @@ class Surroundings {
   };
 
   void Forget();
+  void Widen(std::size_t mechanism, const Box& places);
+  void DropOldLooks();
   void Note(std::array<Look, kLooks> Trail::*looks, std::int64_t tick, int body,
             const BodyState& state);
   Box PlacesOf(int mechanism, std::int64_t from, std::int64_t to) const;
@@ -65,6 +67,7 @@ class Surroundings {
   const Replica& replica_;
   std::vector<Trail> trails_;              // rebuilt at edits, by mechanism
   std::vector<Box> reach_;  // rebuilt at edits, by mechanism: everything that it may have been in
+  std::vector<int> seen_;   // mechanisms with looks: those with a reach
   std::vector<char> large_;                // rebuilt at edits, by body: looked at wherever it is
   std::vector<std::int64_t> heard_, lag_;  // by peer: newest tick told of; greatest lag of late
   std::int64_t first_ = -1, newest_ = -1;  // ticks of the looks

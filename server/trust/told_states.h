@@ -23,6 +23,8 @@ class ToldStates {
   /// Drops the ticks before this one.
   void DropBefore(std::int64_t tick);
   bool empty() const { return told_.empty(); }
+  /// Newest tick that is not dropped; -1: none.
+  std::int64_t newest() const { return told_.empty() ? -1 : told_.back().tick; }
   /// Goes on to a tick, later than the last one; returns what was told for it, until the next call.
   /// nullptr: nothing. After a pause of more than `longest` ticks it begins anew.
   const Told* GoTo(std::int64_t tick, std::int64_t longest);
