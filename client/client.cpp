@@ -114,9 +114,8 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
   }
   std::int64_t every_us = clock_.settled() ? kPingSlowUs : kPingSettlingUs;
   if (!timeline_.known()) every_us = kPingFastUs;
-  if (Quiet()) {
-    every_us = PongOverdue(now_us) ? kPingAgainUs : kPingQuietUs;
-  }
+  if (Quiet()) every_us = kPingQuietUs;
+  if (PongOverdue(now_us)) every_us = std::min(every_us, kPingAgainUs);
   link_->SetQuiet(Quiet());
   if (now_us - last_ping_us_ >= every_us) {
     last_ping_us_ = now_us;

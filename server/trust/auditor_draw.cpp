@@ -14,12 +14,9 @@ constexpr double kDrawS = 0.5;
 /// A client with this share of a lie is drawn again.
 constexpr double kMayLie = 0.2;
 /// Bodies of clients that take turns which are followed at a time: at least, and one for so many
-/// clients. They cost about 3 % of what the server does for these clients. More find gross lies of
-/// many clients sooner; fewer do not follow a car and its surroundings.
-constexpr std::int64_t kTurnBodiesLeast = 12, kClientsForBody = 3;
-/// Nobody takes turns while no more bodies of clients move: cars that collide are compared only if
-/// all that they met is followed.
-constexpr std::int64_t kAllBodies = 24;
+/// clients. More find lies of many clients sooner and cost more; with fewer, cars that collide are
+/// seldom compared, since all that they met must be followed too.
+constexpr std::int64_t kTurnBodiesLeast = 24, kClientsForBody = 3;
 
 }  // namespace
 
@@ -58,16 +55,12 @@ void Auditor::Draw() {
   }
   std::vector<Candidate> all;
   PeerSet holders;
-  std::int64_t moving = 0;
   watched_.clear();
   for (int m = 0; m < table.count(); ++m) {
     const int peer = table.at(m).authority;
     if (peer <= 0) continue;
     holders.Add(peer);
-    if (Moves(m)) {
-      watched_.push_back(m);
-      moving += static_cast<std::int64_t>(size_[static_cast<std::size_t>(m)]);
-    }
+    if (Moves(m)) watched_.push_back(m);
     all.push_back({0, peer, driven[static_cast<std::size_t>(m)] == 0, m});
     const bool may_lie = Moves(m) && tracks_[m].peer == peer && tracks_[m].gain.share() > kMayLie;
     if (may_lie) order[static_cast<std::size_t>(peer)] = -1;
@@ -80,9 +73,7 @@ void Auditor::Draw() {
   const Solver& solver = replica_.world().scene().solver;
   const std::int64_t most = kStepsPerS / (solver.tick_hz * solver.substeps);
   const std::int64_t by_turns =
-      moving <= kAllBodies
-          ? kAllBodies
-          : std::max(kTurnBodiesLeast, std::int64_t{holders.size()} / kClientsForBody);
+      std::max(kTurnBodiesLeast, std::int64_t{holders.size()} / kClientsForBody);
   std::int64_t bodies = 0, of_turns = 0;
   std::vector<char> in(driven.size(), 0);
   players_.clear();

@@ -155,7 +155,7 @@ TEST(Audit, ManyClientsTakeTurns) {
   ClusterConfig config = LargeRoom(1);
   config.drive = Drive::kBot;
   const HonestOutcome outcome = RunHonest(config, false);
-  constexpr std::int64_t kTicks = 12 * 60, kBodies = 12;
+  constexpr std::int64_t kTicks = 12 * 60, kBodies = 24;
   EXPECT_GT(outcome.audited, 100);
   EXPECT_LT(outcome.steps, 3 * kBodies * kTicks / 2);
   EXPECT_LT(outcome.audit, 0.5) << "of a lie: a turn that begins is no gain";
