@@ -92,16 +92,22 @@ TEST(ReplayCluster, AnotherInputIsFoundInItsTick) {
   config.duration_s = 4;
   Play(config, file.path());
   LoggedRoom logged = ReadLoggedRoom(file.path(), "");
-  std::int64_t changed = -1;
+  // In each message of the one who drives that repeats it.
+  std::int64_t changed = -1, at = -1;
   for (TickMessages& tick : logged.ticks) {
     for (AnyMessage& message : tick.before) {
       auto* inputs = std::get_if<Inputs>(&message);
-      if (inputs == nullptr || tick.tick < 100 || changed >= 0) continue;
-      const std::int64_t newest =
-          inputs->first_tick + static_cast<std::int64_t>(inputs->drive.size()) - 1;
-      if (newest <= tick.tick + 1) continue;  // too late, or nearly
-      inputs->drive.back() = static_cast<std::int8_t>(inputs->drive.back() > 0 ? -127 : 127);
-      changed = tick.tick;
+      if (inputs == nullptr || inputs->player != 0 || tick.tick < 100) continue;
+      const auto count = static_cast<std::int64_t>(inputs->drive.size());
+      if (changed < 0) {
+        if (inputs->first_tick + count - 1 <= tick.tick + 1) continue;  // too late, or nearly
+        changed = tick.tick;
+        at = inputs->first_tick + count - 1;
+      }
+      const std::int64_t i = at - inputs->first_tick;
+      if (i < 0 || i >= count) continue;
+      std::int8_t& drive = inputs->drive[static_cast<std::size_t>(i)];
+      drive = static_cast<std::int8_t>(drive > 0 ? -127 : 127);
     }
   }
   ASSERT_GT(changed, 0);
