@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "common/base/check.h"
@@ -16,6 +17,8 @@ using Is = KeyCondition::Is;
 
 /// Time between two looks of Watch, ms.
 constexpr int kWatchMs = 200;
+/// Most writes with which one room is taken: its epoch, holder, standby, spec and state.
+constexpr std::size_t kTakeWritesMost = 5;
 
 bool SameKeys(const std::vector<KeyValue>& a, const std::vector<KeyValue>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
@@ -104,15 +107,23 @@ Status Directory::Register(const FleetServer& me) {
   }
   if (!status.ok()) lease_ = 0;
   if (status.ok()) me_ = me;
+  if (status.ok() && renewed_us_ == 0) renewed_us_ = SteadyClockUs();
   return status;
 }
 
 Status Directory::Renew(bool* kept) {
   *kept = false;
   if (lease_ == 0) return Status::Ok();
+  const std::int64_t now_us = SteadyClockUs();
   const Status status = store_->KeepAlive(lease_, kept);
   if (status.ok() && !*kept) lease_ = 0;
+  if (status.ok() && *kept) renewed_us_ = now_us;
   return status;
+}
+
+Status Directory::RenewIfDue(bool* kept) {
+  *kept = lease_ != 0;
+  return SteadyClockUs() - renewed_us_ < kRenewUs ? Status::Ok() : Renew(kept);
 }
 
 std::string Directory::RoomKey(const std::string& room, const char* what) const {
@@ -163,42 +174,75 @@ Status Directory::TakeFrom(const FleetRoom& room, std::int32_t* epoch) {
 
 Status Directory::Claim(const std::string& room, const std::string& spec, std::int32_t least,
                         std::int32_t* epoch) {
-  return Take(room, &spec, least, epoch);
+  std::vector<std::int32_t> epochs;
+  const Status status = ClaimAll({room}, spec, "", least, &epochs);
+  *epoch = status.ok() ? epochs.front() : 0;
+  return status;
+}
+
+Status Directory::ClaimAll(const std::vector<std::string>& rooms, const std::string& spec,
+                           const std::string& state, std::int32_t least,
+                           std::vector<std::int32_t>* epochs) {
+  epochs->assign(rooms.size(), 0);
+  FleetListing listing;
+  Status status = List(&listing);
+  std::map<std::string, const FleetRoom*> known;
+  for (const FleetRoom& room : listing.rooms) known[room.name] = &room;
+  for (std::size_t r = 0; status.ok() && r < rooms.size();) {
+    Change change;
+    change.conditions.push_back({prefix_ + "servers/" + me_.id, Is::kPresent, "", 0});
+    std::vector<std::int32_t> next;
+    for (; r < rooms.size() && change.writes.size() + kTakeWritesMost <= store_->writes_most();
+         ++r) {
+      const auto found = known.find(rooms[r]);
+      status = AddTake(rooms[r], found == known.end() ? nullptr : found->second, least,
+                       &next.emplace_back(), &change);
+      if (!status.ok()) return status;
+      change.writes.push_back({RoomKey(rooms[r], "spec"), spec, 0});
+      if (!state.empty()) change.writes.push_back({RoomKey(rooms[r], "state"), state, 0});
+    }
+    bool done = false, kept = false;
+    status = store_->Commit(change.conditions, change.writes, &done);
+    if (!status.ok() || !done) return status;
+    std::copy(next.begin(), next.end(),
+              epochs->begin() + static_cast<std::ptrdiff_t>(r - next.size()));
+    if (r < rooms.size()) status = RenewIfDue(&kept);
+  }
+  return status;
 }
 
 Status Directory::TakeOver(const std::string& room, std::int32_t least, std::int32_t* epoch) {
-  return Take(room, nullptr, least, epoch);
-}
-
-Status Directory::Take(const std::string& room, const std::string* spec, std::int32_t least,
-                       std::int32_t* epoch) {
-  SEAM_ASSERT(IsName(room) && least >= 1);
   *epoch = 0;
   FleetListing listing;
-  const Status status = List(&listing);
+  Status status = List(&listing);
   if (!status.ok()) return status;
-  const FleetRoom* const known = listing.FindRoom(room);
+  Change change;
+  std::int32_t next = 0;
+  status = AddTake(room, listing.FindRoom(room), least, &next, &change);
+  if (!status.ok()) return status;
+  change.conditions.push_back({prefix_ + "servers/" + me_.id, Is::kPresent, "", 0});
+  change.conditions.push_back({RoomKey(room, "spec"), Is::kPresent, "", 0});
+  bool done = false;
+  status = store_->Commit(change.conditions, change.writes, &done);
+  if (status.ok() && done) *epoch = next;
+  return status;
+}
+
+Status Directory::AddTake(const std::string& room, const FleetRoom* known, std::int32_t least,
+                          std::int32_t* epoch, Change* change) const {
+  SEAM_ASSERT(IsName(room) && least >= 1);
   const std::int32_t last = known == nullptr ? 0 : known->epoch;
   if (last == std::numeric_limits<std::int32_t>::max()) {
     return Status::Error("room " + room + ": there is no epoch left");
   }
-  const std::int32_t next = std::max(last + 1, least);
-  std::vector<KeyCondition> conditions = {
-      {RoomKey(room, "holder"), Is::kAbsent, "", 0},
-      {RoomKey(room, "epoch"), Is::kChangedAt, "", known == nullptr ? 0 : known->epoch_changed},
-      {prefix_ + "servers/" + me_.id, Is::kPresent, "", 0}};
-  std::vector<KeyWrite> writes = {{RoomKey(room, "epoch"), std::to_string(next), 0},
-                                  {RoomKey(room, "holder"), MyHolderText(next), lease_},
-                                  {RoomKey(room, "standby"), std::nullopt, 0}};
-  if (spec != nullptr) {
-    writes.push_back({RoomKey(room, "spec"), *spec, 0});
-  } else {
-    conditions.push_back({RoomKey(room, "spec"), Is::kPresent, "", 0});
-  }
-  bool done = false;
-  const Status taken = store_->Commit(conditions, writes, &done);
-  if (taken.ok() && done) *epoch = next;
-  return taken;
+  *epoch = std::max(last + 1, least);
+  change->conditions.push_back({RoomKey(room, "holder"), Is::kAbsent, "", 0});
+  change->conditions.push_back(
+      {RoomKey(room, "epoch"), Is::kChangedAt, "", known == nullptr ? 0 : known->epoch_changed});
+  change->writes.push_back({RoomKey(room, "epoch"), std::to_string(*epoch), 0});
+  change->writes.push_back({RoomKey(room, "holder"), MyHolderText(*epoch), lease_});
+  change->writes.push_back({RoomKey(room, "standby"), std::nullopt, 0});
+  return Status::Ok();
 }
 
 Status Directory::TakeBack(const std::string& room, std::int32_t epoch, bool* done) {

@@ -90,10 +90,17 @@ class Directory {
   Status Register(const FleetServer& me);
   /// Keeps the lease. `kept` false: it has ended, and everything that went with it; Register again.
   Status Renew(bool* kept);
+  /// Renews likewise, unless that was done within the last kRenewUs.
+  Status RenewIfDue(bool* kept);
   /// Takes a room that nobody holds: for a new one, with its spec. `epoch`: the next, at least
   /// `least`; 0: somebody else has it or was faster.
   Status Claim(const std::string& room, const std::string& spec, std::int32_t least,
                std::int32_t* epoch);
+  /// Takes rooms likewise and notes their state, unless it is empty: in transactions of as many as
+  /// the store takes, between which the lease is kept. `epochs`: one of each; 0 from the first
+  /// transaction on that was not done.
+  Status ClaimAll(const std::vector<std::string>& rooms, const std::string& spec,
+                  const std::string& state, std::int32_t least, std::vector<std::int32_t>* epochs);
   /// Takes a room that has a spec and no holder any more; else as Claim.
   Status TakeOver(const std::string& room, std::int32_t least, std::int32_t* epoch);
   /// Becomes the standby of a room that another server holds and that has none. `done` false: it
@@ -125,17 +132,27 @@ class Directory {
 
   const FleetServer& me() const { return me_; }
 
+  /// A lease that was renewed so lately is not renewed again by RenewIfDue, us: a fifth of it.
+  static constexpr std::int64_t kRenewUs = std::int64_t{kFleetLeaseS} * 200000;
+
  private:
   std::string RoomKey(const std::string& room, const char* what) const;
   std::string MyHolderText(std::int32_t epoch) const;
   std::string MyStandbyText() const;
-  Status Take(const std::string& room, const std::string* spec, std::int32_t least,
-              std::int32_t* epoch);
+  /// Conditions and writes of one Commit.
+  struct Change {
+    std::vector<KeyCondition> conditions;
+    std::vector<KeyWrite> writes;
+  };
+  /// Adds to `change` that a room is taken that nobody holds. `known`: as it was read, or null.
+  Status AddTake(const std::string& room, const FleetRoom* known, std::int32_t least,
+                 std::int32_t* epoch, Change* change) const;
 
   const std::unique_ptr<KeyStore> store_;
   const std::string prefix_;
   FleetServer me_;
   std::int64_t lease_ = 0;
+  std::int64_t renewed_us_ = 0;
   std::vector<KeyValue> seen_;
 };
 

@@ -17,6 +17,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Most writes of a transaction that etcd takes, unless --max-txn-ops says otherwise.
+constexpr std::size_t kEtcdWritesMost = 128;
+
 /// Reads a 64-bit number of an object: a text or a number; absent is 0, as the gateway omits it.
 bool ReadWhole(const Json& object, const char* name, std::int64_t* value) {
   *value = 0;
@@ -82,6 +85,8 @@ class EtcdStore : public KeyStore {
       at = comma + 1;
     }
   }
+
+  std::size_t writes_most() const override { return kEtcdWritesMost; }
 
   Status List(const std::string& prefix, std::vector<KeyValue>* found) override {
     Json answer;

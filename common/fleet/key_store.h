@@ -47,6 +47,8 @@ class KeyStore {
   /// Makes all writes if all conditions hold, else none (`done` false).
   virtual Status Commit(const std::vector<KeyCondition>& conditions,
                         const std::vector<KeyWrite>& writes, bool* done) = 0;
+  /// Returns how many writes, and how many conditions, a Commit may have.
+  virtual std::size_t writes_most() const = 0;
   /// Begins a lease of `ttl_s` seconds; its keys go when it is not kept alive for so long.
   virtual Status Grant(int ttl_s, std::int64_t* lease) = 0;
   /// `alive` false: the lease has ended, and its keys are gone.

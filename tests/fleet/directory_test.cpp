@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <set>
 #include <thread>
 
@@ -273,6 +275,31 @@ TEST(DirectoryEtcd, OneThatIsNotThereIsOneErrorInTime) {
   for (const char* text : {"", "etcd", "etcd:", "file:", "zoo:keeper", "etcd:a,,b"}) {
     EXPECT_THROW(OpenKeyStore(text), OperatorError) << text;
   }
+}
+
+TEST_P(EachDirectory, ManyRoomsAreClaimedWithinSecondsAndNoneOfThoseThatOthersHave) {
+  const auto a = Open("a"), b = Open("b");
+  std::vector<std::string> names;
+  const int count = GetParam() == std::string("file") ? 10000 : 2000;
+  for (int i = 0; i < count; ++i) names.push_back("room-" + std::to_string(i));
+  std::vector<std::int32_t> epochs;
+  const std::int64_t begin_us = SteadyClockUs();
+  Status status = a->ClaimAll(names, kSpec, kSpec, 1, &epochs);
+  ASSERT_TRUE(status.ok()) << status.why();
+  const double took_s = static_cast<double>(SteadyClockUs() - begin_us) * 1e-6;
+  EXPECT_EQ(std::count(epochs.begin(), epochs.end(), 1), count);
+  EXPECT_LT(took_s, 20);
+  std::printf("%d rooms claimed in %.2f s\n", count, took_s);
+  const FleetListing listing = Listed(*b);
+  ASSERT_EQ(listing.rooms.size(), names.size());
+  for (const FleetRoom& room : listing.rooms) {
+    ASSERT_TRUE(room.holder && room.holder->server == "a") << room.name;
+    ASSERT_EQ(room.state, kSpec);
+  }
+  status = b->ClaimAll({"new", names.back()}, kSpec, "", 1, &epochs);
+  EXPECT_TRUE(status.ok());
+  EXPECT_EQ(epochs, (std::vector<std::int32_t>{0, 0}));
+  EXPECT_EQ(Listed(*b).FindRoom("new"), nullptr);
 }
 
 }  // namespace directory_test
