@@ -135,10 +135,10 @@ void Announce(const Flags& f, const std::vector<RoomPlan>& plans, const Address&
 int Serve(const Flags& f) {
   CheckFleetFlags(f);
   UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));
-  std::unique_ptr<FleetMember> member;
-  const bool fleet = !f.directory.empty();
   // The thread of the member makes plans too.
   std::shared_ptr<const Shared> shared;
+  std::unique_ptr<FleetMember> member;
+  const bool fleet = !f.directory.empty();
   const auto prepare = [&](const std::string& room, std::int32_t epoch,
                            std::unique_ptr<FollowedRoom> followed) {
     RoomPlan plan = followed != nullptr
@@ -169,6 +169,7 @@ int Serve(const Flags& f) {
     throw OperatorError("--workers: one room has one thread");
   }
   MetricsPage page(f);
+  if (fleet) member->Start();  // it keeps the lease while the rooms are opened
   Hub hub(plans, udp, shared->identity);
   std::unique_ptr<HubDoor> door;
   if (f.control_port >= 0) {
@@ -186,7 +187,6 @@ int Serve(const Flags& f) {
       return member->Find({join.room, join.name, static_cast<std::uint64_t>(join.place_key),
                            join.epoch, join.epoch_proved});
     });
-    member->Start();
   }
   const std::unique_ptr<Agones> agones = f.agones ? std::make_unique<Agones>() : nullptr;
   ProgressLine line(f.quiet);

@@ -15,6 +15,8 @@ namespace {
 
 /// Time between two rounds, ms: a lease of kFleetLeaseS is renewed twenty times.
 constexpr int kRoundMs = 250;
+/// Least time between two rounds that joins bring about, us: they may be a stranger's.
+constexpr std::int64_t kLookSoonUs = 50000;
 /// A room that cannot be opened here is left to others for so long, us; twice as long after each
 /// further failure, up to the most: each try costs an epoch.
 constexpr std::int64_t kFailedUs = 10000000, kFailedMostUs = 3600000000;
@@ -35,24 +37,41 @@ FleetMember::~FleetMember() {
 }
 
 std::int32_t FleetMember::Claim(const std::string& room, std::int32_t least) {
-  std::int32_t epoch = 0;
-  Status status = directory_.Claim(room, SpecOfRooms(), least, &epoch);
-  bool saved = false;
-  if (status.ok() && epoch > 0 && !config_.folder.empty()) {
-    status = directory_.SaveState(room, epoch, SpecOfRooms(), &saved);
-  }
+  return ClaimAll({room}, least).front();
+}
+
+std::vector<std::int32_t> FleetMember::ClaimAll(const std::vector<std::string>& rooms,
+                                                std::int32_t least) {
+  std::vector<std::int32_t> epochs;
+  const std::string spec = SpecOfRooms();
+  const Status status =
+      directory_.ClaimAll(rooms, spec, config_.folder.empty() ? "" : spec, least, &epochs);
   if (!status.ok()) throw OperatorError("--directory " + config_.directory + ": " + status.why());
-  if (epoch == 0) {
-    FleetListing listing;
-    (void)directory_.List(&listing);
-    const FleetRoom* const known = listing.FindRoom(room);
-    const bool held = known != nullptr && known->holder;
-    throw OperatorError("room " + room + " is held by " +
-                        (held ? known->holder->server + " at " + known->holder->address
-                              : "another server, which was faster"));
+  for (std::size_t r = 0; r < rooms.size(); ++r) {
+    if (epochs[r] > 0) held_[rooms[r]] = epochs[r];
   }
-  held_[room] = epoch;
-  return epoch;
+  for (std::size_t r = 0; r < rooms.size(); ++r) {
+    if (epochs[r] > 0) continue;
+    const std::string why = WhyNotClaimed(rooms[r]);
+    if (!why.empty()) throw OperatorError(why);
+  }
+  if (std::count(epochs.begin(), epochs.end(), 0) == 0) return epochs;
+  throw OperatorError(
+      "--directory " + config_.directory +
+      ": another server took a room at the same time, and has let it go: try again");
+}
+
+std::string FleetMember::WhyNotClaimed(const std::string& room) {
+  FleetListing listing;
+  const Status status = directory_.List(&listing);
+  if (!status.ok()) return "--directory " + config_.directory + ": " + status.why();
+  if (listing.FindServer(config_.me.id) == nullptr) {
+    return "--directory " + config_.directory + ": the lease of this server, of " +
+           std::to_string(kFleetLeaseS) + " s, ended while it claimed its rooms";
+  }
+  const FleetRoom* const known = listing.FindRoom(room);
+  if (known == nullptr || !known->holder) return "";
+  return "room " + room + " is held by " + known->holder->server + " at " + known->holder->address;
 }
 
 std::string FleetMember::SpecOfRooms() const {
@@ -61,7 +80,9 @@ std::string FleetMember::SpecOfRooms() const {
 
 bool FleetMember::Knows(const std::string& room) {
   FleetListing listing;
-  const Status status = directory_.List(&listing);
+  bool kept = false;  // rooms are read between two of these calls, which takes a while
+  Status status = directory_.RenewIfDue(&kept);
+  if (status.ok()) status = directory_.List(&listing);
   if (!status.ok()) throw OperatorError("--directory " + config_.directory + ": " + status.why());
   const FleetRoom* const known = listing.FindRoom(room);
   return known != nullptr && !known->spec.empty();
@@ -101,9 +122,16 @@ void FleetMember::Run() {
       news_.push_back(status.ok() ? "the directory answers again"
                                   : "no directory: the rooms go on (" + status.why() + ")");
     }
+    round_us_ = SteadyClockUs();
     wake_.wait_for(lock, std::chrono::milliseconds(kRoundMs), [this] { return stop_ || due_; });
     due_ = false;
   }
+}
+
+void FleetMember::LookSoon() {
+  if (SteadyClockUs() - round_us_ < kLookSoonUs) return;
+  due_ = true;
+  wake_.notify_all();
 }
 
 Status FleetMember::Round() {
@@ -237,16 +265,24 @@ bool FleetMember::IsOurs(const std::string& room) const {
   return !ListSnapshots(config_.folder, room).empty();
 }
 
+Status FleetMember::KeepHeld(const std::string& room, std::int32_t epoch) {
+  bool kept = false, done = false;
+  Status status = directory_.RenewIfDue(&kept);
+  if (!status.ok() || (kept && directory_.me().draining)) return status;
+  FleetServer me = directory_.me();
+  me.draining = true;
+  status = directory_.Register(me);
+  if (!status.ok() || kept) return status;
+  return directory_.TakeBack(room, epoch, &done);
+}
+
 Redirect FleetMember::Move(const std::string& room, const std::string& to, std::int32_t epoch) {
-  Redirect nowhere;
+  const Redirect nowhere;
   FleetListing listing;
-  if (!directory_.me().draining) {
-    FleetServer me = directory_.me();
-    me.draining = true;
-    if (!directory_.Register(me).ok()) return nowhere;
-  }
   const auto held = held_.find(room);
-  if (held == held_.end() || !directory_.List(&listing).ok()) return nowhere;
+  // A directory that fails once may answer the next question.
+  if (held != held_.end()) (void)KeepHeld(room, held->second);
+  if (!directory_.List(&listing).ok()) return nowhere;
   const FleetServer* server = nullptr;
   if (to.empty()) {
     OsEntropy entropy;
@@ -257,11 +293,21 @@ Redirect FleetMember::Move(const std::string& room, const std::string& to, std::
       if (each.address == to) server = &each;
     }
   }
-  if (server == nullptr) return nowhere;
   std::int32_t next = 0;
-  if (!directory_.Move(room, held->second, *server, &next).ok() || next == 0) return nowhere;
-  held_.erase(held);
-  return RedirectTo(room, {server->id, server->address, std::max(next, epoch)});
+  if (held != held_.end() && server != nullptr) {
+    const Status status = directory_.Move(room, held->second, *server, &next);
+    if (status.ok() && next > 0) {
+      held_.erase(held);
+      return RedirectTo(room, {server->id, server->address, std::max(next, epoch)});
+    }
+  }
+  if (!directory_.List(&listing).ok()) return nowhere;
+  const FleetRoom* const known = listing.FindRoom(room);
+  const bool others = known != nullptr && known->holder && known->holder->epoch >= epoch &&
+                      known->holder->server != config_.me.id;
+  if (!others) return nowhere;
+  held_.erase(room);
+  return RedirectTo(room, *known->holder);
 }
 
 void FleetMember::Release(const std::string& room) {

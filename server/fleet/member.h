@@ -62,12 +62,15 @@ class FleetMember {
   /// Takes a room that begins here, in an epoch of at least `least`, which it returns. Throws
   /// OperatorError if somebody else has it, or the directory does not answer.
   std::int32_t Claim(const std::string& room, std::int32_t least);
+  /// Takes several likewise; returns the epoch of each.
+  std::vector<std::int32_t> ClaimAll(const std::vector<std::string>& rooms, std::int32_t least);
   /// True if the directory has a room of this name, held or not.
   bool Knows(const std::string& room);
   void Start();
   void Stop();
   /// Moves a room that was given away: to the server at `to`, or of any other that has room if it
-  /// is empty. Returns where it goes on; an empty address if nowhere.
+  /// is empty. Returns where it goes on: at another server that has taken it meanwhile, in a higher
+  /// epoch, too; an empty address if nowhere.
   Redirect Move(const std::string& room, const std::string& to, std::int32_t epoch);
   /// The room has ended here, and is nobody's.
   void Release(const std::string& room);
@@ -113,8 +116,14 @@ class FleetMember {
   /// Holds the rooms that were given back no longer.
   Status GiveUpUnopened();
   void NoteUnopened(const Unopened& failed);
+  /// Keeps the lease while the thread does not run, and holds a room again if it had ended.
+  Status KeepHeld(const std::string& room, std::int32_t epoch);
+  /// Says why a room could not be claimed.
+  std::string WhyNotClaimed(const std::string& room);
   bool IsOurs(const std::string& room) const;
   bool IsAnothers(const FleetRoom& room) const;
+  /// Looks at the directory soon: the room of a join may be on its way here. Requires the lock.
+  void LookSoon();
   /// Returns the spec and state of the rooms here: their folder.
   std::string SpecOfRooms() const;
   void NoteStandbys(const FleetListing& listing);
@@ -137,6 +146,7 @@ class FleetMember {
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable wake_;
   bool stop_ = false, due_ = false;
+  std::int64_t round_us_ = 0;  // end of the last round
   FleetListing listing_;
   std::vector<RoomPlan> ready_;
   std::vector<Unopened> unopened_;

@@ -90,6 +90,7 @@ std::optional<Redirect> FleetMember::Find(const FleetJoin& join) {
     const bool ours = each.standby && each.standby->server == config_.me.id;
     if (ours && watch_ != nullptr && join.epoch_proved && join.epoch == each.epoch) {
       watch_->NoteKnock(each.name, join.name, join.place_key);
+      LookSoon();  // a drain sends players here before the listing has it
       return Redirect();
     }
     if (each.holder->server == config_.me.id) return Redirect();  // it is being opened

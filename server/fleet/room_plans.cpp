@@ -93,8 +93,7 @@ void CheckResume(const Flags& f) {
   }
 }
 
-RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int rooms,
-                  FleetMember* member) {
+RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int rooms) {
   RoomPlan plan;
   plan.scene = LoadScene(FindScene(scene_name));
   const Scene& scene = plan.scene;
@@ -110,20 +109,25 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);
   FinishPlan(f, f.impair, index, rooms, &plan);
-  if (member != nullptr) config.epoch = member->Claim(config.room, 1);
   plan.force = f.force;
   plan.record = LogOf(f.record, config.room, rooms);
-  if (!f.state.empty()) {
-    if (!f.record.empty()) throw OperatorError("--state records the room: not with --record");
-    if (!config.sync.policy->SendsStates()) {
-      throw OperatorError("--state: a room of mode " + f.mode + " cannot be resumed");
-    }
-    PrepareStateFolder(f.state, config.room, f.force);
-    plan.state = f.state;
-    plan.record = StateLogOf(f.state, config.room, config.epoch);
+  if (f.state.empty()) return plan;
+  if (!f.record.empty()) throw OperatorError("--state records the room: not with --record");
+  if (!config.sync.policy->SendsStates()) {
+    throw OperatorError("--state: a room of mode " + f.mode + " cannot be resumed");
   }
-  if (!plan.record.empty()) RequireOutput(plan.record, plan.force, {FindScene(scene_name)});
+  plan.state = f.state;
   return plan;
+}
+
+/// Chooses and checks the files of a room, whose epoch is known.
+void PrepareFiles(const std::string& scene_name, RoomPlan* plan) {
+  const ServerConfig& config = plan->config;
+  if (!plan->state.empty()) {
+    PrepareStateFolder(plan->state, config.room, plan->force);
+    plan->record = StateLogOf(plan->state, config.room, config.epoch);
+  }
+  if (!plan->record.empty()) RequireOutput(plan->record, plan->force, {FindScene(scene_name)});
 }
 
 /// A kept room that still waited for its players has no snapshot: it begins anew, with the scene
@@ -227,9 +231,20 @@ std::vector<RoomPlan> MakePlans(const Flags& f, const Secret* log_key, FleetMemb
   if (f.scenes.empty()) throw OperatorError(WhichScene());
   const int rooms = f.rooms > 0 ? f.rooms : static_cast<int>(f.scenes.size());
   CheckRoomName(f.room, rooms);
+  const auto scene_of = [&f](int r) {
+    return f.scenes[static_cast<std::size_t>(r) % f.scenes.size()];
+  };
+  std::vector<std::string> names;
   for (int r = 0; r < rooms; ++r) {
-    const std::string& scene = f.scenes[static_cast<std::size_t>(r) % f.scenes.size()];
-    plans.push_back(MakePlan(f, scene, r, rooms, member));
+    plans.push_back(MakePlan(f, scene_of(r), r, rooms));
+    names.push_back(plans.back().config.room);
+  }
+  std::vector<std::int32_t> epochs(names.size(), 1);
+  if (member != nullptr) epochs = member->ClaimAll(names, 1);
+  for (int r = 0; r < rooms; ++r) {
+    RoomPlan& plan = plans[static_cast<std::size_t>(r)];
+    plan.config.epoch = epochs[static_cast<std::size_t>(r)];
+    PrepareFiles(scene_of(r), &plan);
   }
   return plans;
 }

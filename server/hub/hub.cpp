@@ -75,26 +75,35 @@ void Hub::OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t 
 }
 
 void Hub::Drain(const Where& where) {
-  lanes_.reset();
   drains_ = true;
-  std::vector<std::pair<HostedRoom*, Redirect>> moved;
-  for (const auto& room : rooms_) {
-    if (room->done() || room->over()) continue;
-    const std::int32_t epoch = room->GiveAway(SteadyClockUs());
-    const Redirect to = where(room->config().room, epoch);
-    if (!to.address.empty()) {
-      moved.emplace_back(room.get(), to);
-    } else {
-      room->EndGivenAway(SteadyClockUs());
-    }
+  std::vector<const HostedRoom*> moved;
+  for (std::size_t r = 0; r < rooms_.size(); ++r) {
+    HostedRoom& room = *rooms_[r];
+    if (room.done() || room.over()) continue;
+    if (lanes_ != nullptr) lanes_->Hold(static_cast<int>(r));
+    if (GiveAway(room, where)) moved.push_back(&room);
+    if (lanes_ != nullptr) lanes_->Free(static_cast<int>(r));
+    Poll(SteadyClockUs());
   }
-  for (const auto& [room, to] : moved) room->RedirectAll(SteadyClockUs(), to);
+  lanes_.reset();
   const std::int64_t deadline_us = SteadyClockUs() + kDrainUsMax;
-  const auto told = [](const auto& each) { return each.first->server().all_redirected(); };
+  const auto told = [](const HostedRoom* each) { return each->server().all_redirected(); };
   while (SteadyClockUs() < deadline_us && !std::all_of(moved.begin(), moved.end(), told)) {
     Poll(SteadyClockUs());
     Wait();
   }
+}
+
+bool Hub::GiveAway(HostedRoom& room, const Where& where) {
+  if (room.done() || room.over()) return false;  // it was while it was waited for
+  const std::int32_t epoch = room.GiveAway(SteadyClockUs());
+  const Redirect to = where(room.config().room, epoch);
+  if (to.address.empty()) {
+    room.EndGivenAway(SteadyClockUs());
+    return false;
+  }
+  room.RedirectAll(SteadyClockUs(), to);
+  return true;
 }
 
 bool Hub::AsksForOver(int room, const Bytes& datagram) const {

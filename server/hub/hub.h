@@ -39,9 +39,10 @@ class Hub {
   /// may come here, and the client asks again. nullopt, or without this: the join is refused.
   using Elsewhere = std::function<std::optional<Redirect>(const JoinRequest& join)>;
   void SetElsewhere(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
-  /// Ends the threads and saves the rooms for other servers. `where`: returns where the room goes
-  /// on in this epoch, or an empty address if nowhere. Sends the clients there, and serves until
-  /// they know it, for at most kDrainUsMax.
+  /// Gives the rooms to other servers, one after another; each runs here until it is its turn, so
+  /// that it never looks dead. `where`: returns where the saved room goes on in this epoch or a
+  /// higher one, or an empty address if nowhere. Sends the clients there, and serves until they
+  /// know it, for at most kDrainUsMax. Ends the threads.
   using Where = std::function<Redirect(const std::string& room, std::int32_t epoch)>;
   void Drain(const Where& where);
   /// Delivers the received datagrams; without workers also runs the rooms that are due. To be
@@ -69,6 +70,8 @@ class Hub {
 
  private:
   void Take(std::int64_t now_us);
+  /// Saves the room and sends its clients on; false if it goes on nowhere. No thread may run it.
+  static bool GiveAway(HostedRoom& room, const Where& where);
   /// True for a join to a room that goes on at another server.
   bool AsksForOver(int room, const Bytes& datagram) const;
   void OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t number,

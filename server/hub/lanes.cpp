@@ -54,6 +54,7 @@ Lanes::Room* Lanes::NextDue(const Lane& lane, std::int64_t now_us, std::int64_t*
   Room* next = nullptr;
   *due_us = std::numeric_limits<std::int64_t>::max();
   for (Room* room : lane.rooms) {
+    if (room->held) continue;
     const std::int64_t room_us = room->woken ? now_us : room->what->due_us();
     if (room_us >= *due_us) continue;
     *due_us = room_us;
@@ -80,6 +81,7 @@ void Lanes::Work(Lane* lane) {
     room->what->Run(now_us);
     lock.lock();
     lane->busy = nullptr;
+    if (room->held) rests_.notify_all();
     const std::int64_t end_us = SteadyClockUs();
     if (end_us - now_us > kSlowUs) lane->slow_us = end_us;
     // The room goes to the back: a room that is always due does not starve the others.
@@ -174,6 +176,24 @@ void Lanes::Wake(int room) {
     const bool here = std::find(lane->rooms.begin(), lane->rooms.end(), woken) != lane->rooms.end();
     if (here) lane->wake.notify_one();
   }
+}
+
+void Lanes::Hold(int room) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  Room* const held = rooms_[static_cast<std::size_t>(room)].get();
+  held->held = true;
+  rests_.wait(lock, [&] {
+    return std::none_of(lanes_.begin(), lanes_.end(),
+                        [held](const auto& lane) { return lane->busy == held; });
+  });
+}
+
+void Lanes::Free(int room) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    rooms_[static_cast<std::size_t>(room)]->held = false;
+  }
+  Wake(room);
 }
 
 int Lanes::lane_count() const {

@@ -35,6 +35,9 @@ class Lanes {
   void Add(Runnable* room);
   /// Thread-safe: makes a room run soon, even if it is not due.
   void Wake(int room);
+  /// Thread-safe: returns when no thread runs the room; none does until Free. Other rooms run on.
+  void Hold(int room);
+  void Free(int room);
   /// Returns the number of threads that run rooms now: the workers, and one for each slow room.
   int lane_count() const;
 
@@ -48,6 +51,7 @@ class Lanes {
     Runnable* what = nullptr;
     int index = 0;
     bool woken = false;
+    bool held = false;
   };
   struct Lane {
     std::vector<Room*> rooms;
@@ -74,6 +78,7 @@ class Lanes {
   mutable std::mutex mutex_;                  // guards all below, and the fields of rooms and lanes
   std::vector<std::unique_ptr<Lane>> lanes_;  // also lanes that are over, until ended
   std::condition_variable watch_;
+  std::condition_variable rests_;  // a held room was run, and is not any more
   bool stop_ = false;
   std::thread watcher_;
 };

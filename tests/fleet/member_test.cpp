@@ -112,5 +112,44 @@ TEST_F(Member, ARoomWithoutAPlanIsGivenBackLikewise) {
             std::vector<std::string>{"room red cannot go on here, its state stays: no such scene"});
 }
 
+TEST_F(Member, ARoomThatAnotherServerHasTakenIsMovedToThatServer) {
+  FleetMember::Config config = ConfigOf("a");
+  config.takes = false;
+  FleetMember member(config, Plans());
+  ASSERT_EQ(member.Claim("blue", 1), 1);
+  Directory other(OpenKeyStore(text_), "main");
+  ASSERT_TRUE(other.Register(ServerOf("b")).ok());
+  FleetListing listing;
+  ASSERT_TRUE(other.List(&listing).ok());
+  bool done = false;
+  ASSERT_TRUE(other.StandBy(*listing.FindRoom("blue"), &done).ok());
+  std::int32_t epoch = 0;
+  ASSERT_TRUE(other.TakeFrom(*listing.FindRoom("blue"), &epoch).ok());
+  ASSERT_EQ(epoch, 2);
+  const Redirect to = member.Move("blue", "", 2);
+  EXPECT_EQ(to.address, ServerOf("b").address);
+  EXPECT_EQ(to.room, "blue");
+  EXPECT_EQ(to.epoch, 2);
+  EXPECT_EQ(member.Move("green", "", 2).address, "") << "nobody has it";
+}
+
+TEST_F(Member, AClaimSaysWhoHasTheRoomOrThatItsOwnLeaseHasEnded) {
+  FleetMember::Config config = ConfigOf("a");
+  config.takes = false;
+  FleetMember member(config, Plans()), other(ConfigOf("b"), Plans());
+  ASSERT_EQ(other.Claim("blue", 1), 1);
+  const auto why = [&member](const std::string& room) -> std::string {
+    try {
+      member.Claim(room, 1);
+    } catch (const OperatorError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why("blue"), "room blue is held by b at " + ServerOf("b").address);
+  usleep((kFleetLeaseS * 1000 + 200) * 1000);
+  EXPECT_NE(why("green").find("the lease of this server, of 5 s, ended"), std::string::npos);
+}
+
 }  // namespace member_test
 }  // namespace seam

@@ -107,5 +107,20 @@ TEST(Lanes, AWokenRoomRuns) {
   EXPECT_EQ(other.runs, 0);
 }
 
+TEST(Lanes, AHeldRoomRestsWhileTheOthersRun) {
+  Metronome held, other;
+  Lanes lanes({&held, &other}, 1);
+  WaitForTicks(held, 5);
+  lanes.Hold(0);
+  const int ticks = held.ticks(), others = other.ticks();
+  lanes.Wake(0);
+  WaitForTicks(other, others + 10);
+  EXPECT_EQ(held.ticks(), ticks);
+  EXPECT_GE(other.ticks(), others + 10);
+  lanes.Free(0);
+  WaitForTicks(held, ticks + 5);
+  EXPECT_GE(held.ticks(), ticks + 5);
+}
+
 }  // namespace lanes_test
 }  // namespace seam
