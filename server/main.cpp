@@ -170,7 +170,7 @@ int Serve(const Flags& f) {
   }
   MetricsPage page(f);
   if (fleet) member->Start();  // it keeps the lease while the rooms are opened
-  Hub hub(plans, udp, shared->identity);
+  Hub hub(plans, udp, shared->identity, shared->token_key);
   std::unique_ptr<HubDoor> door;
   if (f.control_port >= 0) {
     door = std::make_unique<HubDoor>(static_cast<std::uint16_t>(f.control_port), hub);

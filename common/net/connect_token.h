@@ -55,7 +55,8 @@ Status ReadToken(const std::string& text, ConnectToken* token);
 /// What the server that gets a pass expects of it.
 struct TokenNeed {
   std::uint32_t protocol = 0;
-  std::string room, name;
+  std::string room;  ///< "": any
+  std::string name;
   std::int64_t now_s = 0;
 };
 /// Opens a pass. Says why it is refused, in one line for its client: "the token has expired".

@@ -24,11 +24,12 @@ std::vector<std::string> NamesOfRooms(const std::vector<RoomPlan>& plans) {
 
 }  // namespace
 
-Hub::Hub(const std::vector<RoomPlan>& plans, UdpNet& udp, std::shared_ptr<const KeyPair> identity)
+Hub::Hub(const std::vector<RoomPlan>& plans, UdpNet& udp, std::shared_ptr<const KeyPair> identity,
+         std::shared_ptr<const Secret> token_key)
     : udp_(udp),
       finder_(NamesOfRooms(plans)),
       identity_(std::move(identity)),
-      handshake_(udp, entropy_, *identity_, traffic_),
+      handshake_(udp, entropy_, *identity_, traffic_, TokenDoor{std::move(token_key), ""}),
       mail_(plans.size()) {
   for (std::size_t r = 0; r < plans.size(); ++r) {
     senders_.push_back(std::make_unique<UdpSender>(udp));

@@ -24,7 +24,9 @@ class Hub {
  public:
   /// Opens the rooms, none or more; `udp` must outlive the hub, whose lasting keys `identity` is.
   /// Asserts that the names differ. Throws OperatorError as HostedRoom does.
-  Hub(const std::vector<RoomPlan>& plans, UdpNet& udp, std::shared_ptr<const KeyPair> identity);
+  /// `token_key`: of the operator's connect tokens, for joins to rooms that are elsewhere.
+  Hub(const std::vector<RoomPlan>& plans, UdpNet& udp, std::shared_ptr<const KeyPair> identity,
+      std::shared_ptr<const Secret> token_key = nullptr);
   ~Hub();
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;

@@ -104,7 +104,7 @@ Handshake::Verdict Handshake::OnJoin(std::int64_t now_us, const Address& from, s
     return Verdict::kAnswered;
   }
   request->name = join.name;
-  request->room = join.room;
+  if (!request->token) request->room = join.room;
   request->epoch = join.epoch;
   // Where there are several rooms, or none, the proof is of the one that is asked for.
   const std::string& room = door_.room.empty() ? join.room : door_.room;
@@ -141,7 +141,8 @@ std::string Handshake::ReadPass(std::int64_t now_us, const Join& join, JoinReque
   if (door_.key == nullptr) return "no tokens are taken here: join without --token";
   TokenNeed need;
   need.protocol = static_cast<std::uint32_t>(kProtocolVersion);
-  need.room = door_.room;
+  // Where the rooms are others', each takes the tokens that are for it.
+  need.room = door_.room.empty() ? join.room : door_.room;
   need.name = join.name;
   need.now_s = now_us / 1000000;
   const Status status = OpenPass(join.grant, *door_.key, need, grant);
@@ -149,6 +150,7 @@ std::string Handshake::ReadPass(std::int64_t now_us, const Join& join, JoinReque
   request->token_tag = UsedOnce::TagOf(TagOfPass(join.grant));
   if (used_.Has(request->token_tag)) return "the token was used before";
   request->token = true;
+  request->room = grant->room;
   request->may_play = grant->may_play;
   // No token may be kept for longer than a day in the memory of used ones.
   const std::int64_t left_s = std::min<std::int64_t>(grant->expires_s - need.now_s, 86400);

@@ -11,7 +11,7 @@ namespace seam {
 
 struct TokenDoor {
   std::shared_ptr<const Secret> key;  ///< the operator's; nullptr: anybody comes in, without token
-  std::string room;                   ///< for which the tokens must be
+  std::string room;                   ///< for which the tokens must be; "": the join's room
   std::int32_t epoch = 1;             ///< of the room
 };
 

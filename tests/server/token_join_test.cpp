@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "server/sessions/handshake.h"
 #include "server/sessions/session_table.h"
 #include "tests/support/session_guest.h"
 
@@ -117,6 +118,45 @@ TEST_F(TokenJoin, AClientThatWasInComesBackWithTheKeyOfItsPlace) {
   again.key = ann.key;
   EXPECT_EQ(Join(&again, nullptr), "welcome");
   EXPECT_EQ(table_.count(), 1);
+}
+
+TEST_F(TokenJoin, AServerWithoutTheRoomSendsAGoodTokenOnAndDoesNotUseItUp) {
+  TrafficCount traffic;
+  const KeyPair identity(entropy_);
+  Handshake handshake(*net_, entropy_, identity, traffic, TokenDoor{key_, ""});
+  std::string room;
+  const auto ask = [&](Guest* guest, const ConnectToken& token) {
+    guest->refusal.clear();
+    guest->token = &token;
+    std::string to;
+    for (int n = 0; n < 2; ++n) {
+      n == 0 ? guest->SayHello() : guest->SayJoin();
+      Address from;
+      Bytes datagram;
+      while (net_->Receive(&from, &datagram)) {
+        JoinRequest join;
+        const auto verdict =
+            handshake.Receive(now_us_, from, LooseNumber(datagram), datagram, &join);
+        if (verdict != Handshake::Verdict::kJoins) continue;
+        room = join.room;
+        Redirect redirect;
+        redirect.room = join.room;
+        redirect.address = "192.0.2.1:7777";
+        redirect.epoch = 1;
+        handshake.AnswerByRedirect(now_us_, from, join, redirect);
+      }
+      guest->Read(now_us_, [&to](const AnyMessage& any) {
+        if (const auto* redirect = std::get_if<Redirect>(&any)) to = redirect->address;
+      });
+    }
+    return to.empty() ? guest->refusal : to;
+  };
+  const ConnectToken token = Token("ann", "red"), bobs = Token("bob", "red");
+  Guest ann(&network_, 1, "ann"), again(&network_, 2, "ann"), thief(&network_, 3, "eve");
+  EXPECT_EQ(ask(&ann, token), "192.0.2.1:7777");
+  EXPECT_EQ(room, "red") << "the join named none";
+  EXPECT_EQ(ask(&again, token), "192.0.2.1:7777") << "it counts once at the room, not here";
+  EXPECT_EQ(ask(&thief, bobs), "the token is for bob, not for eve");
 }
 
 TEST(TokenJoinOpen, ARoomWithoutAnOperatorTakesNoTokens) {
