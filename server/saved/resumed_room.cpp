@@ -20,6 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Most events of a log before its room's description, normal 1; further ones are not read for it.
+constexpr int kEventsToRoomMost = 16;
+
 /// Gives a file that a log cannot go on with another name. Returns a line that says so.
 std::string PutAside(const std::string& log) {
   std::string to;
@@ -39,6 +42,25 @@ std::string PutAside(const std::string& log, std::int32_t from) {
     kept += "; " + PutAside(segment.path);
   }
   return kept;
+}
+
+/// True if the log beside a snapshot begins with another scene. A log without a beginning says
+/// nothing, nor one whose scene came in parts.
+bool IsOfAnother(const std::string& folder, const SnapshotName& file, const Room& saved) {
+  const std::string log = StateLogOf(folder, file.room, file.epoch);
+  std::error_code error;
+  if (!fs::is_regular_file(log, error)) return false;
+  try {
+    LogReader reader(log);
+    int read = 0;
+    for (LogEvent event; read < kEventsToRoomMost && reader.Next(&event); ++read) {
+      const AnyMessage any = Decode(event.data);
+      const auto* room = std::get_if<Room>(&any);
+      if (room != nullptr) return !room->scene_text.empty() && room->scene_text != saved.scene_text;
+    }
+  } catch (const OperatorError&) {  // not a log
+  }
+  return false;
 }
 
 /// True if a log is whole and has no tick: its room was killed while it waited for its players.
@@ -87,7 +109,15 @@ NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& 
     Status status = ReadSnapshot(file.path, &snapshot);
     if (status.ok()) {
       newest.saved = SavedRoom::Read(snapshot.room, &status);
-      if (newest.saved != nullptr) status = CanLoad(*newest.saved);
+      std::int64_t tick = 0;
+      if (newest.saved != nullptr) status = CanLoad(*newest.saved, &tick);
+      if (status.ok() && (tick != file.tick || snapshot.tick != file.tick)) {
+        status = Status::Error("is of tick " + std::to_string(tick) + ", its name says " +
+                               std::to_string(file.tick));
+      }
+      if (status.ok() && IsOfAnother(folder, file, newest.saved->room())) {
+        status = Status::Error("is of another scene than the room's log");
+      }
       if (!status.ok()) status = Status::Error(file.path + ": " + status.why());
     }
     if (status.ok()) {

@@ -24,7 +24,7 @@ ServerConfig ConfigOf(const Room& room) {
   return config;
 }
 
-Status CanLoad(const SavedRoom& saved) {
+Status CanLoad(const SavedRoom& saved, std::int64_t* tick) {
   ServerConfig config = ConfigOf(saved.room());
   config.publish = Publish::kNone;
   MemoryNetwork network;
@@ -32,7 +32,9 @@ Status CanLoad(const SavedRoom& saved) {
   Unheard unheard;
   SeededEntropy entropy(1);
   Server server(saved, config, *net, unheard, entropy);
-  return server.Resume(saved, 1000000);
+  const Status status = server.Resume(saved, 1000000);
+  if (status.ok() && tick != nullptr) *tick = server.tick();
+  return status;
 }
 
 }  // namespace seam

@@ -11,6 +11,7 @@ namespace seam {
 /// Returns the settings with which a server continues a room: its method and rates.
 ServerConfig ConfigOf(const Room& room);
 /// Loads the room into a server of its own that nobody hears. Returns why it cannot be continued.
-Status CanLoad(const SavedRoom& saved);
+/// `tick`: gets its tick, unless null.
+Status CanLoad(const SavedRoom& saved, std::int64_t* tick = nullptr);
 
 }  // namespace seam

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/base/check.h"
+#include "common/codec/codec.h"
 #include "server/saved/resumed_room.h"
 #include "server/saved/trial_load.h"
 #include "tests/support/arena.h"
@@ -113,6 +114,43 @@ TEST(SnapshotFile, OneThatDoesNotLoadGivesWayToTheOneBefore) {
   EXPECT_EQ(resumed.saved_tick, 60);
   ASSERT_EQ(resumed.notes.size(), 1u);
   EXPECT_NE(resumed.notes[0].find("the one before is used"), std::string::npos);
+}
+
+TEST(SnapshotFile, OneOfAnotherTickThanItsNameGivesWayToTheOneBefore) {
+  Workspace folder;
+  KeepArena(folder, 120);
+  const std::vector<SnapshotName> files = ListSnapshots(folder.path(), "main");
+  std::filesystem::copy_file(files[1].path, folder / "main-000000009000.snapshot");
+  const ResumedRoom resumed = ReadResumedRoom(folder.path(), "main");
+  EXPECT_EQ(resumed.saved_tick, 120);
+  ASSERT_EQ(resumed.notes.size(), 1u);
+  EXPECT_NE(resumed.notes[0].find("is of tick 60, its name says 9000"), std::string::npos)
+      << resumed.notes[0];
+  EXPECT_FALSE(resumed.new_log);
+}
+
+TEST(SnapshotFile, OneOfAnotherSceneThanTheLogGivesWayToTheOneBefore) {
+  Workspace folder;
+  LoneRoom room(Arena());
+  RoomLog log(StateLogOf(folder.path(), "main"), true, nullptr);
+  Status status;
+  room.StepTo(60);
+  const Bytes ours = room.Save();
+  Room described = SavedRoom::Read(ours, &status)->room();
+  described.session = 5;
+  log.Publish("SEAM.main.room", 1, Encode(described));
+  LogSeal chain;
+  chain.session = 5;
+  chain.tick = 60;
+  log.EndTick("SEAM.main.chain.0", chain, true);
+  ASSERT_TRUE(WriteSnapshot(folder.path(), "main", {60, log.Pin(), ours}).ok());
+  LoneRoom other(ParseScene("[[part]]\nname = \"ball\"\ncircle = 0.5\n", "other.toml"));
+  other.StepTo(120);
+  ASSERT_TRUE(WriteSnapshot(folder.path(), "main", {120, log.Pin(), other.Save()}).ok());
+  const ResumedRoom resumed = ReadResumedRoom(folder.path(), "main");
+  EXPECT_EQ(resumed.saved_tick, 60);
+  ASSERT_EQ(resumed.notes.size(), 1u);
+  EXPECT_NE(resumed.notes[0].find("another scene"), std::string::npos) << resumed.notes[0];
 }
 
 TEST(SnapshotFile, ALogThatIsGoneOrShorterIsBegunAnew) {
