@@ -4,11 +4,13 @@
 #include <type_traits>
 #include <variant>
 
+#include "common/base/state_archive.h"
 #include "common/codec/codec.h"
 #include "server/authority_source.h"
 #include "server/chronicle.h"
 #include "server/rules/rules.h"
 #include "server/saved/log_tail.h"
+#include "server/saved/saved_mark.h"
 #include "server/server.h"
 #include "server/server_commands.h"
 
@@ -44,6 +46,12 @@ void Server::TakeLogged(std::int64_t now_us, const AnyMessage& message) {
 void Server::TakeLogged(std::int64_t now_us, const Accepted& accepted) {
   if (LcmHeard heard; rules_ != nullptr && Decode(accepted.data, &heard).ok()) {
     rules_->OnMessage(std::move(heard));
+    return;
+  }
+  if (IsSavedMark(accepted)) {
+    ApplyQueued(now_us);
+    StateArchive copy;  // writing it makes the barrier
+    if (replica_.tick() > 0) replica_.Persist(copy, Replica::Past::kAll);
     return;
   }
   const AnyMessage any = Decode(accepted.data);

@@ -5,6 +5,7 @@
 #include "server/room_state.h"
 #include "server/rules/rules.h"
 #include "server/saved/log_tail.h"
+#include "server/saved/saved_mark.h"
 #include "server/server.h"
 #include "server/server_commands.h"
 
@@ -19,7 +20,9 @@ Bytes Server::Save(std::int64_t now_us) { return State().Save(now_us); }
 
 StateDraft Server::CopyState(std::int64_t now_us, std::size_t expected_bytes) {
   chronicle_->SumSoon();  // the log behind the snapshot has it, for a server that goes on
-  return State().Copy(now_us, expected_bytes);
+  StateDraft copy = State().Copy(now_us, expected_bytes);
+  broadcast_.NoteAccepted(now_us, 0, -1, SavedMark(replica_.tick()));
+  return copy;
 }
 
 Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail* tail) {
@@ -36,6 +39,9 @@ Status Server::Resume(const SavedRoom& saved, std::int64_t now_us, const LogTail
     chronicle_->SumKilled(now_us, *tail->summary, present, rules_.get());
   }
   chronicle_->SayResumed(now_us);
+  // The loaded room is as at a barrier; a log that goes on does not have it yet.
+  const bool follows = tail != nullptr && !tail->ticks.empty() && !EndsWithSavedMark(*tail);
+  if (started() && !follows) broadcast_.NoteAccepted(now_us, 0, -1, SavedMark(replica_.tick()));
   for (const Meta& meta : settings_.table().Export(now_us, replica_.tick()))
     broadcast_.Publish(meta);
   // The log has all of it, so that a server that goes on from it does the same.
