@@ -19,6 +19,8 @@ Experiment ExperimentOf(const Grid& grid) {
   Experiment experiment;
   experiment.key_columns = SweepKeyColumns();
   experiment.value_columns = SweepValueColumns();
+  experiment.texts = {"oracle", "valid", "digest"};
+  experiment.filled = {"oracle", "digest"};
   for (const GridPoint& point : grid.points) experiment.keys.push_back(point.key);
   experiment.measure = [&grid](std::size_t row) {
     return CsvRow(SweepValues(grid.points[row], {grid.floor, grid.limit}));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "common/base/check.h"
@@ -20,7 +21,24 @@ std::string CommandOf(std::uint64_t seed, const ChaosChoice& choice) {
   return text;
 }
 
+namespace {
+
+/// Throws OperatorError if the scenes are not there: that is no fault of a session.
+void RequireScenes(const std::vector<std::string>& scenes) {
+  std::error_code error;
+  if (!std::filesystem::is_directory("scenes", error)) {
+    throw OperatorError("chaos plays the scenes of the folder scenes, and there is none here");
+  }
+  for (const std::string& scene : scenes) {
+    const std::string path = "scenes/" + scene + ".toml";
+    if (!std::filesystem::exists(path, error)) throw OperatorError(path + ": there is none");
+  }
+}
+
+}  // namespace
+
 int RunChaosSeeds(const ChaosCommand& command) {
+  RequireScenes(command.scenes);
   StopOnSignals();
   ChaosChoice choice;
   choice.scenes = command.scenes;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace seam {
 struct Experiment {
   std::string key_columns;        ///< names, with commas between
   std::string value_columns;      ///< the same of the values behind the key
+  std::set<std::string> texts;    ///< columns of values that are no numbers
+  std::set<std::string> filled;   ///< columns that are empty in no row
   std::vector<std::string> keys;  ///< of each row, as CSV
   /// Returns the values of a row as CSV. Called in another process.
   std::function<std::string(std::size_t row)> measure;

@@ -115,6 +115,23 @@ TEST_F(Merge, ShardsAreOfLikeSizeAndTheSameForAnotherBuild) {
   for (const auto& [shard, size] : sizes) EXPECT_NEAR(size, 125, 40) << shard;
 }
 
+TEST_F(Merge, AValueThatIsNoNumberOrIsMissingIsRefused) {
+  MakeShards(2);
+  Experiment squares = Squares();
+  EXPECT_EQ(Refusal(squares, Command()), "");
+  squares.filled = {"square"};
+  EXPECT_EQ(Refusal(squares, Command()), "");
+  const std::string whole = files_.Read("parts/squares.0-of-2.csv");
+  const std::size_t end = whole.rfind(",0.0"), begin = whole.rfind(',', end - 1) + 1;
+  for (const std::string value : {"many", ""}) {
+    files_.Write("parts/squares.0-of-2.csv", whole.substr(0, begin) + value + whole.substr(end));
+    EXPECT_NE(Refusal(squares, Command()).find("square"), std::string::npos) << value;
+  }
+  squares.texts = {"square"};
+  squares.filled.clear();
+  EXPECT_EQ(Refusal(squares, Command()), "");
+}
+
 TEST_F(Merge, AMissingShardIsNamedAndNothingIsWrittenUnlessPartial) {
   MakeShards(4);
   tables_.erase(tables_.begin() + 2);

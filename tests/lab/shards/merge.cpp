@@ -32,6 +32,8 @@ class Merged {
       : header_(CsvFields(experiment.key_columns + ',' + experiment.value_columns)),
         key_columns_(CsvFields(experiment.key_columns).size()),
         times_(times),
+        texts_(experiment.texts),
+        filled_(experiment.filled),
         lines_(experiment.keys.size()),
         from_(experiment.keys.size()),
         keys_(experiment.keys),
@@ -71,6 +73,7 @@ class Merged {
     const std::string where = fmt::format("{}: row {}", table.path(), row + 1);
     const std::optional<std::size_t> found = rows_.Find(KeyOf(fields));
     if (!found) throw OperatorError(where + WhyForeign(fields));
+    RequireValues(table, row, where);
     std::string& there = lines_[*found];
     const Fields key = CsvFields(keys_[*found]);  // the scene may have another folder here
     std::copy(key.begin(), key.end(), fields.begin());
@@ -84,6 +87,16 @@ class Merged {
     if (column.empty()) return;
     throw OperatorError(where + " and " + from_[*found] + " are the same run, but differ in " +
                         column + ": something is not deterministic");
+  }
+  /// Throws OperatorError for a value that no run has: not a number, or nothing where all have one.
+  void RequireValues(const CsvTable& table, std::size_t row, const std::string& where) const {
+    for (std::size_t c = key_columns_; c < header_.size(); ++c) {
+      const std::string& column = header_[c];
+      if (texts_.count(column) == 0) (void)table.Number(row, column);
+      if (filled_.count(column) > 0 && table.Text(row, column).empty()) {
+        throw OperatorError(where + " has nothing in " + column);
+      }
+    }
   }
   Fields KeyOf(const Fields& fields) const {
     return Fields(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(key_columns_));
@@ -104,6 +117,7 @@ class Merged {
   const Fields header_;
   const std::size_t key_columns_;
   const std::set<std::string>& times_;
+  const std::set<std::string> texts_, filled_;
   std::vector<std::string> lines_;  // by row; empty: missing
   std::vector<std::string> from_;   // by row: file and row
   const std::vector<std::string>& keys_;
