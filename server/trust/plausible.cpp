@@ -324,8 +324,7 @@ bool Plausible::JudgeByWay(int body, std::int64_t tick, int revision, const Body
   if (reached && (!simulated || speed <= explained || Believe(body, 0, speed - explained))) {
     return true;
   }
-  // A silent holder's body may be anywhere: nothing here has followed it.
-  NoteDoubt(body, tick, state, from, true, guessed || (!known && !simulated));
+  NoteDoubt(body, tick, state, from, true, guessed);
   return false;
 }
 

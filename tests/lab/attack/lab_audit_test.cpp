@@ -53,8 +53,9 @@ TEST(Audit, AGrossLiarIsFoundWithoutACopyWithinFiveSeconds) {
         const AttackOutcome outcome = RunAttack(Uncopied(impair, seed), attack);
         EXPECT_GT(outcome.lies, 10);
         EXPECT_LT(ActedAfterS(outcome), 5);
-        // Whom a liar's car strikes where the server does not have it may be noted.
-        EXPECT_LE(outcome.others_step, static_cast<int>(TrustStep::kNoted));
+        // Whom a liar's car strikes where the server does not have it may be noted, and audited
+        // more.
+        EXPECT_LE(outcome.others_step, static_cast<int>(TrustStep::kWatched));
       }
     }
   }
