@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kPingFastUs = 50000;      // until the room has begun
 constexpr std::int64_t kPingSettlingUs = 20000;  // then, until the clock has settled
-constexpr std::int64_t kPingSlowUs = 250000;
+constexpr std::int64_t kPingSlowUs = 100000;
 constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
 /// An unanswered ping of a quiet room is repeated after the usual round trip and this, us: after
 /// the lease nobody would know the authorities.
@@ -114,8 +114,9 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
   }
   std::int64_t every_us = clock_.settled() ? kPingSlowUs : kPingSettlingUs;
   if (!timeline_.known()) every_us = kPingFastUs;
-  if (Quiet()) every_us = kPingQuietUs;
-  if (PongOverdue(now_us)) every_us = std::min(every_us, kPingAgainUs);
+  if (Quiet()) {
+    every_us = PongOverdue(now_us) ? kPingAgainUs : kPingQuietUs;
+  }
   link_->SetQuiet(Quiet());
   if (now_us - last_ping_us_ >= every_us) {
     last_ping_us_ = now_us;

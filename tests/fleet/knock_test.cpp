@@ -85,7 +85,7 @@ TEST(Knock, AServerThatIsSilentForAMomentKeepsItsClientsAndTheirWorld) {
     game.RunWithDoor(3000000);
     EXPECT_EQ(game.names.size(), 0u) << impair << ": it speaks";
     game.a.runs = false;
-    game.RunWithDoor(2300000);
+    game.RunWithDoor(2500000);
     EXPECT_EQ(game.names.size(), 2u) << impair;
     EXPECT_TRUE(game.due) << impair;
     for (const auto& guest : game.guests) {
