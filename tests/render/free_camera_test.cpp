@@ -76,8 +76,10 @@ velocity = [12, 0]
 friction = 0.9
 )";
 
-Playback PlaybackOf(const std::string& text, const std::string& mode = "buffer") {
+Playback PlaybackOf(const std::string& text, const std::string& mode = "buffer",
+                    std::int64_t seed = 1) {
   SessionSettings settings;
+  settings.seed = seed;
   settings.scene = "free";
   settings.mode = mode;
   settings.impair = "4g";
@@ -152,13 +154,18 @@ TEST(FreeCamera, TheBodyThatIsMostWrongIsInThePicture) {
   text +=
       "[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [-30, 0.5]\nowner = \"bob\"\n"
       "repeat = {count = 4, step = [0, 1.01]}\ndensity = 0.05\n";
-  const Playback playback = PlaybackOf(text, "strict");
-  const std::vector<CameraView> views = ViewsOf(playback);
-  const std::set<PartId> vehicle = VehicleBodies(playback);
-  std::set<PartId> worst = LeadingBodies(views, playback.first_s(), playback.last_s());
-  for (const PartId id : vehicle) worst.erase(id);
-  ASSERT_EQ(worst.size(), 1u) << "a crate is at least 0.1 m off";
-  ExpectShown(playback, {}, *worst.begin());
+  int wrong = 0;
+  for (std::int64_t seed = 1; seed <= 8; ++seed) {
+    const Playback playback = PlaybackOf(text, "strict", seed);
+    const std::vector<CameraView> views = ViewsOf(playback);
+    std::set<PartId> worst = LeadingBodies(views, playback.first_s(), playback.last_s());
+    for (const PartId id : VehicleBodies(playback)) worst.erase(id);
+    ASSERT_LE(worst.size(), 1u);
+    if (worst.empty()) continue;  // all crates are less than 0.1 m off
+    ++wrong;
+    ExpectShown(playback, {}, *worst.begin());
+  }
+  EXPECT_GT(wrong, 0);
 }
 
 TEST(FreeCamera, APageHasTheVehiclesAndTheirWholeWay) {
