@@ -1,6 +1,5 @@
 #include "common/codec/short_form.h"
 
-#include <algorithm>
 #include <unordered_map>
 #include <vector>
 
