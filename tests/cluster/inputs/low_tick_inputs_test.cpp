@@ -73,20 +73,28 @@ TEST(LowTickInputs, ReachTheServerInTimeOver4g) {
   }
 }
 
-/// The rest is the other's: a sled that pushes another feels that player's input, which is a round
-/// trip old when it comes. Nobody can know it earlier, and mode buffer does not.
+/// A sled apart is exact. One that pushes another's feels that player's input too, which is a round
+/// trip old when it comes: nobody can know it earlier, and mode buffer does not. A session in which
+/// a burst of losses made an input late says nothing about this.
 TEST(LowTickInputs, LeaveAnOwnSledExactUnlessItPushesAnothers) {
   double central = 0, buffer = 0;
+  int sessions = 0;
   for (const int tick_hz : {10, 15, 20, 30}) {
-    for (std::int64_t seed = 1; seed <= 5; ++seed) {
+    for (std::int64_t seed = 1; seed <= 12; ++seed) {
       SCOPED_TRACE(std::to_string(tick_hz) + " Hz, seed " + std::to_string(seed));
-      const Measures apart = Played(Sleds(tick_hz, 60), "central", seed);
-      EXPECT_LT(apart.error_own_m.value_or(9), 0.001);
-      central += Played(Sleds(tick_hz, 4), "central", seed).error_own_m.value_or(9);
+      if (seed <= 5) {
+        const Measures apart = Played(Sleds(tick_hz, 60), "central", seed);
+        EXPECT_LT(apart.error_own_m.value_or(9), 0.001);
+      }
+      const Measures touching = Played(Sleds(tick_hz, 4), "central", seed);
+      if (touching.inputs_late.value_or(1) != 0) continue;
+      ++sessions;
+      central += touching.error_own_m.value_or(9);
       buffer += Played(Sleds(tick_hz, 4), "buffer", seed).error_own_m.value_or(9);
     }
   }
-  EXPECT_GT(buffer, 0.01) << "or they never touch";
+  EXPECT_GT(sessions, 38);
+  EXPECT_GT(buffer, 0.005 * sessions) << "or they never touch";
   EXPECT_LT(central, 1.25 * buffer);
 }
 
