@@ -276,8 +276,7 @@ const Decoder* FindDecoder(ByteView bytes) {
     all[kHashWithoutKind] = {DecodeOlder<Event, AppendKind>, true, true, kEncodedBytesMax<Event>};
     return all;
   }();
-  if (bytes.size < 8) return nullptr;
-  const auto found = decoders.find(ReadUint64(bytes.data));
+  const auto found = decoders.find(TypeHash(bytes));
   return found == decoders.end() ? nullptr : &found->second;
 }
 
@@ -314,6 +313,18 @@ const std::vector<MessageType>& MessageTypes() {
   return types;
 }
 
+std::uint64_t TypeHash(ByteView message) { return message.size < 8 ? 0 : ReadUint64(message.data); }
+
+const MessageType* FindType(ByteView message) {
+  static const auto types = [] {
+    std::unordered_map<std::uint64_t, const MessageType*> all;
+    for (const MessageType& type : MessageTypes()) all[type.hash] = all[type.on_edge] = &type;
+    return all;
+  }();
+  const auto found = types.find(TypeHash(message));
+  return found == types.end() ? nullptr : found->second;
+}
+
 std::vector<Fingerprint> Fingerprints() {
   std::vector<Fingerprint> all;
 #define SEAM_FINGERPRINT(Type) \
@@ -333,7 +344,7 @@ std::int32_t OldRoomProtocol(ByteView bytes) {
   // Type hash (8 bytes), utime (8), sequence (4 in protocols 1 and 2, then 8), protocol (4).
   constexpr std::uint64_t kRoomHashBefore3 = 0xfc29582c30d1354e;
   constexpr std::uint64_t kRoomHashOf3 = 0xc7e41b86538767b7;
-  const std::uint64_t hash = bytes.size < 8 ? 0 : ReadUint64(bytes.data);
+  const std::uint64_t hash = TypeHash(bytes);
   if (hash != kRoomHashBefore3 && hash != kRoomHashOf3) return 0;
   const std::size_t at = hash == kRoomHashOf3 ? 24 : 20;
   if (bytes.size < at + 4) return 0;

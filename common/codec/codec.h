@@ -43,6 +43,10 @@ struct MessageType {
 };
 /// Returns all types that Decode knows.
 const std::vector<MessageType>& MessageTypes();
+/// Returns the hash at the start of a message, 0 for fewer than 8 bytes.
+std::uint64_t TypeHash(ByteView message);
+/// Finds a message's type among MessageTypes, of the bus or of the edge; null for other bytes.
+const MessageType* FindType(ByteView message);
 
 /// Returns the protocol version of a Room that Decode rejects because an older version wrote it. 0
 /// unless the bytes are a Room of a recognised old version (1 to 3).

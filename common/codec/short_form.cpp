@@ -1,8 +1,5 @@
 #include "common/codec/short_form.h"
 
-#include <unordered_map>
-#include <vector>
-
 #include "common/base/check.h"
 #include "common/codec/codec.h"
 
@@ -14,25 +11,11 @@ constexpr std::uint8_t kOtherType = kTypeBits;
 constexpr std::uint8_t kEnd = 1;
 constexpr std::size_t kHashBytes = 8, kWordBytes = 8;
 
-std::uint64_t HashOf(ByteView message) {
-  std::uint64_t hash = 0;
-  for (std::size_t i = 0; i < kHashBytes; ++i) hash = hash << 8 | message.data[i];
-  return hash;
-}
-
-std::uint8_t TypeOf(ByteView message) {
-  static const auto places = [] {
-    const std::vector<MessageType>& types = MessageTypes();
-    SEAM_ASSERT(types.size() <= kOtherType);
-    std::unordered_map<std::uint64_t, std::uint8_t> all;
-    for (std::size_t i = 0; i < types.size(); ++i) {
-      all[types[i].on_edge] = static_cast<std::uint8_t>(i);
-    }
-    return all;
-  }();
-  if (message.size < kHashBytes) return kOtherType;
-  const auto found = places.find(HashOf(message));
-  return found == places.end() ? kOtherType : found->second;
+std::uint8_t PlaceOfType(ByteView message) {
+  SEAM_ASSERT(MessageTypes().size() <= kOtherType);
+  const MessageType* const type = FindType(message);
+  const bool of_edge = type != nullptr && type->on_edge == TypeHash(message);
+  return of_edge ? static_cast<std::uint8_t>(type - MessageTypes().data()) : kOtherType;
 }
 
 /// Appends the words of `fields` and kEnd without their zeros.
@@ -74,7 +57,7 @@ bool AppendUnpacked(ByteView packed, Bytes* out) {
 
 Bytes ShortForm(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
-  const std::uint8_t type = TypeOf(message);
+  const std::uint8_t type = PlaceOfType(message);
   const std::size_t skipped = type == kOtherType ? 0 : kHashBytes;
   const ByteView fields(message.data + skipped, message.size - skipped);
   Bytes bytes = {type};

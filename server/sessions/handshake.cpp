@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/base/check.h"
 #include "common/codec/codec.h"
 #include "common/net/datagram.h"
 #include "common/net/link.h"
@@ -21,18 +20,9 @@ std::string OtherProtocol(std::int32_t theirs) {
 /// True if the bytes begin with the type of a Hello or a Join. Nothing else is decoded for a sender
 /// without a session.
 bool BeginsAsHandshake(ByteView bytes) {
-  if (bytes.size < 8) return false;
-  std::uint64_t hash = 0;
-  for (std::size_t i = 0; i < 8; ++i) hash = hash << 8 | bytes.data[i];
-  static const auto hash_of = [](const std::string& name) {
-    const auto& types = MessageTypes();
-    const auto found = std::find_if(types.begin(), types.end(),
-                                    [&](const MessageType& type) { return type.name == name; });
-    SEAM_ASSERT(found != types.end());
-    return found->hash;
-  };
-  static const std::uint64_t hello = hash_of("hello_t"), join = hash_of("join_t");
-  return hash == hello || hash == join;
+  const MessageType* const type = FindType(bytes);
+  return type != nullptr &&
+         (type->name == std::string("hello_t") || type->name == std::string("join_t"));
 }
 
 }  // namespace

@@ -4,9 +4,7 @@
 #include <string>
 
 #include "common/codec/codec.h"
-#include "common/codec/wire_body.h"
 #include "common/net/datagram.h"
-#include "common/sync/edits/edit_order.h"
 #include "common/sync/limits.h"
 #include "common/sync/send_scheduler.h"
 
@@ -40,27 +38,6 @@ constexpr double kProposalsPerSecond = 20, kReportsPerSecond = 60;
 constexpr double kProposalsBurst = 256;
 constexpr double kKindBurstS = 4;
 
-/// The type of an encoded message: the 8 bytes at its start, big-endian.
-std::uint64_t HashOf(ByteView message) {
-  std::uint64_t hash = 0;
-  for (std::size_t i = 0; i < sizeof hash; ++i) hash = hash << 8 | message.data[i];
-  return hash;
-}
-
-std::uint64_t HashNamed(const std::string& name) {
-  for (const MessageType& type : MessageTypes()) {
-    if (type.name == name) return type.hash;
-  }
-  return 0;
-}
-
-/// As peers send it, without the bus's session.
-std::uint64_t StatesHash() {
-  States one;
-  AppendBody(WireBody(), &one);
-  return HashOf(Encode(one));
-}
-
 }  // namespace
 
 KindBudget::KindBudget(int send_hz, std::size_t parts) {
@@ -75,15 +52,11 @@ KindBudget::KindBudget(int send_hz, std::size_t parts) {
 }
 
 KindBudget::Bucket* KindBudget::BucketOf(ByteView message) {
-  static const std::uint64_t packed = HashNamed("packed_states_t"), states = StatesHash(),
-                             proposal = HashOf(Encode(ToOrder(Edit(BreakEdit{0})))),
-                             impacts = HashNamed("impact_report_t"),
-                             touches = HashNamed("touch_report_t");
-  if (message.size < sizeof packed) return nullptr;
-  const std::uint64_t hash = HashOf(message);
-  if (hash == packed || hash == states) return &states_;
-  if (hash == proposal) return &proposals_;
-  return hash == impacts || hash == touches ? &reports_ : nullptr;
+  const MessageType* const type = FindType(message);
+  const std::string name = type == nullptr ? "" : type->name;
+  if (name == "states_t" || name == "packed_states_t") return &states_;
+  if (name == "edit_t") return &proposals_;
+  return name == "impact_report_t" || name == "touch_report_t" ? &reports_ : nullptr;
 }
 
 bool KindBudget::Take(std::int64_t now_us, ByteView message) {

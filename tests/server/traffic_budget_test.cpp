@@ -71,6 +71,8 @@ TEST(KindBudget, EachTypeHasARateOfItsOwn) {
     Bytes message;
     double per_s, burst;
   } kinds[] = {{Named("packed_states_t"), 90, 360},
+               {Named("states_t"), 90, 360},  // as on the bus, with a session
+               {Named("edit_t"), 20, 256},
                {Encode(ToOrder(Edit(BreakEdit{0}))), 20, 256},
                {Named("impact_report_t"), 60, 240},
                {Named("touch_report_t"), 60, 240}};
