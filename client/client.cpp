@@ -40,8 +40,8 @@ constexpr std::int64_t kCatchesUpPart = 4;
 /// Mode central: inputs should arrive this long before the server needs them, us, and at least a
 /// tick: one that is late costs a whole tick, however long.
 constexpr std::int64_t kInputMarginUs = 35000;
-/// The same where datagrams are lost: a burst may take an input and its first repeats. With less
-/// some act late; with more, copies are stepped again from older states.
+/// The same where datagrams are lost, or too few came to know: a burst may take an input and its
+/// first repeats. With less some act late; with more, copies are stepped again from older states.
 constexpr std::int64_t kInputMarginLossUs = 5 * kInputRepeatUs;
 /// With a tap: ticks shown later than the states of most of them come, and the most of all that,
 /// us. With fewer a tick's states are passed on after it; with more watchers see the room older.
@@ -146,7 +146,8 @@ bool Client::PongOverdue(std::int64_t now_us) const {
 
 std::int64_t Client::LeadTarget() const {
   const std::int64_t tick_us = 1000000 / room_.tick_hz;
-  const std::int64_t margin_us = link_->loss_ppm() > 0 ? kInputMarginLossUs : kInputMarginUs;
+  const bool loses = link_->loss_ppm() > 0 || !link_->loss_known();
+  const std::int64_t margin_us = loses ? kInputMarginLossUs : kInputMarginUs;
   return clock_.rtt_p90_us() / 2 + std::max(margin_us, tick_us);
 }
 

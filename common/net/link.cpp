@@ -340,6 +340,7 @@ std::int64_t Link::known_until_us() const { return impl_->known_until_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 const LineRate& Link::rate() const { return impl_->rate; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }
+bool Link::loss_known() const { return impl_->window.full(); }
 std::int64_t Link::rejected() const { return impl_->rejected; }
 std::int64_t Link::SentUntilUs(std::int64_t now_us) { return impl_->reliable.SentUntilUs(now_us); }
 bool Link::reliable_pending() const { return !impl_->reliable.empty(); }

@@ -103,6 +103,7 @@ class Link {
   /// Returns the rate that the path to the peer carries; the owner keeps to it (SendCredit).
   const LineRate& rate() const;
   std::int64_t loss_ppm() const;  ///< share missing of the last 256 incoming sequence numbers
+  bool loss_known() const;        ///< true once so many have passed
   std::int64_t rejected() const;  ///< datagrams for which Receive returned false
   /// Returns the time of the last call before which all reliable messages queued have been sent
   /// once, us; on a thin line they wait for their turn. Call it at each tick.

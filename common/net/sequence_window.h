@@ -31,6 +31,8 @@ class SequenceWindow {
   std::uint32_t BitsBefore(std::int64_t number) const;
   /// Returns the share missing of the last 256 numbers (fewer at first), per million.
   std::int64_t loss_ppm() const;
+  /// Returns true once 256 numbers have passed: before, a loss of 0 says little.
+  bool full() const { return !empty_ && newest_ - first_ + 1 >= kSize; }
 
  private:
   bool empty_ = true;
