@@ -65,7 +65,7 @@ bool ElasticImpacts::Free(b2Body* body) const {
 
 /// Returns the body's index in bodies_, to which it is added if necessary. Immovable bodies have
 /// one for each contact.
-int ElasticImpacts::Place(const b2World& world, float h, b2Body* body) {
+int ElasticImpacts::Place(const b2World& world, float behind_s, b2Body* body) {
   const bool moves = Moves(body);
   if (moves) {
     int& known = place_[static_cast<std::size_t>(IndexOf(body))];
@@ -77,8 +77,8 @@ int ElasticImpacts::Place(const b2World& world, float h, b2Body* body) {
   q.im = moves ? static_cast<double>(body->*Member(BodyInverseMass())) : 0;
   q.ii = moves ? static_cast<double>(body->*Member(BodyInverseInertia())) : 0;
   const b2Vec2 pull = Pull(world, body);
-  q.kick_x = static_cast<double>(h) / 2 * static_cast<double>(pull.x);
-  q.kick_y = static_cast<double>(h) / 2 * static_cast<double>(pull.y);
+  q.kick_x = static_cast<double>(behind_s) * static_cast<double>(pull.x);
+  q.kick_y = static_cast<double>(behind_s) * static_cast<double>(pull.y);
   q.vx = static_cast<double>(body->GetLinearVelocity().x) + q.kick_x;
   q.vy = static_cast<double>(body->GetLinearVelocity().y) + q.kick_y;
   q.w = static_cast<double>(body->GetAngularVelocity());
@@ -86,7 +86,7 @@ int ElasticImpacts::Place(const b2World& world, float h, b2Body* body) {
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-void ElasticImpacts::Find(b2World* world, float h) {
+void ElasticImpacts::Find(b2World* world, float h, float behind_s) {
   for (b2Contact* c = world->GetContactList(); c != nullptr; c = c->GetNext()) {
     if (c->GetRestitution() < kEverything) continue;
     b2Fixture* const fixture_a = c->GetFixtureA();
@@ -105,8 +105,8 @@ void ElasticImpacts::Find(b2World* world, float h) {
     c->GetWorldManifold(&manifold);
     Touch touch;
     touch.made = c;
-    touch.a = Place(*world, h, a);
-    touch.b = Place(*world, h, b);
+    touch.a = Place(*world, behind_s, a);
+    touch.b = Place(*world, behind_s, b);
     touch.nx = static_cast<double>(manifold.normal.x);
     touch.ny = static_cast<double>(manifold.normal.y);
     touch.threshold = static_cast<double>(c->GetRestitutionThreshold());
@@ -259,10 +259,10 @@ void ElasticImpacts::Done() {
   }
 }
 
-void ElasticImpacts::Act(b2World* world, float h) {
+void ElasticImpacts::Act(b2World* world, float h, float behind_s) {
   bodies_.clear();
   touches_.clear();
-  Find(world, h);
+  Find(world, h, behind_s);
   const std::size_t touches = std::max<std::size_t>(touches_.size(), 1);
   const std::size_t most = std::min(kElasticImpactsEach * touches, kLooksMost / touches);
   for (std::size_t blow = 0; blow < most; ++blow) {

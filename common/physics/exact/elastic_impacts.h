@@ -23,9 +23,11 @@ class ElasticImpacts {
   bool needed() const { return needed_; }
 
   /// Solves the impacts between the narrow phase and the engine's solver, for a step of h s.
+  /// `behind_s`: the pull of so many seconds is missing in the speeds that belong to the places: h
+  /// / 2 where a step moves bodies by their speeds at its end, 0 where it moves them by the mean.
   /// Changes velocities, wakes the bodies that were hit, and reports the impulses to the world's
   /// listener (PostSolve). Ignores disabled contacts.
-  void Act(b2World* world, float h);
+  void Act(b2World* world, float h, float behind_s);
   /// Called after the step: enables the contacts that Act has disabled for it.
   void Done();
 
@@ -33,8 +35,8 @@ class ElasticImpacts {
   struct Body {
     b2Body* body = nullptr;
     double im = 0, ii = 0;          // 1/kg, 1/(kg m2); 0: immovable
-    double vx = 0, vy = 0, w = 0;   // m/s, rad/s, halfway through the step's kick
-    double kick_x = 0, kick_y = 0;  // m/s: half of the step's change by gravity and forces
+    double vx = 0, vy = 0, w = 0;   // m/s, rad/s, at the place
+    double kick_x = 0, kick_y = 0;  // m/s: what they lack of it, by gravity and forces
     bool struck = false;
   };
   struct Point {
@@ -53,8 +55,8 @@ class ElasticImpacts {
   };
 
   bool Free(b2Body* body) const;
-  int Place(const b2World& world, float h, b2Body* body);
-  void Find(b2World* world, float h);
+  int Place(const b2World& world, float behind_s, b2Body* body);
+  void Find(b2World* world, float h, float behind_s);
   Body& At(int body) { return bodies_[static_cast<std::size_t>(body)]; }
   void Speeds(const Touch& touch, const Point& point, double* normal, double* tangent);
   void Look(Touch* touch);

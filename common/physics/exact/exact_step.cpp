@@ -328,7 +328,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     moving += found.slots.size();
     solved_.push_back(static_cast<int>(m));
   }
-  if (blows_) blows_->Act(world_, h);
+  if (blows_) blows_->Act(world_, h, soft_ ? 0 : h / 2);
   const bool left = soft_ ? soft_->Solve(h) : moving < slots_.size();
   if (left || (!soft_ && !paths_.empty())) {
     (world_->*Member(EngineSolve()))(step);
