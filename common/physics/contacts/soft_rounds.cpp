@@ -7,6 +7,8 @@ namespace {
 
 /// m/s: at most so fast is an overlap undone.
 constexpr float kOutMost = 3;
+/// Points of a pair that are so nearly one count as one: their determinant, as a share.
+constexpr float kSingular = 1e-3f;
 
 /// Returns `yes` where a > b, else `no`.
 SEAM_WIDE Wide Pick(Wide a, Wide b, Wide yes, Wide no) { return a > b ? yes : no; }
@@ -141,18 +143,46 @@ struct SoftContacts::Rounds {
     RubAll();
     Write();
   }
-  /// Gives points that were pushed their restitution.
+  /// Gives points that were pushed their restitution. Both points of a pair get the speeds that
+  /// they shall have: one after the other, the second would change the first one's.
   SEAM_WIDE void Restore() {
     const Wide none = All(0);
+    Wide wanted[b2_maxManifoldPoints], returns[b2_maxManifoldPoints];
     for (int i = 0; i < block.count; ++i) {
-      Points& p = block.point[i];
-      const Wide back = p.pushed - p.mass_n * (SpeedN(p) + block.restitution * p.closing);
-      const Wide fast = Pick(p.closing, -block.threshold, p.pushed, back);
-      const Wide pushed = Pick(p.sum_n, none, fast, p.pushed), before = p.pushed;
-      PushTo(Pick(block.restitution, none, pushed, p.pushed), &p);
-      p.sum_n += p.pushed - before;
+      const Points& p = block.point[i];
+      returns[i] = Pick(block.restitution, none, All(1), none);
+      returns[i] = Pick(p.sum_n, none, returns[i], none);
+      returns[i] = Pick(-block.threshold, p.closing, returns[i], none);
+      wanted[i] = -returns[i] * (SpeedN(p) + block.restitution * p.closing);
+    }
+    const auto alone = [&](int i) {
+      const Points& p = block.point[i];
+      const Wide lacks = -returns[i] * (SpeedN(p) + block.restitution * p.closing);
+      return More(p.mass_n * lacks, -p.pushed);
+    };
+    if (block.count == 2) {
+      const Points &p = block.point[0], &q = block.point[1];
+      const Wide both = block.im_a + block.im_b + block.ii_a * p.lever_an * q.lever_an +
+                        block.ii_b * p.lever_bn * q.lever_bn;
+      const Wide rest = All(1) - both * both * p.mass_n * q.mass_n;
+      const Wide safe = More(rest, All(kSingular));
+      const Wide x = p.mass_n * (wanted[0] - both * q.mass_n * wanted[1]) / safe;
+      const Wide y = q.mass_n * (wanted[1] - both * p.mass_n * wanted[0]) / safe;
+      Wide pair = returns[0] * returns[1] * q.used;
+      pair = Pick(rest, All(kSingular), pair, none);
+      pair = Pick(-p.pushed, x, none, pair);
+      pair = Pick(-q.pushed, y, none, pair);
+      Return(Pick(pair, none, x, alone(0)), &block.point[0]);
+      Return(Pick(pair, none, y, alone(1)), &block.point[1]);
+    } else if (block.count == 1) {
+      Return(alone(0), &block.point[0]);
     }
     Write();
+  }
+  SEAM_WIDE void Return(Wide more, Points* p) {
+    p->pushed += more;
+    p->sum_n += more;
+    Push(*p, more);
   }
 };
 
