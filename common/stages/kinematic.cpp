@@ -6,6 +6,7 @@
 
 #include "common/base/geometry.h"
 #include "common/base/trig.h"
+#include "common/physics/engine_members.h"
 #include "common/physics/stage.h"
 
 namespace seam {
@@ -30,13 +31,17 @@ class KinematicStage : public Stage {
   void BeforeTick() override { substep_ = 0; }
   void BeforeStep(float h) override {
     ++substep_;
-    const double to = static_cast<double>(world_.tick) +
-                      static_cast<double>(substep_) / world_.scene.solver.substeps;
+    const double part = 1.0 / world_.scene.solver.substeps;
+    const double to = static_cast<double>(world_.tick) + substep_ * part;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const BodyState now = motions_->At(static_cast<int>(i), to - part);
       const BodyState next = motions_->At(static_cast<int>(i), to);
       b2Body* body = bodies_[i];
-      body->SetLinearVelocity((1 / h) * (ToB2(next.position) - body->GetPosition()));
+      const b2Vec2 mean = (1 / h) * (ToB2(next.position) - body->GetPosition());
+      body->SetLinearVelocity(mean);
       body->SetAngularVelocity((next.angle - body->GetAngle()) / h);
+      // m/s2: for soft contacts, which step it in parts (SoftStep::Fixed). The engine ignores it.
+      body->*Member(BodyForce()) = 2 / h * (mean - ToB2(now.velocity));
     }
   }
   void AfterTick() override { Place(); }

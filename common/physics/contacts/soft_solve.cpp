@@ -15,8 +15,7 @@ constexpr float kSmoothMost = 4;
 
 /// `times`: half a substep's kick, or two of them.
 void SoftContacts::Kick(float h, int times) {
-  for (std::size_t i = 0; i < moving; ++i) {
-    SoftBody& q = bodies[i];
+  for (SoftBody& q : bodies) {
     const float keep = 1 / (1 + h * q.slow), keep_spin = 1 / (1 + h * q.slow_spin);
     for (int k = 0; k < times; ++k) {
       q.vx = (q.vx + h * q.ax) * keep;
@@ -43,8 +42,7 @@ void SoftContacts::Drift(float h) {
 /// `step_s`: their substeps' ways were those of the speeds at the ends of substeps, not of the mean
 /// ones. A body that has gained more than forces explain had an impact, and stays.
 void SoftContacts::Centre(float h, float step_s) {
-  for (std::size_t i = 0; i < moving; ++i) {
-    SoftBody& q = bodies[i];
+  for (SoftBody& q : bodies) {
     const float x = q.vx - q.from_vx, y = q.vy - q.from_vy;
     const float most = kSmoothMost * step_s * step_s * (q.ax * q.ax + q.ay * q.ay);
     if (x * x + y * y > most) continue;

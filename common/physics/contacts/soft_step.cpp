@@ -125,10 +125,15 @@ int SoftStep::Fixed(b2Body* body) {
   for (std::size_t i = fixed_.size(); i-- > 0;) {
     if (fixed_[i] == body) return static_cast<int>(soft_.moving + 1 + i);
   }
+  // Its velocity is the mean of the step, about which its own changes evenly.
+  const b2Vec2 gain = body->*Member(BodyForce());
+  const b2Vec2 begin = body->GetLinearVelocity() - step_s_ / 2 * gain;
   SoftBody q;
-  q.vx = body->GetLinearVelocity().x;
-  q.vy = body->GetLinearVelocity().y;
+  q.vx = begin.x;
+  q.vy = begin.y;
   q.w = body->GetAngularVelocity();
+  q.ax = gain.x;
+  q.ay = gain.y;
   fixed_.push_back(body);
   soft_.bodies.push_back(q);
   return static_cast<int>(soft_.bodies.size()) - 1;

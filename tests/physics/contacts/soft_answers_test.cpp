@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -107,6 +108,57 @@ TEST(SoftAnswers, ABouncingBallKeepsTheSquareOfItsRestitution) {
       while (world->Read(0).velocity.y() <= 0 && world->tick() < 300) world->Step();
       const double left = BallEnergy(*world) / (10 * height);
       EXPECT_NEAR(left, restitution * restitution, 0.02 * left) << restitution << ' ' << height;
+    }
+  }
+}
+
+/// For ever: what a step would add comes back at each impact.
+TEST(SoftAnswers, AnElasticThingComesBackToItsHeight) {
+  for (const char* shape : {"circle = 0.5", "box = [1, 1]", "box = [0.3, 1]", "box = [4, 1]"}) {
+    for (const double height : {0.5, 5.0}) {
+      for (const char* solver : {"", "substeps = 3\n"}) {
+        const auto world = SoftWorld(
+            Ground(0) + Thing(shape, 0, 0.5 + height, "restitution = 1\nfriction = 0"), solver);
+        float top = 0;
+        for (int tick = 0; tick < 2400; ++tick) {
+          world->Step();
+          if (tick >= 2000) top = std::max(top, world->Read(0).position.y());
+        }
+        EXPECT_NEAR(top - 0.5, height, 0.02 * height) << shape << ' ' << height << ' ' << solver;
+      }
+    }
+  }
+}
+
+/// Both corners come back at once: it neither turns nor gains.
+TEST(SoftAnswers, ABoxThatLandsFlatKeepsTheSquareOfItsRestitution) {
+  for (const double width : {0.1, 0.3, 1.0, 4.0}) {
+    for (const double restitution : {0.5, 0.8, 0.95}) {
+      const std::string shape = "box = [" + FloatDigits(width) + ", 1]";
+      const auto world = SoftWorld(
+          Ground(0.5) + Thing(shape, 0, 5.5, "restitution = " + FloatDigits(restitution)));
+      while (world->Read(0).velocity.y() <= 0 && world->tick() < 300) world->Step();
+      const double left = BallEnergy(*world) / 50;
+      EXPECT_NEAR(left, restitution * restitution, 0.03) << width << ' ' << restitution;
+      EXPECT_NEAR(world->Read(0).spin, 0, 1e-3) << width << ' ' << restitution;
+    }
+  }
+}
+
+TEST(SoftAnswers, NothingCreepsOnALiftThatGoesUpAndAcross) {
+  for (const char* path : {"[[0, 0], [3, 2]]", "[[0, 0], [3, -2]]", "[[0, 0], [3, 0]]"}) {
+    for (const char* solver : {"", "substeps = 3\n"}) {
+      const auto world = SoftWorld(
+          Thing("box = [0.6, 0.6]", 0.3, 0.55, "friction = 0.9") +
+              "[[part]]\nname = \"lift\"\nbox = [6, 0.5]\nanchored = true\nfriction = 0.9\n"
+              "[[joint]]\nname = \"way\"\nkind = \"kinematic\"\nb = \"lift\"\nperiod = 4\n"
+              "ease = true\npath = " +
+              path + "\n",
+          solver);
+      Steps(world.get(), 240);
+      const float from = world->Read(0).position.x();
+      Steps(world.get(), 2400);
+      EXPECT_NEAR(world->Read(0).position.x(), from, 0.005) << path << ' ' << solver;
     }
   }
 }
