@@ -9,13 +9,6 @@
 #include "common/physics/exact/exact_step.h"
 
 namespace seam {
-namespace {
-
-/// Share of its kinetic energy, and J/kg, by which continuous collision may lift a mechanism
-/// without a correction.
-constexpr double kLiftShare = 0.05, kLiftPerMass = 0.05;
-
-}  // namespace
 
 /// Listens during the engine's continuous collision. Does not report its impacts of a mechanism's
 /// body with something immovable: the whole mechanism has that impact in the next step. Impacts
@@ -126,23 +119,21 @@ double ExactStep::EnergyOf(const Found& found, bool left) const {
 /// as far as their motion has less.
 void ExactStep::RemoveLiftEnergy(double before, const std::vector<ExactBody>& from,
                                  Found* found) const {
-  double mass = 0;
-  for (const ExactBody& q : found->island->bodies) mass += q.moves() ? 1 / q.im : 0;
   const double kinetic = KineticOf(found->island->bodies);
-  const double spare = kLiftShare * kinetic + kLiftPerMass * mass;
   const double there = EnergyOf(*found, false);
   double excess = there - before;
-  if (excess <= spare) return;
-  if (excess > kinetic + spare) {
+  if (excess <= 0) return;
+  if (excess > kinetic) {
     std::vector<ExactBody>& bodies = found->island->bodies;
     const std::vector<ExactBody> to = bodies;
     GoShare(from, 0, &bodies);
     const double lift = there - EnergyOf(*found, false);
     bodies = to;
-    const double most = lift - (excess - kinetic - spare);
+    const double most = lift - (excess - kinetic);
     if (lift > 0) GoShare(from, std::max(0.0, most / lift), &bodies);
     excess = kinetic;
   }
+  if (kinetic <= 0) return;
   const double share = std::sqrt(std::max(0.0, 1 - excess / kinetic));
   for (ExactBody& q : found->island->bodies) {
     if (!q.moves()) continue;
