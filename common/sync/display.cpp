@@ -138,7 +138,7 @@ void Display::Reset(int body) {
   shown_[body].since = world_.tick() + 1;
 }
 
-void Display::Glide(const Roles& roles, std::int64_t missing) {
+void Display::Glide(const Roles& roles, const MissingInputs& missing) {
   ++glides_;
   if (config_.smooth_rate <= 0) return;
   seats_.Look(world_);

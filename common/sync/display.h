@@ -36,9 +36,9 @@ class Display {
   void Drive(std::int64_t next, const MovingBox& seen);
   /// True if the peer displays others' bodies as they were some ticks ago.
   bool ShowsPast(const Roles& roles) const;
-  /// Call after a step. Lets the visual offsets return by one tick. `missing`: the newest ticks for
-  /// which some player's input is not known; used if ShowsPast.
-  void Glide(const Roles& roles, std::int64_t missing);
+  /// Call after a step. Lets the visual offsets return by one tick. `missing` is
+  /// used if ShowsPast.
+  void Glide(const Roles& roles, const MissingInputs& missing);
 
   /// Reports that the simulated state of `body` changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
@@ -86,7 +86,7 @@ class Display {
   void HidePastMoves(int body);
   void ShowPresent(int body);
   void ShowAllPresent();
-  void ShowOthers(const Roles& roles, std::int64_t missing);
+  void ShowOthers(const Roles& roles, const MissingInputs& missing);
   bool IsDelayed(const Roles& roles, int body) const;
   BodyState Visible(int body, BodyState jump) const;
   BodyState Along(int body, const BodyState& here, const PathSpeed& speed, const BodyState& state);

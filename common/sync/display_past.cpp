@@ -185,7 +185,7 @@ double Display::AgeOf(const Roles& roles, int body) const {
 }
 
 /// Call after a step, with its tick recorded: chooses the moment at which each body is displayed.
-void Display::ShowOthers(const Roles& roles, std::int64_t missing) {
+void Display::ShowOthers(const Roles& roles, const MissingInputs& missing) {
   if (!ShowsPast(roles)) return ShowAllPresent();
   any_past_ = true;
   ages_.Look(missing);

@@ -85,7 +85,7 @@ void Replica::Step() {
   memory_.Record();
   if (activities_.CheckIfDue()) corrector_.FollowRoles(BodiesOf(activities_.changed()));
   replay_.TakeBarrier();
-  display_.Glide(roles_, display_.ShowsPast(roles_) ? reach_.LongestMissing() : 0);
+  display_.Glide(roles_, display_.ShowsPast(roles_) ? reach_.Missing() : MissingInputs());
   corrector_.ReceiveWaiting();
 }
 

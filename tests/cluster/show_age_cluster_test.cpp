@@ -127,6 +127,21 @@ TEST(ShowAge, IsNotNoticedAtTheStartOrWhereNothingTouches) {
   EXPECT_EQ(MeasuresOf(recording).seen, 0);
 }
 
+TEST(ShowAge, IsNoMoreThanInputsTake) {
+  for (const auto& [impair, most] : {std::pair{"perfect", 4.0f}, std::pair{"cable", 7.0f}}) {
+    ClusterConfig config = With("headon", "buffer", 8);
+    config.impair = impair;
+    const Recording recording = RunWith(config).recording;
+    float oldest = 0;
+    for (const auto& [tick, view] : recording.views.at(1)) {
+      if (tick < 240) continue;  // it begins with the greatest
+      oldest = std::max(oldest, *std::max_element(view.age.begin(), view.age.end()));
+    }
+    EXPECT_LE(oldest, most) << impair;
+    EXPECT_GT(oldest, 0) << impair;
+  }
+}
+
 TEST(ShowAge, ShowsOthersNearerToTheirTruePath) {
   for (const char* mode : {"buffer", "central"}) {
     const Measures now = MeasuresOf(RunWith(With("crossing", mode, 0)).recording);

@@ -15,12 +15,15 @@
 namespace seam {
 namespace show_age_test {
 
+/// A player lacks so many newest ticks.
+MissingInputs Missing(std::int64_t ticks) { return {{1, ticks}}; }
+
 TEST(ShowAge, IsTheTimeForWhichInputsAreMissingAndAtMostWhatIsAsked) {
   SyncConfig config = MakeSyncConfig("buffer", "rollback");
   config.show_age_ticks = 12;
   for (const auto& [missing, due] : {std::pair{8, 8}, std::pair{40, 12}, std::pair{0, 0}}) {
     ShowAge ages(config);
-    for (std::size_t tick = 0; tick < RecentAges::kAgesKept; ++tick) ages.Look(missing);
+    for (std::size_t tick = 0; tick < RecentAges::kAgesKept; ++tick) ages.Look(Missing(missing));
     EXPECT_EQ(ages.due(), due);
   }
 }
@@ -30,7 +33,7 @@ TEST(ShowAge, BeginsWithTheGreatestSoThatItNeedNotRise) {
   config.show_age_ticks = 8;
   ShowAge ages(config);
   for (int tick = 1; tick <= 30; ++tick) {
-    ages.Look(std::min(tick, 7));  // the first inputs arrive in tick 7
+    ages.Look(Missing(std::min(tick, 7)));  // the first inputs arrive in tick 7
     EXPECT_EQ(ages.due(), 8);
   }
 }
@@ -39,8 +42,19 @@ TEST(ShowAge, IsNotThatOfARareLateInput) {
   SyncConfig config = MakeSyncConfig("buffer", "rollback");
   config.show_age_ticks = 30;
   ShowAge ages(config);
-  for (int tick = 0; tick < 90; ++tick) ages.Look(tick % 30 == 7 ? 25 : 6);
+  for (int tick = 0; tick < 90; ++tick) ages.Look(Missing(tick % 30 == 7 ? 25 : 6));
   EXPECT_EQ(ages.due(), 6);
+}
+
+/// Its inputs take 2 ticks, and what does not change is told every 6th tick.
+TEST(ShowAge, OfAUsualSilenceIsTheTimeThatInputsTake) {
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.show_age_ticks = 8;
+  ShowAge ages(config);
+  for (int tick = 0; tick < 200; ++tick) ages.Look(Missing(2 + tick % 6));
+  EXPECT_EQ(ages.due(), 3);
+  for (int silent = 8; silent < 40; ++silent) ages.Look(Missing(silent));
+  EXPECT_EQ(ages.due(), 8) << "a longer one may hide a change";
 }
 
 TEST(ShowAge, GlidesByAsMuchOfTheSpeedAsNobodyNotices) {

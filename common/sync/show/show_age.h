@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -23,15 +24,24 @@ namespace seam {
 /// this speed, m/s, if that is more.
 constexpr double kUnseenShare = 0.06, kUnseenSpeed = 0.05;
 
-/// The age at which inputs are complete. Before it is known it is the greatest that is allowed:
-/// bodies wait for it once, and it need not rise while they move.
+/// Players that are waited for, with the number of newest ticks for which nothing has come from
+/// them.
+using MissingInputs = std::vector<std::pair<int, std::int64_t>>;
+
+/// The longest usual silence of a player whose input does not change: it rides along with other
+/// messages, and the clock is asked for ten times a second. A change is sent at once.
+constexpr double kUsualSilenceS = 0.15;
+
+/// The age at which inputs are known. A player that is silent no longer than usual has changed
+/// nothing, up to as long ago as its inputs take to come. Before that is known the age is the
+/// greatest that is allowed: bodies wait for it once, and it need not rise while they move.
 class ShowAge {
  public:
   /// `config` must outlive this.
   explicit ShowAge(const SyncConfig& config) : config_(config) {}
 
-  /// Call after a step. `missing`: the newest ticks for which an input or state is not known yet.
-  void Look(std::int64_t missing);
+  /// Call after a step.
+  void Look(const MissingInputs& missing);
   /// Returns the age that displayed poses are to have, ticks.
   double due() const { return due_; }
   /// Returns the moment to display at tick `now` after `moment` at the tick before: as near to
@@ -39,8 +49,17 @@ class ShowAge {
   static double Glide(double moment, double now, double due, double speed);
 
  private:
+  struct Heard {
+    std::int64_t look = 0, missing = 0;  // the last look at it, and what was missing then
+    RecentAges late;                     // ticks that inputs took to come
+  };
+  /// Returns how many newest ticks of a player may hold a change that has not come.
+  std::int64_t Unknown(int player, std::int64_t missing);
+
   const SyncConfig& config_;
-  RecentAges missing_;
+  std::vector<Heard> heard_;  // by player
+  std::int64_t look_ = 0;
+  RecentAges unknown_;
   double due_ = 0;
 };
 
