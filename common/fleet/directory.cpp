@@ -145,6 +145,15 @@ Status Directory::StandBy(const FleetRoom& room, bool* done) {
                         {{RoomKey(room.name, "standby"), MyStandbyText(), lease_}}, done);
 }
 
+Status Directory::Appoint(const std::string& room, std::int32_t epoch, const FleetServer& standby) {
+  bool done = false;
+  return store_->Commit(
+      {{RoomKey(room, "holder"), Is::kValue, MyHolderText(epoch), 0},
+       {prefix_ + "servers/" + standby.id, Is::kPresent, "", 0}},
+      {{RoomKey(room, "standby"), StandbyTextOf({standby.id, standby.address}), standby.lease}},
+      &done);
+}
+
 Status Directory::StandDown(const std::string& room) {
   bool done = false;
   return store_->Commit({{RoomKey(room, "standby"), Is::kValue, MyStandbyText(), 0}},

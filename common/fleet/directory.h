@@ -106,6 +106,8 @@ class Directory {
   /// Becomes the standby of a room that another server holds and that has none. `done` false: it
   /// has one, or is not held by another as `room` was read.
   Status StandBy(const FleetRoom& room, bool* done);
+  /// Makes another server the standby of a room that is held here, in place of any other.
+  Status Appoint(const std::string& room, std::int32_t epoch, const FleetServer& standby);
   /// Is no longer the standby, if it is.
   Status StandDown(const std::string& room);
   /// Takes a room from a holder that is silent, as its standby. `epoch`: the next; 0: it is not the

@@ -113,8 +113,14 @@ void FollowFleet(FleetMember& member, Hub& hub) {
 void DrainRooms(const ServerFlags& f, FleetMember* member, Hub& hub) {
   std::string to;
   if (f.drain_to != kAnyOfFleet) to = ToString(ParseAddress(f.drain_to, 7777));
-  if (member != nullptr) member->Stop();
-  hub.Drain([&](const std::string& room, std::int32_t epoch) {
+  if (member != nullptr) member->Drain(to);
+  const auto may_be_taken = [&] {
+    if (member == nullptr) return false;
+    FollowFleet(*member, hub);
+    if (!member->drains()) member->Stop();  // what is left is moved
+    return member->drains();
+  };
+  const auto where = [&](const std::string& room, std::int32_t epoch) {
     if (member != nullptr) {
       const Redirect moved = member->Move(room, to, epoch);
       if (moved.address.empty())
@@ -126,7 +132,9 @@ void DrainRooms(const ServerFlags& f, FleetMember* member, Hub& hub) {
     redirect.room = room;
     redirect.epoch = epoch;
     return redirect;
-  });
+  };
+  hub.Drain(may_be_taken, where);
+  if (member != nullptr) member->Stop();
 }
 
 }  // namespace seam

@@ -15,6 +15,9 @@ namespace {
 
 /// Time between two rounds, ms: a lease of kFleetLeaseS is renewed twenty times.
 constexpr int kRoundMs = 250;
+/// The same while it drains, ms: a room that was taken ticks on for that time, and the next one
+/// waits.
+constexpr int kDrainRoundMs = 5;
 /// Least time between two rounds that joins bring about, us: they may be a stranger's.
 constexpr std::int64_t kLookSoonUs = 50000;
 /// A room that cannot be opened here is left to others for so long, us; twice as long after each
@@ -117,13 +120,15 @@ void FleetMember::Run() {
   while (!stop_) {
     lock.unlock();
     const Status status = Round();
+    if (!status.ok()) (void)FollowDrain(FleetListing());
     lock.lock();
     if (up_.exchange(status.ok()) != status.ok()) {
       news_.push_back(status.ok() ? "the directory answers again"
                                   : "no directory: the rooms go on (" + status.why() + ")");
     }
     round_us_ = SteadyClockUs();
-    wake_.wait_for(lock, std::chrono::milliseconds(kRoundMs), [this] { return stop_ || due_; });
+    const int round_ms = draining_ ? kDrainRoundMs : kRoundMs;
+    wake_.wait_for(lock, std::chrono::milliseconds(round_ms), [this] { return stop_ || due_; });
     due_ = false;
   }
 }
@@ -134,19 +139,28 @@ void FleetMember::LookSoon() {
   wake_.notify_all();
 }
 
-Status FleetMember::Round() {
+Status FleetMember::Renew() {
+  const std::int64_t now_us = SteadyClockUs();
+  const bool lately = now_us - renewed_us_ < std::int64_t{kRoundMs} * 1000;
+  if (lately && draining_ == directory_.me().draining) return Status::Ok();
   bool kept = false;
   Status status = directory_.Renew(&kept);
   if (!status.ok()) return status;
-  status = GiveUpUnopened();
-  if (!status.ok()) return status;
   FleetServer me = config_.me;
-  me.used = static_cast<std::int32_t>(held_.size());
-  if (!kept || me.used != directory_.me().used) {
+  me.used = static_cast<std::int32_t>(held_.size() + coming_.size());
+  me.draining = draining_;
+  const FleetServer& was = directory_.me();
+  if (!kept || me.used != was.used || me.draining != was.draining) {
     status = directory_.Register(me);
-    if (!status.ok()) return status;
   }
-  status = TakeDue();
+  if (status.ok()) renewed_us_ = now_us;
+  return status;
+}
+
+Status FleetMember::Round() {
+  Status status = TakeDue();  // first: players wait
+  if (status.ok()) status = Renew();
+  if (status.ok()) status = GiveUpUnopened();
   if (!status.ok()) return status;
   FleetListing listing;
   status = directory_.List(&listing);
@@ -159,13 +173,15 @@ Status FleetMember::Round() {
     }
     refused_ = listing.refused;
   }
-  std::vector<FleetRoom> guarded;
+  std::vector<StandbyWatch::Guarded> guarded;
   for (const FleetRoom& room : listing.rooms) {
     status = LookAt(room);
     if (status.ok()) status = StandBy(room);
     if (!status.ok()) return status;
     const bool ours = room.standby && room.standby->server == config_.me.id;
-    if (ours && IsAnothers(room)) guarded.push_back(room);
+    if (!ours || !IsAnothers(room)) continue;
+    const FleetServer* const holder = listing.FindServer(room.holder->server);
+    guarded.push_back({room, takes() && holder != nullptr && holder->draining});
   }
   if (watch_ != nullptr) watch_->Set(guarded);
   NoteStandbys(listing);
@@ -176,7 +192,7 @@ Status FleetMember::Round() {
     if (!status.ok()) return status;
     if (done) Say("room " + room + ": the directory had lost it, and has it again");
   }
-  return status;
+  return FollowDrain(listing);
 }
 
 Status FleetMember::LookAt(const FleetRoom& room) {
@@ -195,13 +211,18 @@ Status FleetMember::LookAt(const FleetRoom& room) {
     bool done = false;
     return room.holder ? Status::Ok() : directory_.TakeBack(room.name, held->second, &done);
   }
+  const auto coming = coming_.find(room.name);
+  if (coming != coming_.end() && mine) return Status::Ok();
+  if (coming != coming_.end()) coming_.erase(coming);  // another was faster
   const auto failed = failed_.find(room.name);
   const bool tries = failed == failed_.end() || SteadyClockUs() > failed->second.again_us;
-  if (!config_.takes || room.state.empty() || !tries) return Status::Ok();
+  if (!takes() || room.state.empty() || !tries) return Status::Ok();
   if (mine) {
     bool done = false;
     const Status status = directory_.TakeBack(room.name, room.holder->epoch, &done);
-    return status.ok() && done ? TakeHere(room, room.holder->epoch, nullptr) : status;
+    if (!status.ok() || !done) return status;
+    return TakeHere(room, room.holder->epoch,
+                    watch_ != nullptr ? watch_->Take(room.name) : nullptr);
   }
   const auto used = static_cast<std::int32_t>(held_.size());
   if (room.holder || used >= config_.me.capacity || !IsOurs(room.name)) return Status::Ok();

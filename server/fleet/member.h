@@ -68,6 +68,11 @@ class FleetMember {
   bool Knows(const std::string& room);
   void Start();
   void Stop();
+  /// Lets others take the rooms that are here: their standbys, or the server at `to`, which becomes
+  /// their standby; "": any. Takes none any more. Thread-safe.
+  void Drain(const std::string& to);
+  /// True while others may still do so. Thread-safe.
+  bool drains() const { return drains_; }
   /// Moves a room that was given away: to the server at `to`, or of any other that has room if it
   /// is empty. Returns where it goes on: at another server that has taken it meanwhile, in a higher
   /// epoch, too; an empty address if nowhere.
@@ -105,6 +110,12 @@ class FleetMember {
                   std::unique_ptr<FollowedRoom> followed);
   /// Takes the rooms that are due from their holders.
   Status TakeDue();
+  Status TakeFrom(StandbyWatch::Due due);
+  /// Renews the lease, and writes what has changed of this server.
+  Status Renew();
+  /// While it drains: appoints the standbys, and sees whether there are any.
+  Status FollowDrain(const FleetListing& listing);
+  bool takes() const { return config_.takes && !draining_; }
   /// Becomes the standby of a room of another server that has none.
   Status StandBy(const FleetRoom& room);
   /// A room that was taken over and could not be opened here.
@@ -137,15 +148,21 @@ class FleetMember {
     std::string why;
   };
   std::map<std::string, std::int32_t> held_;     // epoch of each room that is here
+  std::map<std::string, std::int32_t> coming_;   // the same of each whose holder still runs it
   std::map<std::string, Failure> failed_;        // rooms that could not be opened here
   std::map<std::string, std::int32_t> to_give_;  // epoch of each that the directory has to give up
   std::map<std::string, std::string> guards_;    // address of the standby of each room that is here
   std::map<std::string, std::int64_t> unguarded_us_;  // since when a room has no standby
+  std::int64_t renewed_us_ = INT64_MIN / 2;
+  std::size_t left_ = 0;      // rooms that were here at the last look
+  std::int64_t gone_us_ = 0;  // when one of them went, while it drains
+  std::atomic<bool> draining_{false}, drains_{false};
   std::atomic<bool> up_{true};
   std::thread thread_;
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable wake_;
   bool stop_ = false, due_ = false;
+  std::string drain_to_;
   std::int64_t round_us_ = 0;  // end of the last round
   FleetListing listing_;
   std::vector<RoomPlan> ready_;

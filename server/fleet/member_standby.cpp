@@ -10,6 +10,9 @@ namespace {
 
 /// A room without a standby is left so long to servers that would follow it, us.
 constexpr std::int64_t kLetWarmUs = 1500000;
+/// A room of a server that drains is left so long to who may take it, us: a lease, in which one
+/// that is not warm becomes its standby and opens it.
+constexpr std::int64_t kTakesUs = std::int64_t{kFleetLeaseS} * 1000000;
 
 }  // namespace
 
@@ -23,25 +26,78 @@ Redirect RedirectTo(const std::string& room, const FleetHolder& holder) {
 
 bool FleetMember::IsAnothers(const FleetRoom& room) const {
   const bool held = room.holder && room.holder->server != config_.me.id;
-  return held && held_.count(room.name) == 0;
+  return held && held_.count(room.name) == 0 && coming_.count(room.name) == 0;
 }
 
 Status FleetMember::TakeDue() {
   if (watch_ == nullptr) return Status::Ok();
   Status status;
   for (StandbyWatch::Due& due : watch_->TakeDue()) {
-    std::int32_t epoch = 0;
-    if (held_.count(due.room.name) > 0) continue;
-    status = directory_.TakeFrom(due.room, &epoch);
-    if (!status.ok()) return status;
-    if (epoch == 0) continue;
-    Say("room " + due.room.name + ": " + due.room.holder->server + " is silent, and " +
-        std::to_string(due.knocking) + " of " + std::to_string(due.present) +
-        " player(s) ask for it here");
-    status = TakeHere(due.room, epoch, std::move(due.followed));
-    if (!status.ok()) return status;
+    // Each gets its answer.
+    const Status taken = TakeFrom(std::move(due));
+    if (status.ok()) status = taken;
   }
   return status;
+}
+
+Status FleetMember::TakeFrom(StandbyWatch::Due due) {
+  const std::string& name = due.room.name;
+  if (due.epoch > 0) {
+    const auto coming = coming_.find(name);
+    if (coming == coming_.end() || coming->second != due.epoch) return Status::Ok();
+    coming_.erase(coming);
+    return TakeHere(due.room, due.epoch, std::move(due.followed));
+  }
+  std::int32_t epoch = 0;
+  Status status;
+  const bool may = held_.count(name) == 0 && coming_.count(name) == 0 && takes();
+  if (may) status = directory_.TakeFrom(due.room, &epoch);
+  if (due.leaving) {
+    watch_->Await(name, epoch);
+    if (epoch > 0) coming_[name] = epoch;
+    return status;
+  }
+  if (epoch == 0) return status;
+  Say("room " + name + ": " + due.room.holder->server + " is silent, and " +
+      std::to_string(due.knocking) + " of " + std::to_string(due.present) +
+      " player(s) ask for it here");
+  return TakeHere(due.room, epoch, std::move(due.followed));
+}
+
+void FleetMember::Drain(const std::string& to) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  drain_to_ = to;
+  draining_ = drains_ = true;
+  due_ = true;
+  wake_.notify_all();
+}
+
+Status FleetMember::FollowDrain(const FleetListing& listing) {
+  if (!draining_) return Status::Ok();
+  std::string to;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    to = drain_to_;
+  }
+  bool may = listing.servers.empty();  // the directory does not answer
+  for (const FleetServer& server : listing.servers) {
+    const bool fits = server.protocol == config_.me.protocol && server.used < server.capacity;
+    const bool other = server.id != config_.me.id && !server.draining;
+    if (!other || !(to.empty() ? fits : server.address == to)) continue;
+    may = true;
+    for (const auto& [name, epoch] : held_) {
+      const FleetRoom* const room = listing.FindRoom(name);
+      if (to.empty() || room == nullptr || (room->standby && room->standby->address == to))
+        continue;
+      const Status status = directory_.Appoint(name, epoch, server);
+      if (!status.ok()) return status;
+    }
+  }
+  const std::int64_t now_us = SteadyClockUs();
+  if (held_.size() != left_) gone_us_ = now_us;
+  left_ = held_.size();
+  drains_ = may && left_ > 0 && now_us - gone_us_ < kTakesUs;
+  return Status::Ok();
 }
 
 void FleetMember::NoteStandbys(const FleetListing& listing) {
@@ -62,13 +118,14 @@ std::vector<std::pair<std::string, std::string>> FleetMember::TakeStandbys() {
 
 Status FleetMember::StandBy(const FleetRoom& room) {
   const std::int64_t now_us = SteadyClockUs();
-  const bool full = static_cast<std::int32_t>(held_.size()) >= config_.me.capacity;
+  const std::size_t used = held_.size() + coming_.size();
+  const bool full = static_cast<std::int32_t>(used) >= config_.me.capacity;
   if (full && room.standby && room.standby->server == config_.me.id) {
     return directory_.StandDown(room.name);
   }
   const auto failed = failed_.find(room.name);
   const bool may = failed == failed_.end() || now_us > failed->second.again_us;
-  if (!may || !config_.takes || !IsAnothers(room) || room.standby || room.state.empty()) {
+  if (!may || !takes() || !IsAnothers(room) || room.standby || room.state.empty()) {
     unguarded_us_.erase(room.name);
     return Status::Ok();
   }

@@ -43,9 +43,15 @@ StandbyWatch::~StandbyWatch() {
   thread_.join();
 }
 
-void StandbyWatch::Set(const std::vector<FleetRoom>& rooms) {
+void StandbyWatch::Set(const std::vector<Guarded>& rooms) {
   const std::lock_guard<std::mutex> lock(mutex_);
   wanted_ = rooms;
+}
+
+void StandbyWatch::Await(const std::string& room, std::int32_t epoch) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  taken_[room] = epoch;
+  offers_ = false;
 }
 
 void StandbyWatch::NoteKnock(const std::string& room, const std::string& name, std::uint64_t key) {
@@ -85,17 +91,29 @@ std::vector<std::string> StandbyWatch::TakeReports() {
 
 void StandbyWatch::Run() {
   std::unique_lock<std::mutex> lock(mutex_);
+  std::int64_t round_us = INT64_MIN / 2;  // begin of the last one
   while (!stop_) {
     const auto wanted = std::exchange(wanted_, std::nullopt);
     auto heard = std::exchange(heard_, {});
+    const auto taken = std::exchange(taken_, {});
     lock.unlock();
+    bool soon = false;
     {
       const std::lock_guard<std::mutex> work(work_mutex_);
+      NoteTaken(taken);
       if (wanted) Adopt(*wanted);
-      std::int64_t looked_us = SteadyClockUs();
       for (auto& [name, watched] : watched_) {
         for (Knock& knock : heard[name]) watched.knocks.push_back(std::move(knock));
+        soon = soon || ((watched.leaving || watched.taken > 0) && !watched.given);
+      }
+      if (soon) LookAtLeaving();
+      std::int64_t looked_us = SteadyClockUs();
+      const bool round = looked_us - round_us >= kRoundUs;
+      if (round) round_us = looked_us;
+      for (auto& [name, watched] : watched_) {
+        if (!round) break;
         Look(watched);
+        if (soon) LookAtLeaving();
         // What one room takes must not look like a pause of this server to the others.
         if (SteadyClockUs() - looked_us < kRoundUs) continue;
         looked_us = SteadyClockUs();
@@ -103,13 +121,27 @@ void StandbyWatch::Run() {
       }
     }
     lock.lock();
-    wake_.wait_for(lock, std::chrono::microseconds(kRoundUs), [this] { return stop_; });
+    wake_.wait_for(lock, std::chrono::microseconds(soon ? kSoonUs : kRoundUs),
+                   [this] { return stop_; });
   }
 }
 
-void StandbyWatch::Adopt(const std::vector<FleetRoom>& rooms) {
+void StandbyWatch::NoteTaken(const std::map<std::string, std::int32_t>& taken) {
+  for (const auto& [room, epoch] : taken) {
+    const auto found = watched_.find(room);
+    if (found == watched_.end()) continue;
+    found->second.taken = epoch;
+    if (epoch == 0) found->second.due_again_us = SteadyClockUs() + kDueAgainUs;
+  }
+}
+
+void StandbyWatch::Adopt(const std::vector<Guarded>& rooms) {
   std::map<std::string, Watched> before = std::exchange(watched_, {});
-  for (const FleetRoom& room : rooms) {
+  for (auto& [name, watched] : before) {
+    if (watched.taken > 0 && !watched.given) watched_[name] = std::move(watched);
+  }
+  for (const auto& [room, leaving] : rooms) {
+    if (watched_.count(room.name) > 0) continue;
     const auto known = before.find(room.name);
     const bool same = known != before.end() && known->second.room.epoch == room.epoch;
     Watched& watched = watched_[room.name];
@@ -119,6 +151,7 @@ void StandbyWatch::Adopt(const std::vector<FleetRoom>& rooms) {
       watched.rule.NoteAlive(SteadyClockUs());
     }
     watched.room = room;
+    watched.leaving = leaving;
     if (!same) watched.pulse = LogPulse(StateLogOf(config_.folder, room.name, room.epoch));
   }
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -138,6 +171,7 @@ void StandbyWatch::LookAtHolder(Watched& watched) {
 
 void StandbyWatch::Look(Watched& watched) {
   LookAtHolder(watched);
+  if (watched.taken > 0) return;
   std::int64_t now_us = SteadyClockUs();
   std::vector<Knock>& knocks = watched.knocks;
   const auto old = [&](const Knock& knock) {
@@ -146,7 +180,8 @@ void StandbyWatch::Look(Watched& watched) {
   knocks.erase(std::remove_if(knocks.begin(), knocks.end(), old), knocks.end());
   if (now_us < watched.due_again_us) return;  // it is being taken over
   const bool silent = watched.rule.Silent(now_us) && !knocks.empty();
-  if (config_.warm || silent || watched.followed != nullptr) Follow(now_us, silent, watched);
+  const bool follows = config_.warm || watched.leaving || watched.followed != nullptr;
+  if (follows || silent) Follow(now_us, silent, watched);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     behind_[watched.room.name] = BehindOf(watched);
@@ -167,11 +202,59 @@ void StandbyWatch::Look(Watched& watched) {
   due.present = static_cast<int>(followed.present().size());
   due.knocking = watched.rule.Knocking(now_us, followed.present());
   due.followed = std::move(watched.followed);
+  Give(std::move(due));
+}
+
+void StandbyWatch::Give(Due due) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     due_.push_back(std::move(due));
   }
   config_.due();
+}
+
+void StandbyWatch::LookAtLeaving() {
+  std::map<std::string, std::int32_t> taken;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    taken = std::exchange(taken_, {});
+  }
+  NoteTaken(taken);
+  Watched* next = nullptr;
+  for (auto& [name, watched] : watched_) {
+    if (watched.given) continue;
+    if (watched.taken > 0) return LookAtAwaited(watched);
+    const bool ready = watched.followed != nullptr && watched.followed->behind() == 0;
+    if (watched.leaving && ready && next == nullptr) next = &watched;
+  }
+  if (next != nullptr) Offer(*next);
+}
+
+void StandbyWatch::Offer(Watched& watched) {
+  if (SteadyClockUs() < watched.due_again_us) return;
+  Due due;
+  due.room = watched.room;
+  due.leaving = true;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (std::exchange(offers_, true)) return;
+  }
+  Give(std::move(due));
+}
+
+void StandbyWatch::LookAtAwaited(Watched& watched) {
+  LookAtHolder(watched);
+  const std::int64_t now_us = SteadyClockUs();
+  const bool silent = watched.rule.Silent(now_us);
+  if (watched.followed != nullptr) Follow(now_us, silent, watched);
+  const bool ended = watched.followed != nullptr && watched.followed->ended();
+  if (!ended && !silent) return;
+  watched.given = true;
+  Due due;
+  due.room = watched.room;
+  due.epoch = watched.taken;
+  due.followed = std::move(watched.followed);
+  Give(std::move(due));
 }
 
 void StandbyWatch::Follow(std::int64_t now_us, bool silent, Watched& watched) {
@@ -188,7 +271,8 @@ void StandbyWatch::Follow(std::int64_t now_us, bool silent, Watched& watched) {
     status = Status::Error(error.what());
   }
   // One that is not warm is of no use once its holder lives.
-  const bool idle = !config_.warm && !watched.rule.Silent(now_us);
+  const bool waits = watched.leaving || watched.taken > 0;
+  const bool idle = !config_.warm && !waits && !watched.rule.Silent(now_us);
   if (!status.ok() || idle) watched.followed = nullptr;
   if (idle) watched.opened_us = INT64_MIN / 2;
   if (status.ok() || std::exchange(watched.trouble, status.why()) == status.why()) return;

@@ -51,15 +51,25 @@ class StandbyWatch {
   StandbyWatch(const StandbyWatch&) = delete;
   StandbyWatch& operator=(const StandbyWatch&) = delete;
 
+  /// A room for which this server stands by, as the directory has it.
+  struct Guarded {
+    FleetRoom room;
+    bool leaving = false;  ///< its holder drains: it is to be taken as soon as it can go on here
+  };
   // All thread-safe:
-  /// Sets the rooms for which this server stands by, as the directory has them.
-  void Set(const std::vector<FleetRoom>& rooms);
+  /// Sets the rooms for which this server stands by. One of Await stays, too.
+  void Set(const std::vector<Guarded>& rooms);
+  /// Answers a Due that is leaving: it was taken in this epoch (0: it was not), and is due again
+  /// when its holder has stopped it.
+  void Await(const std::string& room, std::int32_t epoch);
   /// Notes the knock of a client that has proved to be of the room's epoch. It counts with the key
   /// of a player in the room.
   void NoteKnock(const std::string& room, const std::string& name, std::uint64_t key);
   /// A room that is to be taken from its holder, which was as in `room`.
   struct Due {
     FleetRoom room;
+    bool leaving = false;           ///< the holder runs it until it knows: Await
+    std::int32_t epoch = 0;         ///< it was taken in this one, and its holder has stopped it
     int knocking = 0, present = 0;  ///< players
     std::unique_ptr<FollowedRoom> followed;
   };
@@ -73,6 +83,9 @@ class StandbyWatch {
 
   /// Time between two looks at the logs, us.
   static constexpr std::int64_t kRoundUs = 50000;
+  /// The same while the holder of a room drains, us: it is added to the time in which players hear
+  /// no tick. Each costs one read of the end of one log.
+  static constexpr std::int64_t kSoonUs = 2000;
   /// A room that cannot be followed is tried again after this, us, unless its holder falls silent.
   static constexpr std::int64_t kFollowAgainUs = 10000000;
   /// Most clients of a room with knocks that are kept; each has proved that it was there.
@@ -89,6 +102,9 @@ class StandbyWatch {
     LogPulse pulse;
     TakeOverRule rule;
     std::vector<Knock> knocks;
+    bool leaving = false;
+    std::int32_t taken = 0;  // in this epoch, and awaited; 0: it is the holder's
+    bool given = false;      // it was awaited, and is gone on with
     std::unique_ptr<FollowedRoom> followed;
     std::int64_t opened_us = INT64_MIN / 2;  // or tried to
     std::int64_t due_again_us = 0;
@@ -96,8 +112,14 @@ class StandbyWatch {
     std::string trouble;         // the last that was reported
   };
   void Run();
-  void Adopt(const std::vector<FleetRoom>& rooms);
+  void NoteTaken(const std::map<std::string, std::int32_t>& taken);
+  void Adopt(const std::vector<Guarded>& rooms);
   void Look(Watched& watched);
+  /// Offers a room whose holder drains, unless one is awaited, or gives away the one that is.
+  void LookAtLeaving();
+  void Offer(Watched& watched);
+  void LookAtAwaited(Watched& watched);
+  void Give(Due due);
   static void LookAtHolder(Watched& watched);
   /// Opens the room, or does more of its ticks again. `silent`: its holder is.
   void Follow(std::int64_t now_us, bool silent, Watched& watched);
@@ -109,9 +131,11 @@ class StandbyWatch {
   mutable std::mutex mutex_;  // guards all below, for short
   std::condition_variable wake_;
   bool stop_ = false;
-  std::optional<std::vector<FleetRoom>> wanted_;
+  std::optional<std::vector<Guarded>> wanted_;
   std::map<std::string, std::vector<Knock>> heard_;
   std::vector<Due> due_;
+  std::map<std::string, std::int32_t> taken_;  // epochs by room, as of Await
+  bool offers_ = false;                        // a room that is leaving, and there is no answer yet
   std::map<std::string, std::int64_t> behind_;
   std::vector<std::string> news_;
   std::thread thread_;

@@ -61,7 +61,7 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
   if (plan.resumed == nullptr) return;
   GoOn(*plan.resumed);
   // In a log of its own the ticks before are not: they are in a snapshot.
-  if (keeper_ != nullptr && plan.resumed->new_log) keeper_->Finish(*server_, SteadyClockUs());
+  if (keeper_ != nullptr && plan.resumed->new_log) keeper_->Begin(*server_, SteadyClockUs());
 }
 
 /// Opens the channels of the scene's [lcm].
@@ -108,12 +108,7 @@ void HostedRoom::Run(std::int64_t now_us) {
     DrainNetwork(now_us);
     return;
   }
-  FollowDirectory(now_us);
-  if (over()) {
-    server_->Tick(now_us, 0);
-    CollectReports();
-    return;
-  }
+  if (over()) return RunOver(now_us);
   const std::int64_t tick = server_->tick(), due_us = server_->next_tick_us();
   const std::int64_t cpu_us = plan_.alone ? 0 : ThreadCpuUs();
   if (control_ != nullptr) control_->BeforeTick(now_us);
@@ -128,6 +123,15 @@ void HostedRoom::Run(std::int64_t now_us) {
   CollectReports();
   if (watch_.Due(now_us)) Tell(now_us);
   EndIfDone(now_us);
+  // Behind a tick: the next one is due at the other server when it has read this one.
+  if (!done()) FollowDirectory(now_us);
+  if (over()) RunOver(now_us);
+}
+
+void HostedRoom::RunOver(std::int64_t now_us) {
+  FollowDirectory(now_us);
+  server_->Tick(now_us, 0);
+  CollectReports();
 }
 
 /// Returns the CPU time for the Stats. These clocks cost as much as a datagram, so they are read

@@ -110,6 +110,8 @@ class HostedRoom : public Runnable {
  private:
   std::int64_t CpuForStats(std::int64_t now_us) const;
   void NoteTicks();
+  /// The same for a room that has gone on elsewhere: only tells who asks.
+  void RunOver(std::int64_t now_us);
   void Tell(std::int64_t now_us);
   void CollectReports();
   /// Stops if another server has the room; names the standby.

@@ -14,6 +14,10 @@ namespace seam {
 namespace {
 
 constexpr std::int64_t kWaitUs = 20000;
+/// A join waits so long for its room, us, normal 50 000: the client has asked several times more
+/// by then. Most that wait, of clients that have proved their addresses: the players of four rooms.
+constexpr std::int64_t kJoinWaitsUs = 1000000;
+constexpr std::size_t kJoinsWaitMax = 1024;
 
 std::vector<std::string> NamesOfRooms(const std::vector<RoomPlan>& plans) {
   std::vector<std::string> names;
@@ -55,6 +59,30 @@ void Hub::Add(const RoomPlan& plan) {
   rooms_.push_back(std::move(room));
   mail_.push_back(false);
   if (lanes_ != nullptr) lanes_->Add(rooms_.back().get());
+  DeliverKept(SteadyClockUs(), index);
+}
+
+void Hub::Keep(std::int64_t now_us, const Address& from, const std::string& room,
+               const Bytes& datagram) {
+  const auto gone = [&](const WaitingJoin& join) {
+    return join.from == from || now_us - join.at_us > kJoinWaitsUs;
+  };
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), gone), waiting_.end());
+  if (waiting_.size() >= kJoinsWaitMax) waiting_.erase(waiting_.begin());
+  waiting_.push_back({from, room, datagram, now_us});
+}
+
+void Hub::DeliverKept(std::int64_t now_us, int room) {
+  HostedRoom& here = *rooms_[static_cast<std::size_t>(room)];
+  for (auto join = waiting_.begin(); join != waiting_.end();) {
+    if (join->room != here.config().room) {
+      ++join;
+      continue;
+    }
+    if (now_us - join->at_us <= kJoinWaitsUs) here.Deliver(join->from, std::move(join->datagram));
+    mail_[static_cast<std::size_t>(room)] = true;
+    join = waiting_.erase(join);
+  }
 }
 
 void Hub::OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t number,
@@ -67,7 +95,7 @@ void Hub::OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t 
   const auto verdict = handshake_.Receive(now_us, from, number, datagram, &join);
   if (verdict != Handshake::Verdict::kJoins) return;
   const std::optional<Redirect> to = elsewhere_(join);
-  if (to && to->address.empty()) return;
+  if (to && to->address.empty()) return Keep(now_us, from, join.room, datagram);
   if (to) {
     handshake_.AnswerByRedirect(now_us, from, join, *to);
   } else {
@@ -75,36 +103,41 @@ void Hub::OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t 
   }
 }
 
-void Hub::Drain(const Where& where) {
+void Hub::Drain(const std::function<bool()>& may_be_taken, const Where& where) {
   drains_ = true;
-  std::vector<const HostedRoom*> moved;
+  const auto left = [](const auto& room) { return !room->done() && !room->over(); };
+  while (std::any_of(rooms_.begin(), rooms_.end(), left) && may_be_taken()) {
+    Poll(SteadyClockUs());
+    Wait();
+  }
   for (std::size_t r = 0; r < rooms_.size(); ++r) {
     HostedRoom& room = *rooms_[r];
     if (room.done() || room.over()) continue;
     if (lanes_ != nullptr) lanes_->Hold(static_cast<int>(r));
-    if (GiveAway(room, where)) moved.push_back(&room);
+    GiveAway(room, where);
     if (lanes_ != nullptr) lanes_->Free(static_cast<int>(r));
     Poll(SteadyClockUs());
   }
   lanes_.reset();
   const std::int64_t deadline_us = SteadyClockUs() + kDrainUsMax;
-  const auto told = [](const HostedRoom* each) { return each->server().all_redirected(); };
-  while (SteadyClockUs() < deadline_us && !std::all_of(moved.begin(), moved.end(), told)) {
+  const auto told = [](const auto& room) {
+    return !room->over() || room->server().all_redirected();
+  };
+  while (SteadyClockUs() < deadline_us && !std::all_of(rooms_.begin(), rooms_.end(), told)) {
     Poll(SteadyClockUs());
     Wait();
   }
 }
 
-bool Hub::GiveAway(HostedRoom& room, const Where& where) {
-  if (room.done() || room.over()) return false;  // it was while it was waited for
+void Hub::GiveAway(HostedRoom& room, const Where& where) {
+  if (room.done() || room.over()) return;  // it was while it was waited for
   const std::int32_t epoch = room.GiveAway(SteadyClockUs());
   const Redirect to = where(room.config().room, epoch);
   if (to.address.empty()) {
     room.EndGivenAway(SteadyClockUs());
-    return false;
+    return;
   }
   room.RedirectAll(SteadyClockUs(), to);
-  return true;
 }
 
 bool Hub::AsksForOver(int room, const Bytes& datagram) const {

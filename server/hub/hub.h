@@ -41,12 +41,14 @@ class Hub {
   /// may come here, and the client asks again. nullopt, or without this: the join is refused.
   using Elsewhere = std::function<std::optional<Redirect>(const JoinRequest& join)>;
   void SetElsewhere(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
-  /// Gives the rooms to other servers, one after another; each runs here until it is its turn, so
-  /// that it never looks dead. `where`: returns where the saved room goes on in this epoch or a
-  /// higher one, or an empty address if nowhere. Sends the clients there, and serves until they
-  /// know it, for at most kDrainUsMax. Ends the threads.
+  /// Gives the rooms to other servers; each runs here until it is its turn, so that it never looks
+  /// dead. `may_be_taken`: called again and again; others may take rooms (HostedRoom::Supersede)
+  /// until it returns false, or all are over. The rest is saved, one after another; `where`:
+  /// returns where the saved room goes on in this epoch or a higher one, or an empty address if
+  /// nowhere. Sends the clients there, and serves until they know it, for at most kDrainUsMax. Ends
+  /// the threads.
   using Where = std::function<Redirect(const std::string& room, std::int32_t epoch)>;
-  void Drain(const Where& where);
+  void Drain(const std::function<bool()>& may_be_taken, const Where& where);
   /// Delivers the received datagrams; without workers also runs the rooms that are due. To be
   /// called whenever Wait returns. Never blocks.
   void Poll(std::int64_t now_us);
@@ -72,12 +74,17 @@ class Hub {
 
  private:
   void Take(std::int64_t now_us);
-  /// Saves the room and sends its clients on; false if it goes on nowhere. No thread may run it.
-  static bool GiveAway(HostedRoom& room, const Where& where);
+  /// Saves the room and sends its clients on, if it goes on anywhere. No thread may run it.
+  static void GiveAway(HostedRoom& room, const Where& where);
   /// True for a join to a room that goes on at another server.
   bool AsksForOver(int room, const Bytes& datagram) const;
   void OnUnknownRoom(std::int64_t now_us, const Address& from, std::uint64_t number,
                      const Bytes& datagram);
+  /// Keeps a join to a room that may come here, in place of an earlier one of the same sender.
+  void Keep(std::int64_t now_us, const Address& from, const std::string& room,
+            const Bytes& datagram);
+  /// Gives a room that has come the joins that waited for it.
+  void DeliverKept(std::int64_t now_us, int room);
 
   UdpNet& udp_;
   RoomFinder finder_;
@@ -91,6 +98,13 @@ class Hub {
   std::int64_t strangers_ = 0;
   Elsewhere elsewhere_;
   bool drains_ = false;
+  struct WaitingJoin {
+    Address from;
+    std::string room;
+    Bytes datagram;
+    std::int64_t at_us = 0;
+  };
+  std::vector<WaitingJoin> waiting_;  // the oldest first
   Gather wake_policy_;
   std::unique_ptr<Lanes> lanes_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <utility>
+#include <variant>
 
 #include "common/base/check.h"
 #include "common/base/entropy.h"
@@ -46,6 +47,15 @@ NewestSnapshot Open(const std::string& folder, const std::string& room, std::int
                       std::to_string(epoch) + " that can be read");
 }
 
+/// True if the end of a room is among the messages.
+bool HasEnd(const std::vector<AnyMessage>& messages) {
+  return std::any_of(messages.begin(), messages.end(), [](const AnyMessage& any) {
+    const auto* sum = std::get_if<Summary>(&any);
+    return sum != nullptr && sum->of == sum->session &&
+           sum->ended == static_cast<std::int8_t>(Ended::kEnded);
+  });
+}
+
 }  // namespace
 
 FollowedRoom::FollowedRoom(const std::string& folder, const std::string& room, std::int32_t epoch,
@@ -78,6 +88,9 @@ Status FollowedRoom::Read(std::int64_t now_us) {
   LogTail tail;
   const Status status = log_->Read(&tail);
   if (!status.ok()) return status;
+  // Behind the last tick: its own, if the tick had nothing else.
+  if (!tail.ticks.empty()) ended_ = HasEnd(tail.ticks.back().after);
+  ended_ = ended_ || HasEnd(tail.begun);
   pending_.insert(pending_.end(), std::make_move_iterator(tail.ticks.begin()),
                   std::make_move_iterator(tail.ticks.end()));
   begun_ = std::move(tail.begun);

@@ -34,6 +34,8 @@ class FollowedRoom {
   /// Ticks that were read and not done again yet.
   std::int64_t behind() const { return static_cast<std::int64_t>(pending_.size()); }
   std::int64_t tick() const;
+  /// True if the log, as it was read, ends with the end of the room at its server.
+  bool ended() const { return ended_; }
   /// Returns the players that are in the room.
   const std::vector<int>& present() const;
   /// Returns the player in the room with this name and key; -1: none.
@@ -62,6 +64,7 @@ class FollowedRoom {
   std::deque<TickMessages> pending_;
   std::vector<AnyMessage> begun_;
   std::optional<Summary> summary_;
+  bool ended_ = false;
   std::int64_t damaged_us_ = -1;  // since when; -1: it is not
 };
 

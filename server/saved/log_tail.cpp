@@ -42,6 +42,7 @@ LogFollower::LogFollower(std::string path, std::string room, const LogPlace& fro
 Status LogFollower::Read(LogTail* tail) {
   *tail = LogTail();
   tail->end = kept_;
+  tail->begun = splitter_.begun();
   tail->damaged_segment = kept_.segment;
   std::unique_ptr<LogReader> log;
   try {

@@ -51,6 +51,23 @@ void RoomKeeper::Save(Server& server, std::int64_t now_us) {
   });
 }
 
+void RoomKeeper::Begin(Server& server, std::int64_t now_us) {
+  if (!server.started() || server.tick() < 1) return;
+  sink_.Flush();
+  RoomSnapshot snapshot{server.tick(), sink_.Pin(), {}};
+  snapshot.room = RoomState::Finish(server.CopyState(now_us, copied_bytes_));
+  shared_->bytes = copied_bytes_ = snapshot.room.size();
+  const Status placed = PlaceSnapshot(folder_, room_, snapshot, epoch_);
+  shared_->writing = true;
+  sink_.disk().Do([shared = shared_, folder = folder_, room = room_, epoch = epoch_,
+                   tick = snapshot.tick, placed] {
+    const Status status = placed.ok() ? SyncSnapshot(folder, room, tick, epoch) : placed;
+    shared->writing = false;
+    const std::lock_guard<std::mutex> lock(shared->mutex);
+    if (!status.ok() && shared->trouble.ok()) shared->trouble = status;
+  });
+}
+
 void RoomKeeper::Finish(Server& server, std::int64_t now_us) {
   if (!server.started() || server.tick() < 1) return;
   sink_.Flush();

@@ -29,6 +29,9 @@ class RoomKeeper {
   /// Call after each Server::Tick that has stepped. Saves the room if that is due and possible:
   /// rooms go back to barriers, and only at these saving changes nothing.
   void AfterTick(Server& server, std::int64_t now_us);
+  /// Saves the room as it begins here. It is with the operating system then, as the log is; the
+  /// DiskThread waits for the disk.
+  void Begin(Server& server, std::int64_t now_us);
   /// Saves the room as it is, and waits until it is written.
   void Finish(Server& server, std::int64_t now_us);
 

@@ -61,8 +61,8 @@ bool ReadDigits(const std::string& text, std::int64_t* number) {
   return digits;
 }
 
-/// Writes a file and waits for the disk.
-Status WriteWhole(const std::string& path, ByteView a, ByteView b) {
+/// Writes a file; with `sync` waits for the disk.
+Status WriteWhole(const std::string& path, ByteView a, ByteView b, bool sync) {
   const auto failed = [&](int error) {
     return Status::Error(path + ": cannot be written: " + std::strerror(error));
   };
@@ -80,7 +80,7 @@ Status WriteWhole(const std::string& path, ByteView a, ByteView b) {
       left = {left.data + now, left.size - static_cast<std::size_t>(now)};
     }
   }
-  if (error == 0 && fsync(fd) != 0) error = errno;
+  if (error == 0 && sync && fsync(fd) != 0) error = errno;
   if (close(fd) != 0 && error == 0) error = errno;
   return error == 0 ? Status::Ok() : failed(error);
 }
@@ -122,8 +122,10 @@ std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::st
   return all;
 }
 
-Status WriteSnapshot(const std::string& folder, const std::string& room,
-                     const RoomSnapshot& snapshot, std::int32_t epoch) {
+namespace {
+
+Status Write(const std::string& folder, const std::string& room, const RoomSnapshot& snapshot,
+             std::int32_t epoch, bool sync) {
   FileHeader header{};
   std::memcpy(header.magic, kSnapshotMagic, sizeof kSnapshotMagic);
   header.version = snapshot.log.segment == 0 ? kSnapshotVersion - 1 : kSnapshotVersion;
@@ -137,18 +139,45 @@ Status WriteSnapshot(const std::string& folder, const std::string& room,
   header.crc = ChecksumOf(head, snapshot.room);
   const std::string path = SnapshotPath(folder, StemOf(room, epoch), snapshot.tick);
   const std::string unfinished = path + ".tmp";
-  Status status = WriteWhole(unfinished, head, snapshot.room);
+  Status status = WriteWhole(unfinished, head, snapshot.room, sync);
   if (status.ok() && std::rename(unfinished.c_str(), path.c_str()) != 0) {
     status = Status::Error(path + ": cannot be written: " + std::strerror(errno));
   }
-  if (!status.ok()) {
-    std::remove(unfinished.c_str());
-    return status;
-  }
-  SyncFolderOf(path);
+  if (!status.ok()) std::remove(unfinished.c_str());
+  return status;
+}
+
+void RemoveOlder(const std::string& folder, const std::string& room) {
   const std::vector<SnapshotName> all = ListSnapshots(folder, room);
   for (std::size_t i = kSnapshotsKept; i < all.size(); ++i) std::remove(all[i].path.c_str());
+}
+
+}  // namespace
+
+Status WriteSnapshot(const std::string& folder, const std::string& room,
+                     const RoomSnapshot& snapshot, std::int32_t epoch) {
+  Status status = Write(folder, room, snapshot, epoch, true);
+  if (!status.ok()) return status;
+  SyncFolderOf(SnapshotPath(folder, StemOf(room, epoch), snapshot.tick));
+  RemoveOlder(folder, room);
   return status;
+}
+
+Status PlaceSnapshot(const std::string& folder, const std::string& room,
+                     const RoomSnapshot& snapshot, std::int32_t epoch) {
+  return Write(folder, room, snapshot, epoch, false);
+}
+
+Status SyncSnapshot(const std::string& folder, const std::string& room, std::int64_t tick,
+                    std::int32_t epoch) {
+  const std::string path = SnapshotPath(folder, StemOf(room, epoch), tick);
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int error = fd >= 0 && fsync(fd) == 0 ? 0 : errno;
+  if (fd >= 0) close(fd);
+  if (error != 0) return Status::Error(path + ": cannot be written: " + std::strerror(error));
+  SyncFolderOf(path);
+  RemoveOlder(folder, room);
+  return Status::Ok();
 }
 
 Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot) {

@@ -49,6 +49,13 @@ std::vector<SnapshotName> ListSnapshots(const std::string& folder, const std::st
 /// removes those older than the last kSnapshotsKept. Returns one line if it cannot.
 Status WriteSnapshot(const std::string& folder, const std::string& room,
                      const RoomSnapshot& snapshot, std::int32_t epoch = 1);
+/// Writes one likewise that is not on the disk yet: only a loss of power can take it away, and then
+/// those before are there.
+Status PlaceSnapshot(const std::string& folder, const std::string& room,
+                     const RoomSnapshot& snapshot, std::int32_t epoch);
+/// Waits until such a snapshot is on the disk, and removes the older ones.
+Status SyncSnapshot(const std::string& folder, const std::string& room, std::int64_t tick,
+                    std::int32_t epoch);
 /// Reads a snapshot; trusts no byte. Returns one line if it cannot be read or is damaged.
 Status ReadSnapshot(const std::string& path, RoomSnapshot* snapshot);
 
