@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/base/check.h"
-#include "common/base/entropy.h"
 #include "common/base/json_text.h"
 #include "common/base/process.h"
 #include "server/saved/snapshot_file.h"
@@ -284,51 +283,6 @@ Status FleetMember::GiveUpUnopened() {
 
 bool FleetMember::IsOurs(const std::string& room) const {
   return !ListSnapshots(config_.folder, room).empty();
-}
-
-Status FleetMember::KeepHeld(const std::string& room, std::int32_t epoch) {
-  bool kept = false, done = false;
-  Status status = directory_.RenewIfDue(&kept);
-  if (!status.ok() || (kept && directory_.me().draining)) return status;
-  FleetServer me = directory_.me();
-  me.draining = true;
-  status = directory_.Register(me);
-  if (!status.ok() || kept) return status;
-  return directory_.TakeBack(room, epoch, &done);
-}
-
-Redirect FleetMember::Move(const std::string& room, const std::string& to, std::int32_t epoch) {
-  const Redirect nowhere;
-  FleetListing listing;
-  const auto held = held_.find(room);
-  // A directory that fails once may answer the next question.
-  if (held != held_.end()) (void)KeepHeld(room, held->second);
-  if (!directory_.List(&listing).ok()) return nowhere;
-  const FleetServer* server = nullptr;
-  if (to.empty()) {
-    OsEntropy entropy;
-    Random random(entropy.Next());
-    server = PlaceRoom(listing.servers, config_.me.protocol, config_.me.id, random);
-  } else {
-    for (const FleetServer& each : listing.servers) {
-      if (each.address == to) server = &each;
-    }
-  }
-  std::int32_t next = 0;
-  if (held != held_.end() && server != nullptr) {
-    const Status status = directory_.Move(room, held->second, *server, &next);
-    if (status.ok() && next > 0) {
-      held_.erase(held);
-      return RedirectTo(room, {server->id, server->address, std::max(next, epoch)});
-    }
-  }
-  if (!directory_.List(&listing).ok()) return nowhere;
-  const FleetRoom* const known = listing.FindRoom(room);
-  const bool others = known != nullptr && known->holder && known->holder->epoch >= epoch &&
-                      known->holder->server != config_.me.id;
-  if (!others) return nowhere;
-  held_.erase(room);
-  return RedirectTo(room, *known->holder);
 }
 
 void FleetMember::Release(const std::string& room) {

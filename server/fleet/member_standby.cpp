@@ -10,9 +10,6 @@ namespace {
 
 /// A room without a standby is left so long to servers that would follow it, us.
 constexpr std::int64_t kLetWarmUs = 1500000;
-/// A room of a server that drains is left so long to who may take it, us: a lease, in which one
-/// that is not warm becomes its standby and opens it.
-constexpr std::int64_t kTakesUs = std::int64_t{kFleetLeaseS} * 1000000;
 
 }  // namespace
 
@@ -62,42 +59,6 @@ Status FleetMember::TakeFrom(StandbyWatch::Due due) {
       std::to_string(due.knocking) + " of " + std::to_string(due.present) +
       " player(s) ask for it here");
   return TakeHere(due.room, epoch, std::move(due.followed));
-}
-
-void FleetMember::Drain(const std::string& to) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  drain_to_ = to;
-  draining_ = drains_ = true;
-  due_ = true;
-  wake_.notify_all();
-}
-
-Status FleetMember::FollowDrain(const FleetListing& listing) {
-  if (!draining_) return Status::Ok();
-  std::string to;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    to = drain_to_;
-  }
-  bool may = listing.servers.empty();  // the directory does not answer
-  for (const FleetServer& server : listing.servers) {
-    const bool fits = server.protocol == config_.me.protocol && server.used < server.capacity;
-    const bool other = server.id != config_.me.id && !server.draining;
-    if (!other || !(to.empty() ? fits : server.address == to)) continue;
-    may = true;
-    for (const auto& [name, epoch] : held_) {
-      const FleetRoom* const room = listing.FindRoom(name);
-      if (to.empty() || room == nullptr || (room->standby && room->standby->address == to))
-        continue;
-      const Status status = directory_.Appoint(name, epoch, server);
-      if (!status.ok()) return status;
-    }
-  }
-  const std::int64_t now_us = SteadyClockUs();
-  if (held_.size() != left_) gone_us_ = now_us;
-  left_ = held_.size();
-  drains_ = may && left_ > 0 && now_us - gone_us_ < kTakesUs;
-  return Status::Ok();
 }
 
 void FleetMember::NoteStandbys(const FleetListing& listing) {

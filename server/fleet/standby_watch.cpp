@@ -237,7 +237,8 @@ void StandbyWatch::Offer(Watched& watched) {
   due.leaving = true;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (std::exchange(offers_, true)) return;
+    // With an answer that was not noted yet it may be this room that was taken.
+    if (!taken_.empty() || std::exchange(offers_, true)) return;
   }
   Give(std::move(due));
 }

@@ -39,10 +39,16 @@ LogFollower::LogFollower(std::string path, std::string room, const LogPlace& fro
       kept_(from),
       splitter_(tick) {}
 
+std::vector<AnyMessage> LogFollower::Begun(const TickSplitter& splitter) const {
+  std::vector<AnyMessage> all = late_;
+  for (AnyMessage& any : splitter.begun()) all.push_back(std::move(any));
+  return all;
+}
+
 Status LogFollower::Read(LogTail* tail) {
   *tail = LogTail();
   tail->end = kept_;
-  tail->begun = splitter_.begun();
+  tail->begun = Begun(splitter_);
   tail->damaged_segment = kept_.segment;
   std::unique_ptr<LogReader> log;
   try {
@@ -80,14 +86,19 @@ Status LogFollower::Read(LogTail* tail) {
     }
     if (seal->peer == 0) {
       for (TickMessages& next : splitter.End(*seal)) {
+        if (next.tick == tick_ && next.after.size() > after_) {
+          late_.assign(next.after.begin() + static_cast<std::ptrdiff_t>(after_), next.after.end());
+        }
         if (next.tick <= tick_) continue;  // of an earlier call
         if (next.tick != tick_ + 1) {
           return damaged("tick " + std::to_string(tick_ + 1) + " is missing");
         }
         tick_ = next.tick;
+        after_ = next.after.size();
+        late_.clear();
         tail->ticks.push_back(std::move(next));
       }
-      tail->begun = splitter.begun();
+      tail->begun = Begun(splitter);
     }
     tail->end = {
         log->place_bytes(), event.number + 1, static_cast<std::uint32_t>(seal->log_crc), {}, tick_,

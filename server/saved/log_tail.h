@@ -34,16 +34,22 @@ class LogFollower {
 
   /// Reads the whole ticks that were not in an earlier call's `tail`, up to the end of the log or
   /// the first thing that is not as it was written. While the log is being written that may be a
-  /// tick of which a part is there: the next call reads it again. Returns one line if there is no
+  /// tick of which a part is there: the next call reads it again. What the end of a room adds to a
+  /// tick that was read is in `begun`. Returns one line if there is no
   /// such place in the log.
   Status Read(LogTail* tail);
   /// The last tick that was read.
   std::int64_t tick() const { return tick_; }
 
  private:
+  /// Returns what was accepted behind the last tick.
+  std::vector<AnyMessage> Begun(const TickSplitter& splitter) const;
+
   const std::string path_, room_;
   const Secret* const key_;
   std::int64_t tick_;
+  std::size_t after_ = SIZE_MAX;  // messages behind that tick's step, as it was read
+  std::vector<AnyMessage> late_;  // that it has more
   // The last seal over which nothing is written any more, and the splitter behind it.
   LogPlace kept_;
   TickSplitter splitter_;

@@ -56,6 +56,24 @@ TEST_P(EachStandby, ARoomHasOneStandbyWhichIsNotItsHolder) {
   EXPECT_FALSE(Red(*b).standby) << "it goes with its server's lease";
 }
 
+TEST_P(EachStandby, TheHolderAloneAppointsAnother) {
+  const auto a = Open("a"), b = Open("b"), c = Open("c");
+  ASSERT_EQ(Claimed(*a, "red"), 1);
+  ASSERT_TRUE(StandsBy(*b, Red(*b)));
+  const auto appoint = [](Directory& by, const char* id) {
+    const FleetListing listing = Listed(by);
+    EXPECT_TRUE(by.Appoint("red", 1, *listing.FindServer(id)).ok());
+  };
+  appoint(*c, "c");
+  EXPECT_EQ(Red(*a).standby->server, "b") << "not c's to say";
+  appoint(*a, "c");
+  EXPECT_EQ(Red(*a).standby->server, "c");
+  EXPECT_EQ(TakenFrom(*b, Red(*b)), 0) << "it is the standby no more";
+  EXPECT_EQ(TakenFrom(*c, Red(*c)), 2);
+  appoint(*a, "b");
+  EXPECT_FALSE(Red(*c).standby) << "the room is c's";
+}
+
 TEST_P(EachStandby, TheStandbyAloneTakesTheRoomFromItsHolder) {
   const auto a = Open("a"), b = Open("b"), c = Open("c");
   ASSERT_EQ(Claimed(*a, "red"), 1);

@@ -133,6 +133,49 @@ TEST_F(Member, ARoomThatAnotherServerHasTakenIsMovedToThatServer) {
   EXPECT_EQ(member.Move("green", "", 2).address, "") << "nobody has it";
 }
 
+TEST_F(Member, ADrainLeavesTheRoomsToOthersAsLongAsThereAreAny) {
+  FleetMember::Config config = ConfigOf("a");
+  config.takes = false;
+  FleetMember member(config, Plans());
+  ASSERT_EQ(member.Claim("blue", 1), 1);
+  Directory other(OpenKeyStore(text_), "main"), third(OpenKeyStore(text_), "main");
+  ASSERT_TRUE(other.Register(ServerOf("b")).ok());
+  ASSERT_TRUE(third.Register(ServerOf("c")).ok());
+  FleetListing listing;
+  bool done = false;
+  ASSERT_TRUE(third.List(&listing).ok());
+  ASSERT_TRUE(third.StandBy(*listing.FindRoom("blue"), &done).ok());
+  member.Start();
+  member.Drain(ServerOf("b").address);
+  const auto standby = [&] {
+    EXPECT_TRUE(other.List(&listing).ok());
+    const FleetRoom& blue = *listing.FindRoom("blue");
+    return blue.standby ? blue.standby->server : "";
+  };
+  ASSERT_TRUE(WaitFor([&] { return standby() == "b"; })) << "it is drained to that one";
+  EXPECT_TRUE(listing.FindServer("a")->draining);
+  EXPECT_TRUE(member.drains());
+  std::int32_t epoch = 0;
+  ASSERT_TRUE(other.TakeFrom(*listing.FindRoom("blue"), &epoch).ok());
+  ASSERT_EQ(epoch, 2);
+  std::vector<Redirect> lost;
+  ASSERT_TRUE(WaitFor([&] { return lost = member.TakeLost(), !lost.empty(); }));
+  EXPECT_EQ(lost.front().address, ServerOf("b").address);
+  EXPECT_EQ(lost.front().epoch, 2);
+  EXPECT_TRUE(WaitFor([&] { return !member.drains(); })) << "none is left";
+}
+
+TEST_F(Member, ADrainWithoutAnotherServerWaitsForNone) {
+  FleetMember::Config config = ConfigOf("a");
+  config.takes = false;
+  FleetMember member(config, Plans());
+  ASSERT_EQ(member.Claim("blue", 1), 1);
+  member.Start();
+  member.Drain("");
+  for (int i = 0; i < 200 && member.drains(); ++i) usleep(10000);
+  EXPECT_FALSE(member.drains());
+}
+
 TEST_F(Member, AClaimSaysWhoHasTheRoomOrThatItsOwnLeaseHasEnded) {
   FleetMember::Config config = ConfigOf("a");
   config.takes = false;

@@ -78,11 +78,11 @@ class FleetPrograms : public InNamespace {
   }
 
   /// The server that stands by for the room; "": none.
-  std::string StandbyOf() {
+  std::string StandbyOf(const std::string& name = "main") {
     Directory directory(OpenKeyStore(directory_), "main");
     FleetListing listing;
     (void)directory.List(&listing);
-    const FleetRoom* const room = listing.FindRoom("main");
+    const FleetRoom* const room = listing.FindRoom(name);
     return room != nullptr && room->standby ? room->standby->server : "";
   }
 

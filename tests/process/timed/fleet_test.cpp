@@ -5,9 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/process.h"
 #include "common/net/http_page.h"
+#include "common/record/log_file.h"
+#include "server/saved/resumed_room.h"
 #include "tests/fleet/etcd_here.h"
 #include "tests/process/timed/fleet_programs.h"
 #include "tests/support/soak.h"
@@ -15,7 +18,20 @@
 namespace seam {
 namespace fleet_test {
 
-class Fleet : public FleetPrograms {};
+class Fleet : public FleetPrograms {
+ protected:
+  /// Returns the times of the first and last events of a log, us.
+  static std::pair<std::int64_t, std::int64_t> TimesOf(const std::string& log) {
+    LogReader reader(log);
+    LogEvent event;
+    std::pair<std::int64_t, std::int64_t> times{0, 0};
+    while (reader.Next(&event)) {
+      if (times.first == 0) times.first = event.timestamp_us;
+      times.second = event.timestamp_us;
+    }
+    return times;
+  }
+};
 
 TEST_F(Fleet, AnotherServerTakesOverTheRoomOfAKilledOneWithItsPlayers) {
   SEAM_INSIDE_ONLY();
@@ -78,6 +94,42 @@ TEST_F(Fleet, AServerThatIsDrainedSendsItsPlayersToAnother) {
   EXPECT_EQ(a->status(), 0) << a->Story();
   EXPECT_EQ(ann->status(), -1) << ann->Story();
   EXPECT_EQ(bob->status(), -1) << bob->Story();
+}
+
+TEST_F(Fleet, TheRoomsOfADrainedServerTickOnUntilTheNextServerHasEach) {
+  SEAM_INSIDE_ONLY();
+  constexpr int kRooms = 8;
+  const auto a = Server("a", {"crossing", "--rooms", std::to_string(kRooms), "--wait", "0",
+                              "--state", State(), "--drain-to", "fleet"});
+  ASSERT_TRUE(a->WaitForErrors("Ctrl-C ends it", kPatience)) << a->Story();
+  const auto b = Server("b", {"--resume", State(), "--standby"});
+  const auto name = [](int r) { return "main-" + std::to_string(r + 1); };
+  std::vector<std::unique_ptr<Program>> clients;
+  for (int r = 0; r < kRooms; ++r) {
+    clients.push_back(Client("ann", {"--directory", directory_, "--room", name(r)}));
+  }
+  ASSERT_TRUE(WaitFor(kPatience, [&] { return Came(*a, "ann") == kRooms; })) << a->Story();
+  ASSERT_TRUE(WaitFor(kPatience, [&] { return StandbyOf(name(kRooms - 1)) == "b"; }));
+  usleep(2000000);  // they are followed
+  const std::int64_t begin_us = SteadyClockUs();
+  a->Signal(SIGTERM);
+  EXPECT_TRUE(WaitFor(kPatience, [&] { return Came(*b, "ann") == kRooms; })) << b->Story();
+  ASSERT_TRUE(a->Wait(kPatience));
+  EXPECT_EQ(a->status(), 0) << a->Story();
+  for (const auto& client : clients) EXPECT_EQ(client->status(), -1) << client->Story();
+  std::int64_t stood_us = 0, longest_us = 0, end_us = begin_us;
+  for (int r = 0; r < kRooms; ++r) {
+    const std::int64_t last_us = TimesOf(StateLogOf(State(), name(r), 1)).second;
+    const std::int64_t first_us = TimesOf(StateLogOf(State(), name(r), 2)).first;
+    stood_us += first_us - last_us;
+    longest_us = std::max(longest_us, first_us - last_us);
+    end_us = std::max(end_us, first_us);
+  }
+  std::printf("%d rooms drained in %.2f s; a room stood still for %.3f s, at most %.3f s\n", kRooms,
+              static_cast<double>(end_us - begin_us) * 1e-6,
+              static_cast<double>(stood_us) * 1e-6 / kRooms,
+              static_cast<double>(longest_us) * 1e-6);
+  EXPECT_LT(stood_us, end_us - begin_us) << "one at a time";
 }
 
 TEST_F(Fleet, ARoomGoesOnWithoutItsDirectoryAndIsStillHeldWhenItIsBack) {

@@ -206,6 +206,33 @@ TEST(FollowedRoomCluster, DamageIsToldInOneLineAndEndsIt) {
   EXPECT_EQ(status.why().find('\n'), std::string::npos);
 }
 
+TEST(FollowedRoomCluster, SeesTheEndOfTheRoomAlsoBehindATickThatItHasRead) {
+  for (int ticks = 1; ticks <= 12; ++ticks) {
+    for (const bool read : {true, false}) {
+      SCOPED_TRACE(std::to_string(ticks) + (read ? ", read" : ", not read"));
+      ClusterConfig config;
+      config.scene = "crossing";
+      Kept kept(config);
+      kept.RunTo(60);
+      kept.Save();
+      const auto followed = kept.Open();
+      kept.RunTo(60 + ticks);
+      if (read) {
+        ASSERT_TRUE(CatchUp(*followed, 3000000).ok());
+        EXPECT_FALSE(followed->ended());
+      }
+      Redirect to;
+      to.address = "10.0.0.2:7777";
+      to.room = "main";
+      to.epoch = 2;
+      kept.server().RedirectAll(kept.cluster->now_us(), to);
+      ASSERT_TRUE(CatchUp(*followed, 3010000).ok());
+      EXPECT_TRUE(followed->ended());
+      EXPECT_EQ(followed->Finish(3020000, 2)->tick(), 60 + ticks);
+    }
+  }
+}
+
 TEST(FollowedRoomCluster, OneThatFallsBehindIsGivenUp) {
   ClusterConfig config;
   config.scene = "crossing";
