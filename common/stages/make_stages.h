@@ -59,6 +59,8 @@ std::unique_ptr<Stage> MakeFeatherStage(const StageWorld& world);
 /// Returns true if any character of the scene is active; MakeCharacterStage requires one.
 bool HasActiveCharacter(const Scene& scene);
 std::unique_ptr<Stage> MakeCharacterStage(const StageWorld& world);
+/// Numbers that the stages of seats save, for each seat of the scene.
+constexpr std::size_t kNumbersOfSeat = 8 + 2;
 
 /// Draws a player that takes a seat to it, rigidly with all limbs, from the SeatEdit on, by a pull
 /// of at most kSeatPull (seat_pull.h). After SeatTicks ticks the player's part is in its place, if

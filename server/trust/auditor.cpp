@@ -30,9 +30,9 @@ constexpr std::size_t kIslandMost = 6;
 /// An honest gain is so many times as great where a mechanism touches others, as two worlds part
 /// there.
 constexpr double kInCompany = 8;
-/// A character's step is known once it has been followed for so long, s: three steps. The other
-/// foot is tried as seldom as this, s.
-constexpr double kStepKnownS = 1, kOtherFootS = 0.5;
+/// A character's step is known once it has been followed for so long, s: three steps. Others are
+/// tried as seldom as this, s.
+constexpr double kStepKnownS = 1, kOthersS = 0.5;
 
 }  // namespace
 
@@ -231,8 +231,8 @@ void Auditor::Visit(int mechanism, std::int64_t tick) {
   std::optional<Gain> gain;
   if (track.put >= 0) gain = spare_->Compare(mechanism, told->states);
   if (Walks(mechanism) && track.put >= 0) {
-    const bool other_foot = track.step.Add(tick, Seconds(kOtherFootS), gain);
-    if (other_foot) spare_->ExchangeSides(mechanism);
+    const auto other = track.step.Add(tick, Seconds(kOthersS), gain);
+    if (other && !spare_->TryOther(mechanism, *other)) track.step.NoOther();
     if (due) gain = track.step.Take();
     if (track.step_since < 0 || tick - track.step_since < Seconds(kStepKnownS)) gain.reset();
   }

@@ -8,17 +8,25 @@ namespace {
 
 /// A part that goes elsewhere by more than this, m/s, may be the wrong foot: it steps by 2 to 4,
 /// the other one stands. The same foot: up to .4.
-constexpr double kOtherFoot = 1;
+constexpr double kElsewhere = 1, kFits = 0.4;
 
 }  // namespace
 
-bool FollowedStep::Add(std::int64_t tick, std::int64_t rest, const std::optional<Gain>& gain) {
+std::optional<int> FollowedStep::Add(std::int64_t tick, std::int64_t rest,
+                                     const std::optional<Gain>& gain) {
   const double apart = gain && gain->seconds > 0 ? gain->apart / gain->seconds : 0;
-  const double tried = std::exchange(tried_, -1);
-  if (tried >= 0) return !gain || apart > tried / 2;  // an interval in vain: back
+  if (trial_) {
+    if (gain && apart <= std::max(kFits, trial_->apart / 4)) {
+      trial_.reset();
+      next_trial_ = tick;
+      return std::nullopt;
+    }
+    next_trial_ = tick + rest;
+    return ++trial_->other;
+  }
   if (!gain) {
     unknown_ = true;
-    return false;
+    return std::nullopt;
   }
   if (!sum_) sum_.emplace();
   sum_->seconds += gain->seconds;
@@ -27,10 +35,10 @@ bool FollowedStep::Add(std::int64_t tick, std::int64_t rest, const std::optional
   sum_->stepped = gain->stepped;
   sum_->apart = std::max(sum_->apart, gain->apart);
   sum_->met = sum_->met || gain->met;
-  if (apart < kOtherFoot || gain->met || tick < next_trial_) return false;
-  tried_ = apart;
+  if (apart < kElsewhere || gain->met || tick < next_trial_) return std::nullopt;
+  trial_ = Trial{0, apart};
   next_trial_ = tick + rest;
-  return true;
+  return 0;
 }
 
 std::optional<Gain> FollowedStep::Take() {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/base/check.h"
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
 #include "common/scene/character.h"
@@ -62,6 +63,7 @@ void SpareWorld::Number() {
   character_of_.assign(mechanisms, -1);
   const auto& characters = world_.scene().characters;
   exchanged_.resize(characters.size(), 0);
+  before_.resize(characters.size());
   for (std::size_t c = 0; c < characters.size(); ++c) {
     const int m = MechanismOf(world_, characters[c].parts[kTorso]);
     if (m < 0 || character_of_[static_cast<std::size_t>(m)] >= 0) continue;
@@ -83,11 +85,45 @@ void SpareWorld::Apply(const Edit& edit) {
   }
 }
 
-void SpareWorld::ExchangeSides(int mechanism) {
+std::vector<float> SpareWorld::MemoryOf(int character) {
+  const std::vector<float> all = world_.Keep().stages;
+  const CharacterNumbers own = NumbersOf(world_.scene(), character, all.size());
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(own.first);
+  return {first, first + static_cast<std::ptrdiff_t>(own.count)};
+}
+
+void SpareWorld::Remember(int character, const std::vector<float>& memory) {
+  WorldSnapshot now = world_.Keep();
+  const CharacterNumbers own = NumbersOf(world_.scene(), character, now.stages.size());
+  SEAM_ASSERT(own.count == memory.size());
+  std::copy(memory.begin(), memory.end(),
+            now.stages.begin() + static_cast<std::ptrdiff_t>(own.first));
+  SEAM_ASSERT(world_.Restore(now).ok());
+}
+
+bool SpareWorld::TryOther(int mechanism, int other) {
   const int character = character_of_[static_cast<std::size_t>(mechanism)];
-  if (character < 0) return;
+  if (character < 0) return false;
+  Before& before = before_[static_cast<std::size_t>(character)];
   char& exchanged = exchanged_[static_cast<std::size_t>(character)];
-  exchanged = exchanged == 0 ? 1 : 0;
+  if (other == 0) {
+    before.tick = world_.tick();
+    before.memory = MemoryOf(character);
+    before.exchanged = exchanged;
+    before.others = OtherStates(before.memory);
+  }
+  const float later = static_cast<float>(world_.tick() - before.tick) * world_.dt();
+  exchanged = before.exchanged;
+  if (before.memory.empty()) return false;
+  Remember(character, LaterInMode(before.memory, later));
+  if (static_cast<std::size_t>(other) >= before.others.size()) return false;
+  const CharacterGuess& guess = before.others[static_cast<std::size_t>(other)];
+  if (guess.sides) {
+    exchanged = exchanged == 0 ? 1 : 0;
+  } else {
+    Remember(character, guess.memory);
+  }
+  return true;
 }
 
 int SpareWorld::PlaceOf(int mechanism, int body) const {

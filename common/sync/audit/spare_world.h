@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/physics/world.h"
+#include "common/stages/character_guess.h"
 #include "common/sync/audit/turns.h"
 
 namespace seam {
@@ -44,8 +45,11 @@ class SpareWorld {
   void Put(int mechanism, int holder, std::vector<BodyState> states);
   /// Takes a mechanism out of the world. Requires Present::kNone.
   void Take(int mechanism);
-  /// From its next Put on, the limbs of a character on its left are put for those on its right.
-  void ExchangeSides(int mechanism);
+  /// From its next Put on, a character is in another state that its poses allow: the limbs on its
+  /// left are put for those on its right, or its controller is in another mode (OtherStates).
+  /// `other`: 0 as it is now, and then ascending. Returns false if there is no such other: it is
+  /// then again as it was.
+  bool TryOther(int mechanism, int other);
   /// Steps once; `inputs` sets those of the tick.
   void Step(const std::function<void(World*)>& inputs);
   /// Returns the state of the body in whose place it was put (ExchangeSides).
@@ -63,6 +67,16 @@ class SpareWorld {
     std::int64_t put = 0;  // tick
   };
 
+  /// A character before others were tried.
+  struct Before {
+    std::int64_t tick = 0;
+    std::vector<float> memory;
+    char exchanged = 0;
+    std::vector<CharacterGuess> others;
+  };
+
+  std::vector<float> MemoryOf(int character);
+  void Remember(int character, const std::vector<float>& memory);
   void Number();
   /// Body in which the told state of this one is put.
   int PlaceOf(int mechanism, int body) const;
@@ -75,6 +89,7 @@ class SpareWorld {
   std::vector<int> other_side_;    // rebuilt for each topology, by body
   std::vector<int> character_of_;  // rebuilt for each topology, by mechanism: its first one
   std::vector<char> exchanged_;    // by character, which edits do not renumber
+  std::vector<Before> before_;     // by character
 };
 
 }  // namespace seam

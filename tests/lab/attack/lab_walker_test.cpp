@@ -89,5 +89,32 @@ TEST(Walker, AnHonestOneIsNotDoubted) {
   }
 }
 
+/// Three crates between them: bots that jump over these fall, and get up.
+const char* const kCrates = R"(
+[[part]]
+name = "crate"
+box = [0.6, 0.4]
+position = [-5, 0.25]
+repeat = {count = 3, step = [3, 0]}
+)";
+
+/// When one begins to get up is decided by less than the wire's rounding: the audit's world was
+/// 0.4 s early, which came to 1.5 of a lie.
+TEST(Walker, AnHonestOneThatFallsAndGetsUpIsNotDoubted) {
+  for (const char* impair : {"demo", "terrible"}) {
+    for (const int seed : SoakSeeds(1, 1)) {
+      SCOPED_TRACE(impair);
+      ClusterConfig config = Walk(impair, seed);
+      config.scene_text += kCrates;
+      config.drive = Drive::kBot;
+      config.duration_s = 20;
+      const HonestOutcome outcome = RunHonest(config, false);
+      EXPECT_GT(outcome.audited, 20);
+      EXPECT_EQ(outcome.step, 0) << outcome.score;
+      EXPECT_LT(outcome.audit, 1) << "of a lie";
+    }
+  }
+}
+
 }  // namespace lab_walker_test
 }  // namespace seam

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "common/scene/character.h"
@@ -72,17 +73,53 @@ TEST(FollowedStep, TurnsThatTheWireLosesArePutRight) {
   EXPECT_LT(GreatestApart(300, turned), 0.005);
 }
 
-TEST(FollowedStep, TheOtherFootIsTriedAndKeptIfItFits) {
+TEST(FollowedStep, OthersAreTriedAndKeptIfTheyFit) {
   FollowedStep step;
   EXPECT_FALSE(step.Add(2, 30, Apart(0.002)));
-  EXPECT_TRUE(step.Add(4, 30, Apart(0.08))) << "tries the other foot";
-  EXPECT_FALSE(step.Add(6, 30, Apart(0.003))) << "keeps it";
+  EXPECT_EQ(step.Add(4, 30, Apart(0.08)), 0) << "tries the first other";
+  EXPECT_EQ(step.Add(6, 30, Apart(0.05)), 1) << "and the next";
+  EXPECT_FALSE(step.Add(8, 30, Apart(0.003))) << "keeps it";
   const std::optional<Gain> sum = step.Take();
   ASSERT_TRUE(sum);
-  EXPECT_NEAR(sum->seconds, 2 * 0.033, 1e-6) << "not the trial";
-  EXPECT_FALSE(step.Add(8, 30, Apart(0.08))) << "was tried lately";
-  EXPECT_TRUE(step.Add(40, 30, Apart(0.08)));
-  EXPECT_TRUE(step.Add(42, 30, Apart(0.07))) << "back";
+  EXPECT_NEAR(sum->seconds, 2 * 0.033, 1e-6) << "not the trials";
+  EXPECT_EQ(step.Add(10, 30, Apart(0.08)), 0) << "one that fitted may soon be wrong again";
+  EXPECT_EQ(step.Add(12, 30, Apart(0.07)), 1);
+  step.NoOther();
+  EXPECT_FALSE(step.Add(14, 30, Apart(0.08))) << "all were tried lately";
+  EXPECT_EQ(step.Add(44, 30, Apart(0.08)), 0);
+}
+
+/// The seat's numbers are behind the character's.
+TEST(FollowedStep, OneThatLiesHasOtherStatesThanOneThatStands) {
+  const std::string seat = R"(
+[[part]]
+name = "chair"
+box = [0.5, 0.5]
+position = [20, 0.25]
+[[seat]]
+name = "seat"
+part = "chair"
+)";
+  SpareWorld spare(Topology(ParseScene(kWalker + seat, "walker")), SpareWorld::Present::kAll);
+  const int m = spare.world().mechanism(0);
+  const auto others = [&] {
+    int count = 0;
+    while (spare.TryOther(m, count)) ++count;
+    return count;
+  };
+  const auto step = [&](int ticks, int lift) {
+    Input input;
+    input.lift = static_cast<std::int8_t>(lift);
+    for (int i = 0; i < ticks; ++i) spare.Step([&](World* to) { to->SetInput(0, input); });
+  };
+  step(30, 0);
+  EXPECT_EQ(others(), 1) << "stands: the other foot";
+  step(60, -127);
+  EXPECT_EQ(others(), 1) << "limp";
+  step(2, 0);
+  EXPECT_EQ(others(), 3) << "has fallen: as it is, gets up, stands";
+  step(30, 0);
+  EXPECT_EQ(others(), 5) << "gets up: as it is, lies, two stages, is up";
 }
 
 TEST(FollowedStep, AnIntervalThatIsNotKnownSpoilsTheSum) {
