@@ -99,9 +99,10 @@ position = [20, 0.25]
 [[seat]]
 name = "seat"
 part = "chair"
+button = 5
 )";
   SpareWorld spare(Topology(ParseScene(kWalker + seat, "walker")), SpareWorld::Present::kAll);
-  const int m = spare.world().mechanism(0);
+  const int m = spare.world().mechanism(1);  // body 0 is the chair
   const auto others = [&] {
     int count = 0;
     while (spare.TryOther(m, count)) ++count;
@@ -118,8 +119,12 @@ part = "chair"
   EXPECT_EQ(others(), 1) << "limp";
   step(2, 0);
   EXPECT_EQ(others(), 3) << "has fallen: as it is, gets up, stands";
-  step(30, 0);
-  EXPECT_EQ(others(), 5) << "gets up: as it is, lies, two stages, is up";
+  int most = 0;
+  for (int tick = 0; tick < 240; ++tick) {
+    step(1, 0);
+    most = std::max(most, others());
+  }
+  EXPECT_EQ(most, 5) << "gets up: as it is, lies on, two stages, is up";
 }
 
 TEST(FollowedStep, AnIntervalThatIsNotKnownSpoilsTheSum) {
