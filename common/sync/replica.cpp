@@ -117,6 +117,7 @@ void Replica::RecordInputs(const Inputs& inputs) {
   }
   track.Note(inputs);
   heard_players_.push_back(inputs.player);
+  if (wrong >= 0) display_.NoteLate(inputs.player, tick() - wrong + 1);
   if (!config_.policy->GoesBack(roles_.self())) return;
   if (wrong >= 0 && drivers_.Concerns(inputs.player)) replay_.AskFrom(wrong - 1);
   for (const std::int64_t t : late) {

@@ -46,15 +46,21 @@ TEST(ShowAge, IsNotThatOfARareLateInput) {
   EXPECT_EQ(ages.due(), 6);
 }
 
-/// Its inputs take 2 ticks, and what does not change is told every 6th tick.
-TEST(ShowAge, OfAUsualSilenceIsTheTimeThatInputsTake) {
+/// What does not change is told every 6th tick, and a change within 2.
+TEST(ShowAge, IsTheTimeThatChangesTake) {
   SyncConfig config = MakeSyncConfig("buffer", "rollback");
   config.show_age_ticks = 8;
   ShowAge ages(config);
-  for (int tick = 0; tick < 200; ++tick) ages.Look(Missing(2 + tick % 6));
-  EXPECT_EQ(ages.due(), 3);
-  for (int silent = 8; silent < 40; ++silent) ages.Look(Missing(silent));
-  EXPECT_EQ(ages.due(), 8) << "a longer one may hide a change";
+  for (int tick = 0; tick < 200; ++tick) {
+    if (tick % 20 == 0) ages.NoteLate(1, 2);
+    ages.Look(Missing(2 + tick % 6));
+  }
+  EXPECT_EQ(ages.due(), 2);
+  for (int tick = 0; tick < 200; ++tick) {
+    if (tick % 10 == 0) ages.NoteLate(1, 7);
+    ages.Look(Missing(2 + tick % 6));
+  }
+  EXPECT_EQ(ages.due(), 7) << "the line has become worse";
 }
 
 TEST(ShowAge, GlidesByAsMuchOfTheSpeedAsNobodyNotices) {

@@ -28,18 +28,18 @@ constexpr double kUnseenShare = 0.06, kUnseenSpeed = 0.05;
 /// them.
 using MissingInputs = std::vector<std::pair<int, std::int64_t>>;
 
-/// The longest usual silence of a player whose input does not change: it rides along with other
-/// messages, and the clock is asked for ten times a second. A change is sent at once.
-constexpr double kUsualSilenceS = 0.15;
-
-/// The age at which inputs are known. A player that is silent no longer than usual has changed
-/// nothing, up to as long ago as its inputs take to come. Before that is known the age is the
-/// greatest that is allowed: bodies wait for it once, and it need not rise while they move.
+/// The age at which inputs are known: a player of whom nothing comes has changed nothing, up to as
+/// long ago as its changes take to come. Before one has come, the age is that at which inputs are
+/// complete, and at first the greatest that is allowed: bodies wait for it once, and it need not
+/// rise while they move.
 class ShowAge {
  public:
   /// `config` must outlive this.
   explicit ShowAge(const SyncConfig& config) : config_(config) {}
 
+  /// Notes that an input of a player has come that differs from what was assumed for these newest
+  /// ticks.
+  void NoteLate(int player, std::int64_t ticks);
   /// Call after a step.
   void Look(const MissingInputs& missing);
   /// Returns the age that displayed poses are to have, ticks.
@@ -49,16 +49,8 @@ class ShowAge {
   static double Glide(double moment, double now, double due, double speed);
 
  private:
-  struct Heard {
-    std::int64_t look = 0, missing = 0;  // the last look at it, and what was missing then
-    RecentAges late;                     // ticks that inputs took to come
-  };
-  /// Returns how many newest ticks of a player may hold a change that has not come.
-  std::int64_t Unknown(int player, std::int64_t missing);
-
   const SyncConfig& config_;
-  std::vector<Heard> heard_;  // by player
-  std::int64_t look_ = 0;
+  std::vector<RecentAges> late_;  // by player
   RecentAges unknown_;
   double due_ = 0;
 };
