@@ -39,7 +39,7 @@ class Display {
   /// Call after a step. Lets the visual offsets return by one tick. `missing` is
   /// used if ShowsPast.
   void Glide(const Roles& roles, const MissingInputs& missing);
-  /// Notes that a player's input of so many ticks ago has come, and differs from what was assumed.
+  /// Notes that a player's input of so many ticks ago has come, and differs from the assumed one.
   void NoteLate(int player, std::int64_t ticks) { ages_.NoteLate(player, ticks); }
 
   /// Reports that the simulated state of `body` changed by this much; the view stays where it was.

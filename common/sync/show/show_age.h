@@ -28,7 +28,7 @@ constexpr double kUnseenShare = 0.06, kUnseenSpeed = 0.05;
 /// them.
 using MissingInputs = std::vector<std::pair<int, std::int64_t>>;
 
-/// The age at which inputs are known: a player of whom nothing comes has changed nothing, up to as
+/// The age at which inputs are known: a player that tells nothing has changed nothing, up to as
 /// long ago as its changes take to come. Before one has come, the age is that at which inputs are
 /// complete, and at first the greatest that is allowed: bodies wait for it once, and it need not
 /// rise while they move.
@@ -37,7 +37,7 @@ class ShowAge {
   /// `config` must outlive this.
   explicit ShowAge(const SyncConfig& config) : config_(config) {}
 
-  /// Notes that an input of a player has come that differs from what was assumed for these newest
+  /// Notes that an input of a player has come that differs from the assumed one of these newest
   /// ticks.
   void NoteLate(int player, std::int64_t ticks);
   /// Call after a step.

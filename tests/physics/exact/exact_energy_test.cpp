@@ -36,24 +36,21 @@ TEST(ExactEnergy, APendulumKeepsItsEnergyForAMinute) {
 
 /// Falls on a floor and comes up again, for a minute: continuous collision lifts it at each impact.
 TEST(ExactEnergy, AnElasticMechanismThatBouncesGainsNone) {
-  for (const double half : {0.6, 1.5}) {
-    for (const char* solver : {"", "contacts = \"soft\"\n"}) {
-      std::string parts = PartText("floor", "box = [60, 1]\nposition = [0, -0.5]\nanchored = true");
-      for (const double at : {-half, half}) {
-        parts += PartText(at < 0 ? "a" : "b",
-                          "circle = 0.3\nrestitution = 1\nfriction = 0\n"
-                          "position = [" +
-                              FloatDigits(at) + ", 3]\nvelocity = [0, " + FloatDigits(at) + "]");
-      }
-      parts += "[[joint]]\nname = \"rod\"\na = \"a\"\nb = \"b\"\nkind = \"distance\"\n";
-      const auto world = ExactWorld(parts, solver);
-      const double begin = EnergyOf(*world);
-      for (int tick = 0; tick < 3600; ++tick) {
-        world->Step();
-        ASSERT_LT(EnergyOf(*world), 1.05 * begin) << half << ' ' << solver << ' ' << tick;
-      }
-      EXPECT_GT(EnergyOf(*world), 0.8 * begin) << half << ' ' << solver;
+  for (const char* solver : {"", "contacts = \"soft\"\n"}) {
+    std::string parts = PartText("floor", "box = [60, 1]\nposition = [0, -0.5]\nanchored = true");
+    for (const char* at : {"-0.6", "0.6"}) {
+      parts += PartText(*at == '-' ? "a" : "b",
+                        "circle = 0.3\nrestitution = 1\nfriction = 0\nposition = [" +
+                            std::string(at) + ", 3]\nvelocity = [0, " + at + "]");
     }
+    parts += "[[joint]]\nname = \"rod\"\na = \"a\"\nb = \"b\"\nkind = \"distance\"\n";
+    const auto world = ExactWorld(parts, solver);
+    const double begin = EnergyOf(*world);
+    for (int second = 0; second < 60; ++second) {
+      Steps(world.get(), 60);
+      ASSERT_LT(EnergyOf(*world), 1.05 * begin) << solver << ' ' << second;
+    }
+    EXPECT_GT(EnergyOf(*world), 0.8 * begin) << solver;
   }
 }
 
