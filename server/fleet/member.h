@@ -111,7 +111,7 @@ class FleetMember {
   /// Takes the rooms that are due from their holders.
   Status TakeDue();
   Status TakeFrom(StandbyWatch::Due due);
-  /// Renews the lease, and writes what has changed of this server.
+  /// Renews the lease, and writes the changes of this server.
   Status Renew();
   /// While it drains: appoints the standbys, and sees whether there are any.
   Status FollowDrain(const FleetListing& listing);
@@ -148,7 +148,7 @@ class FleetMember {
     std::string why;
   };
   std::map<std::string, std::int32_t> held_;     // epoch of each room that is here
-  std::map<std::string, std::int32_t> coming_;   // the same of each whose holder still runs it
+  std::map<std::string, std::int32_t> coming_;   // the same of each that its holder still runs
   std::map<std::string, Failure> failed_;        // rooms that could not be opened here
   std::map<std::string, std::int32_t> to_give_;  // epoch of each that the directory has to give up
   std::map<std::string, std::string> guards_;    // address of the standby of each room that is here

@@ -115,7 +115,7 @@ class StandbyWatch {
   void NoteTaken(const std::map<std::string, std::int32_t>& taken);
   void Adopt(const std::vector<Guarded>& rooms);
   void Look(Watched& watched);
-  /// Offers a room whose holder drains, unless one is awaited, or gives away the one that is.
+  /// Offers a room of a holder that drains, unless one is awaited, or gives away the one that is.
   void LookAtLeaving();
   void Offer(Watched& watched);
   void LookAtAwaited(Watched& watched);

@@ -110,7 +110,7 @@ class HostedRoom : public Runnable {
  private:
   std::int64_t CpuForStats(std::int64_t now_us) const;
   void NoteTicks();
-  /// The same for a room that has gone on elsewhere: only tells who asks.
+  /// The same for a room that has gone on elsewhere: only answers.
   void RunOver(std::int64_t now_us);
   void Tell(std::int64_t now_us);
   void CollectReports();

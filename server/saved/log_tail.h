@@ -42,7 +42,7 @@ class LogFollower {
   std::int64_t tick() const { return tick_; }
 
  private:
-  /// Returns what was accepted behind the last tick.
+  /// Returns the records accepted behind the last tick.
   std::vector<AnyMessage> Begun(const TickSplitter& splitter) const;
 
   const std::string path_, room_;
