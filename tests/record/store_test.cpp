@@ -172,6 +172,7 @@ TEST(SessionWriter, PuttingDoesNotWaitForAnotherProgramThatHasTheFile) {
   { Store store(folder / "a.db", Store::Use::kWrite); }
   sqlite3* other = nullptr;
   ASSERT_EQ(sqlite3_open((folder / "a.db").c_str(), &other), SQLITE_OK);
+  sqlite3_busy_timeout(other, 10000);  // the writer opens the store on its own thread
   const auto writer = WriteIntoStore(folder / "a.db");
   ASSERT_EQ(sqlite3_exec(other, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
   const std::int64_t begin_us = SteadyClockUs();
