@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "common/base/check.h"
 #include "tests/lab/gait/cma_es.h"
@@ -77,9 +76,8 @@ TEST(CmaEs, ANanValueIsTheWorst) {
 class LabGait : public testing::Test {
  protected:
   std::string Write(const std::string& text) const {
-    const std::string path = testing::TempDir() + "gait-objective.toml";
-    std::ofstream(path) << text;
-    return path;
+    files_.Write("objective.toml", text);
+    return files_ / "objective.toml";
   }
   std::string Mistake(const std::string& text) const {
     try {
@@ -90,6 +88,7 @@ class LabGait : public testing::Test {
     }
     return "none";
   }
+  const LabWorkspace files_;
 };
 
 constexpr const char* kStarts =
