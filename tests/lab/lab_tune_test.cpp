@@ -210,7 +210,7 @@ TEST(LabTune, PrintsLinesToPasteOrThatNoneReachesIt) {
 TEST(Overhead, TheCoreAndTheEngineAloneEndInTheSameState) {
   for (const char* name : {"crossing", "cradle", "stack"}) {
     const Scene scene = LoadScene(std::string("scenes/") + name + ".toml");
-    const Overhead o = MeasureOverhead(scene, 250, 1);
+    const Overhead o = MeasureOverhead(scene, 250, 5);
     EXPECT_TRUE(o.equal) << name;
     EXPECT_GT(o.raw_us_per_step, 0.05) << name;
     EXPECT_GT(o.core_us_per_step, 0.05) << name;

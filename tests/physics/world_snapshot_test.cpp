@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -235,9 +236,9 @@ TEST(Snapshot, PrintsTheCostOfABarrier) {
 }
 
 /// Steps a world with a barrier every other tick. `twice`: takes each twice; `times` gets the
-/// time of all first and of all second ones, us.
+/// times of the first and of the second ones, us.
 std::vector<std::uint64_t> HashesWithBarriers(const Scene& scene, bool twice,
-                                              std::array<double, 2>* times) {
+                                              std::array<std::vector<double>, 2>* times) {
   ScriptedWorld s(scene);
   std::vector<std::uint64_t> hashes;
   for (int t = 1; t <= 240; ++t) {
@@ -247,22 +248,29 @@ std::vector<std::uint64_t> HashesWithBarriers(const Scene& scene, bool twice,
       s.world.Barrier();
       const std::chrono::duration<double, std::micro> took =
           std::chrono::steady_clock::now() - begin;
-      (*times)[i] += took.count();
+      (*times)[i].push_back(took.count());
     }
     hashes.push_back(s.world.Hash());
   }
   return hashes;
 }
 
+/// A pause of the whole program, which may take as long as all barriers, does not change it.
+double Median(std::vector<double> all) {
+  std::sort(all.begin(), all.end());
+  return all[all.size() / 2];
+}
+
 TEST(Snapshot, ASecondBarrierInATickChangesNothingAndCostsLess) {
   for (const char* name : {"wall", "heap", "seesaw", "playground"}) {
     const Scene scene = LoadScene(std::string("scenes/") + name + ".toml");
-    std::array<double, 2> once_us{}, times{};
+    std::array<std::vector<double>, 2> once_us, times;
     const std::vector<std::uint64_t> once = HashesWithBarriers(scene, false, &once_us);
     EXPECT_EQ(HashesWithBarriers(scene, true, &times), once) << name;
-    std::printf("%s: a barrier takes %.0f us, another one in the same tick %.0f\n", name,
-                times[0] / 120, times[1] / 120);
-    EXPECT_LT(times[1], 0.8 * times[0]) << name;
+    const double first_us = Median(times[0]), second_us = Median(times[1]);
+    std::printf("%s: a barrier takes %.0f us, another one in the same tick %.0f\n", name, first_us,
+                second_us);
+    EXPECT_LT(second_us, 0.8 * first_us) << name;
   }
 }
 
