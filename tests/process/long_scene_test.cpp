@@ -2,6 +2,8 @@
 /// stock lcm-logger, read, measured and drawn; one byte too much is refused in one line.
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -35,10 +37,19 @@ TEST_F(LongScene, IsJoinedRecordedMeasuredAndDrawn) {
     SessionPlan plan;
     plan.name = "long-" + std::to_string(bytes);
     plan.scene = Written(bytes);
-    plan.server_flags = {"--duration", "3", "--wait", "1", "--quiet"};
+    plan.server_flags = {"--wait", "1", "--quiet"};
     plan.clients["ann"] = {"--drive", "bot", "--quiet", "--join-timeout", "60"};
     LiveSession session(folder_, index++, plan);
     ASSERT_TRUE(session.Begin());
+    // The room starts when she is there; then she parses its scene. The stock logger may lose parts
+    // of it, which come again.
+    const auto played = [&](const Recording& r) {
+      const auto hers = r.views.find(1);
+      return r.room.scene_text.size() == bytes && hers != r.views.end() &&
+             hers->second.size() > 120;
+    };
+    for (int s = 0; s < kLongSceneWait && !played(session.Captured()); ++s) sleep(1);
+    session.server().Signal(SIGTERM);
     ASSERT_TRUE(session.Finish(kLongSceneWait)) << session.Story();
     SCOPED_TRACE(session.Story());
     EXPECT_EQ(session.server().status(), 0);
@@ -48,7 +59,7 @@ TEST_F(LongScene, IsJoinedRecordedMeasuredAndDrawn) {
     EXPECT_EQ(captured.room.scene_text, BigScene(bytes));
     EXPECT_EQ(captured.undecodable, 0);
     ASSERT_EQ(captured.views.size(), 2u);
-    EXPECT_GE(captured.views.at(1).size(), 60u) << "ann played";
+    EXPECT_GT(captured.views.at(1).size(), 120u) << "ann played";
 
     Program measure({BuiltProgram("seam-measure"), session.capture_path()});
     ASSERT_TRUE(measure.Wait(kLongSceneWait));

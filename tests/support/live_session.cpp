@@ -69,7 +69,7 @@ Program& LiveSession::Join(const std::string& name, const std::vector<std::strin
 
 bool LiveSession::Finish(double seconds) {
   bool ended = server_ != nullptr && server_->Wait(seconds);
-  for (auto& [name, program] : clients_) ended = program->Wait(5) && ended;
+  for (auto& [name, program] : clients_) ended = program->Wait(seconds) && ended;
   // The logger writes with a delay, and loses unwritten messages when it is stopped.
   ended = Probe("END") && ended;
   logger_->Signal(SIGINT);

@@ -32,7 +32,7 @@ class LiveSession {
   /// Starts a client, or restarts one that has ended. `terminal`: its standard input, -1 for none.
   Program& Join(const std::string& name, const std::vector<std::string>& flags, int terminal = -1);
   /// Waits for the server and the clients to end by themselves, then ends the logger. Returns false
-  /// if one of them does not end within `seconds`.
+  /// if one of them does not end within `seconds` after the one before.
   bool Finish(double seconds);
 
   Program& server() { return *server_; }
