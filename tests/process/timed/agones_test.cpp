@@ -71,10 +71,13 @@ TEST_F(AgonesPod, IsToldReadyThenHealthyThenOver) {
   EXPECT_EQ(sidecar->paths[2], "POST /health");
   // A server that stands still is not healthy.
   server.Signal(SIGSTOP);
-  sidecar->Answer(5, 4);
-  EXPECT_EQ(sidecar->paths.size(), 3u);
+  sidecar->Answer(1, 4);  // it may have asked before
+  const std::size_t before = sidecar->paths.size();
+  sidecar->Answer(5, before + 1);
+  EXPECT_EQ(sidecar->paths.size(), before);
   server.Signal(SIGCONT);
-  sidecar->Answer(kPatience, 4);
+  sidecar->Answer(kPatience, before + 1);
+  EXPECT_EQ(sidecar->paths.size(), before + 1);
   EXPECT_EQ(sidecar->paths.back(), "POST /health");
   // Without its sidecar it plays on, and says so once.
   sidecar.reset();

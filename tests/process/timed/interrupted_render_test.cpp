@@ -38,7 +38,7 @@ TEST(InterruptedRender, LeavesWholePicturesAndTheNextRunGoesIntoTheSameFolder) {
   const Workspace folder;
   const std::string log = MakeLog(folder, "6"), frames = folder / "frames";
   Program render({BuiltProgram("seam-render"), log, "-o", frames, "--size", "1920x1080"});
-  for (int i = 0; i < 500 && !fs::exists(frames + "/frame_00004.png"); ++i) {
+  for (int i = 0; i < 6000 && !fs::exists(frames + "/frame_00004.png"); ++i) {
     if (render.Wait(0.01)) break;
   }
   render.Signal(SIGINT);
