@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 
 #include "common/net/http_page.h"
@@ -72,9 +73,15 @@ TEST_F(ControlledSession, ChangesTheNetworkAndTheClientMeasuresIt) {
   const Recording log = End("server.lcm");
   const std::vector<Stats>& stats = log.stats.at(0);  // the round trip to ann
   ASSERT_GE(stats.size(), 10u);
-  EXPECT_LT(stats[2].rtt_us, 40000);
-  EXPECT_GE(stats.back().rtt_us, 120000);
-  EXPECT_LT(stats.back().rtt_us, 180000);
+  // A machine that is busy for a moment adds to one of them.
+  const auto least_us = [](auto from, auto to) {
+    return std::min_element(from, to,
+                            [](const Stats& a, const Stats& b) { return a.rtt_us < b.rtt_us; })
+        ->rtt_us;
+  };
+  EXPECT_LT(least_us(stats.begin(), stats.begin() + 4), 40000);
+  EXPECT_GE(least_us(stats.end() - 4, stats.end()), 120000);
+  EXPECT_LT(least_us(stats.end() - 4, stats.end()), 180000);
   int said = 0;
   for (const Event& event : log.events) said += event.text == "network is now delay=60ms" ? 1 : 0;
   EXPECT_EQ(said, 1);

@@ -10,6 +10,7 @@
 
 #include "common/base/process.h"
 #include "common/net/http_page.h"
+#include "server/fleet/take_over_rule.h"
 #include "tests/process/timed/fleet_programs.h"
 #include "tests/support/soak.h"
 
@@ -54,7 +55,7 @@ void StopWithoutLock(const std::string& directory, Program& server) {
 void PrintTimes(const char* what, std::vector<double>* all_s) {
   std::sort(all_s->begin(), all_s->end());
   std::printf("%s: %zu kills: both players are in again %.2f s (median), %.2f s (most) after\n",
-              what, all_s->size(), (*all_s)[all_s->size() / 2], all_s->back());
+              what, all_s->size(), (*all_s)[(all_s->size() - 1) / 2], all_s->back());
 }
 
 /// Kills the holder again and again; the one that was killed comes back as the next standby.
@@ -79,6 +80,9 @@ TEST_F(Standby, TakesTheRoomOfAKilledServerLongBeforeItsLeaseEnds) {
       back_s.push_back(static_cast<double>(SteadyClockUs() - kill_us) * 1e-6);
       ASSERT_TRUE(a_->Wait(kPatience));
       EXPECT_EQ(Held(), round + 2);
+      EXPECT_NE(b_->errors().find(" is silent, and 2 of 2 player(s) ask for it here"),
+                std::string::npos)
+          << "the lease's end is not what was waited for: " << b_->Story();
       if (round + 1 == rounds) break;
       a_ = std::move(b_);
       const std::string id = round % 2 == 0 ? "a" : "b";
@@ -88,8 +92,7 @@ TEST_F(Standby, TakesTheRoomOfAKilledServerLongBeforeItsLeaseEnds) {
     }
     for (const auto& client : clients_) EXPECT_EQ(client->status(), -1) << client->Story();
     PrintTimes(warm ? "with --standby" : "from saved state", &back_s);
-    EXPECT_LT(back_s[back_s.size() / 2], warm ? 2.0 : 3.0);
-    EXPECT_LT(back_s.back(), kFleetLeaseS) << "the lease's end is not what was waited for";
+    EXPECT_LT(back_s[(back_s.size() - 1) / 2], warm ? 2.0 : 3.0);
   }
 }
 
@@ -114,9 +117,13 @@ TEST_F(Standby, AShortPauseChangesNothing) {
   SEAM_INSIDE_ONLY();
   ASSERT_NO_FATAL_FAILURE(Begin({"--standby"}));
   for (int pause = 0; pause < 3; ++pause) {
+    const std::int64_t begin_us = SteadyClockUs();
     a_->Signal(SIGSTOP);
-    usleep(250000);
+    usleep(TakeOverRule::kHolderSilentUs / 2);
     a_->Signal(SIGCONT);
+    if (SteadyClockUs() - begin_us > TakeOverRule::kHolderSilentUs * 3 / 4) {
+      GTEST_SKIP() << "the machine has paused for longer";
+    }
     usleep(1500000);
   }
   EXPECT_EQ(Held(), 1) << b_->Story();
