@@ -27,9 +27,6 @@ constexpr double kAuditedS = 0.25;
 constexpr float kGrossAudited = 4;
 /// A mechanism that may have met more is not compared: piles are chaos.
 constexpr std::size_t kIslandMost = 6;
-/// An honest gain is so many times as great where a mechanism touches others, as two worlds part
-/// there.
-constexpr double kInCompany = 8;
 /// A character's step is known once it has been followed for so long, s: three steps. Others are
 /// tried as seldom as this, s.
 constexpr double kStepKnownS = 1, kOthersS = 0.5;
@@ -311,7 +308,7 @@ void Auditor::Compare(int mechanism, const ToldStates::Told& told,
       ToldInputs(track.player, from, told.tick) && !track.told.LeavesOut(Seconds(kOutS));
   track.gain.NoteAllTold(all);
   if (gain && all && Knows(mechanism, from, told.tick)) {
-    track.gain.Add(*gain, gain->met ? kInCompany : 1);
+    track.gain.Add(*gain);
     ++counts_.compared;
   }
   counts_.greatest = std::max(counts_.greatest, track.gain.share());

@@ -29,6 +29,7 @@ std::optional<int> FollowedStep::Add(std::int64_t tick, std::int64_t rest,
     return std::nullopt;
   }
   if (!sum_) sum_.emplace();
+  sum_->summed = true;
   sum_->seconds += gain->seconds;
   sum_->position += gain->position;
   sum_->velocity += gain->velocity;

@@ -22,6 +22,8 @@ struct Gain {
   Vec2 stepped{0, 0};   ///< velocity of the centre of mass as stepped, m/s
   double apart = 0;     ///< greatest move of a body relative to the centre of mass, m
   bool met = false;     ///< it has touched another mechanism, of the same holder
+  /// A sum over short intervals, each from told states: places hardly depend on forces then.
+  bool summed = false;
 };
 
 class SpareWorld {

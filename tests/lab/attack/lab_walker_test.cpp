@@ -98,6 +98,23 @@ position = [-5, 0.25]
 repeat = {count = 3, step = [3, 0]}
 )";
 
+/// A walker gains centimetres in a second by it, and less than a blow of a crate gives: what hides
+/// in the chance of single gains adds up.
+TEST(Walker, ALittleTooFastIsFoundWithoutACopyWithinHalfAMinute) {
+  for (const char* attack : {"x1.05", "x1.2"}) {
+    for (const int seed : SoakSeeds(2, 2)) {
+      SCOPED_TRACE(std::string(attack) + ", seed " + std::to_string(seed));
+      ClusterConfig config = Walk("demo", seed);
+      config.scene_text += std::string(attack) == "x1.2" ? kCrates : "";
+      config.drive = Drive::kBot;
+      config.duration_s = 33;
+      const AttackOutcome outcome = RunAttack(config, attack);
+      EXPECT_LT(ActedAfterS(outcome), 30);
+      EXPECT_LE(outcome.others_step, static_cast<int>(TrustStep::kNoted)) << "bob is honest";
+    }
+  }
+}
+
 /// When one begins to get up is decided by less than the wire's rounding: the audit's world was
 /// 0.4 s early, which came to 1.5 of a lie.
 TEST(Walker, AnHonestOneThatFallsAndGetsUpIsNotDoubted) {

@@ -100,5 +100,29 @@ TEST(SteadyGain, AGainThatIsTwiceAnHonestOneIsFound) {
   EXPECT_FALSE(honest.lies());
 }
 
+/// `along`: m in each second, beside chance; one in 20 is a great one.
+Gain Slipped(double along, Random* random) {
+  Gain gain;
+  gain.seconds = 0.2;
+  gain.summed = true;
+  gain.stepped = Vec2(1, 0);
+  const bool great = random->Uniform(0, 20) < 1;
+  const double slip = along + (great ? random->Uniform(-1, 1) : random->Uniform(-0.01, 0.01));
+  gain.position = Vec2(static_cast<float>(slip * gain.seconds), 0);
+  return gain;
+}
+
+TEST(SteadyGain, ASmallSlipThatGreatOnesHideIsFound) {
+  Random random(1);
+  SteadyGain liar, honest;
+  int comparisons = 0;
+  for (; !liar.lies() && comparisons < 1000; ++comparisons) liar.Add(Slipped(0.05, &random));
+  EXPECT_LT(comparisons, 40);
+  for (int i = 0; i < 20000; ++i) {
+    honest.Add(Slipped(0, &random));
+    ASSERT_FALSE(honest.lies()) << "comparison " << i;
+  }
+}
+
 }  // namespace spare_world_test
 }  // namespace seam
