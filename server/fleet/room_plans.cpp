@@ -132,13 +132,8 @@ void PrepareFiles(const std::string& scene_name, RoomPlan* plan) {
 
 /// A kept room that still waited for its players has no snapshot: it begins anew, with the scene
 /// and the method of its log, which is put aside.
-RoomPlan PlanOfUnbegun(const Flags& f, const std::string& name, int index, int rooms) {
-  const Recording log = ReadRecording(StateLogOf(f.resume, name), name);
-  const Room& room = log.room;
-  if (log.last_tick > 0) {
-    throw OperatorError(f.resume + ": room " + name + " has " + std::to_string(log.last_tick) +
-                        " ticks in its log, and no snapshot to go on from");
-  }
+RoomPlan PlanOfUnbegun(const Flags& f, const Room& room, const std::string& name, int index,
+                       int rooms) {
   RoomPlan plan;
   plan.scene = ParseScene(room.scene_text, room.scene_name);
   plan.config = ConfigOf(room);
@@ -198,7 +193,8 @@ namespace {
 RoomPlan PlanOfKept(const Flags& f, const Secret* log_key, const std::string& name, int index,
                     int rooms, FleetMember* member) {
   if (ListSnapshots(f.resume, name).empty() && member == nullptr) {
-    return PlanOfUnbegun(f, name, index, rooms);
+    const Recording log = ReadRecording(StateLogOf(f.resume, name), name);
+    if (log.last_tick <= 0) return PlanOfUnbegun(f, log.room, name, index, rooms);
   }
   RoomPlan plan = PlanOfResumed(f, log_key, name, index, rooms);
   if (member == nullptr) return plan;

@@ -80,10 +80,12 @@ void HostedRoom::GoOn(const ResumedRoom& resumed) {
   if (!status.ok()) throw OperatorError(plan_.state + ": " + status.why());
   TakeSummaries();
   news_.insert(news_.end(), resumed.notes.begin(), resumed.notes.end());
+  const std::string from = resumed.saved_tick > 0
+                               ? "snapshot of tick " + std::to_string(resumed.saved_tick)
+                               : "no snapshot";
   char line[200];
-  std::snprintf(line, sizeof line,
-                "resumed at tick %lld: snapshot of tick %lld and %lld ticks of the log, in %.0f ms",
-                static_cast<long long>(server_->tick()), static_cast<long long>(resumed.saved_tick),
+  std::snprintf(line, sizeof line, "resumed at tick %lld: %s and %lld ticks of the log, in %.0f ms",
+                static_cast<long long>(server_->tick()), from.c_str(),
                 static_cast<long long>(server_->tick() - resumed.saved_tick),
                 static_cast<double>(SteadyClockUs() - begin_us) * 1e-3);
   news_.push_back(line);

@@ -12,6 +12,7 @@
 #include "common/record/log_file.h"
 #include "common/record/room_log.h"
 #include "common/record/segments/log_segments.h"
+#include "server/saved/log_begin.h"
 #include "server/saved/snapshot_file.h"
 #include "server/saved/trial_load.h"
 
@@ -103,7 +104,8 @@ std::vector<std::string> RoomsIn(const std::string& folder, bool may_none) {
 
 NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room,
                                   std::vector<std::string>* notes) {
-  for (const SnapshotName& file : ListSnapshots(folder, room)) {
+  const std::vector<SnapshotName> files = ListSnapshots(folder, room);
+  for (const SnapshotName& file : files) {
     RoomSnapshot snapshot;
     NewestSnapshot newest;
     Status status = ReadSnapshot(file.path, &snapshot);
@@ -126,10 +128,19 @@ NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& 
       newest.epoch = file.epoch;
       return newest;
     }
-    notes->push_back(status.why() + "; the one before is used");
+    const bool last = &file == &files.back();
+    notes->push_back(status.why() + (last ? "" : "; the one before is used"));
+  }
+  Status status = Status::Ok();
+  NewestSnapshot begin;
+  begin.saved = RoomAtLogBegin(StateLogOf(folder, room), room, &status);
+  if (begin.saved != nullptr) {
+    notes->push_back("room " + room + ": no snapshot can be read; its whole log is done again");
+    return begin;
   }
   std::string why = folder + ": room " + room + " has no snapshot that can be read";
   for (const std::string& note : *notes) why += "; " + note.substr(0, note.find("; the"));
+  why += "; " + status.why();
   throw OperatorError(why);
 }
 

@@ -34,7 +34,8 @@ struct NewestSnapshot {
   std::int32_t epoch = 1;  ///< of the log
 };
 /// Opens the newest snapshot that is of this version and loads; `notes` gets a line for each that
-/// does not. Throws OperatorError if there is none.
+/// does not. Without one it is the room before the first tick of its log. Throws OperatorError if
+/// there is no such log either.
 NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room,
                                   std::vector<std::string>* notes);
 
@@ -42,8 +43,8 @@ NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& 
 std::string StateLogOf(const std::string& folder, const std::string& room, std::int32_t epoch = 1);
 /// Returns the names of the rooms in it. Throws OperatorError if there are none, unless `may_none`.
 std::vector<std::string> RoomsIn(const std::string& folder, bool may_none = false);
-/// Reads a room: of its snapshots the newest that is of this version and loads, and its log from
-/// there on. Throws OperatorError if there is none. Renames a log that is damaged behind that, or
+/// Reads a room: OpenNewestSnapshot, and its log from there on. Throws OperatorError if there is
+/// none. Renames a log that is damaged behind that, or
 /// was not written with `log_key` (nullptr: need not be). `epoch`: in which it is to go on, 0: as
 /// saved; in a later one than that of the log it gets a log of its own.
 ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,

@@ -1,6 +1,7 @@
 #include "server/saved/trial_load.h"
 
 #include "common/net/memory.h"
+#include "common/scene/scene.h"
 #include "common/sync/method.h"
 
 namespace seam {
@@ -21,6 +22,7 @@ ServerConfig ConfigOf(const Room& room) {
   config.sync.tick_hz = room.tick_hz;
   config.sync.send_hz = room.send_hz;
   config.sync.seed = config.seed = room.seed;
+  config.room = room.room;
   return config;
 }
 
@@ -35,6 +37,18 @@ Status CanLoad(const SavedRoom& saved, std::int64_t* tick) {
   const Status status = server.Resume(saved, 1000000);
   if (status.ok() && tick != nullptr) *tick = server.tick();
   return status;
+}
+
+Bytes SaveUnbegun(const Room& room) {
+  ServerConfig config = ConfigOf(room);
+  config.publish = Publish::kNone;
+  MemoryNetwork network;
+  const std::unique_ptr<Net> net = network.Attach({1, 1});
+  Unheard unheard;
+  SeededEntropy entropy(1);
+  Server server(ParseScene(room.scene_text, room.scene_name), config, *net, unheard, entropy);
+  server.GoOn(0);
+  return server.Save(0);
 }
 
 }  // namespace seam

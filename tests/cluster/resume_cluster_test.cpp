@@ -9,6 +9,7 @@
 #include "common/sync/method.h"
 #include "server/room_state.h"
 #include "server/rules/rules.h"
+#include "server/saved/log_begin.h"
 #include "server/saved/log_tail.h"
 #include "tests/lab/chaos/kept_log.h"
 #include "tests/support/arena.h"
@@ -18,7 +19,8 @@
 namespace seam {
 namespace resume_cluster_test {
 
-/// Plays to `tick` with a snapshot at `saved_tick`, and resumes the room from its log.
+/// Plays to `tick` with a snapshot at `saved_tick`, 0: with none, and resumes the room from its
+/// log.
 class Killed {
  public:
   Killed(ClusterConfig config, std::int64_t saved_tick, std::int64_t tick,
@@ -28,17 +30,21 @@ class Killed {
     ServerLog kept(path, segment_bytes);
     config.recorder = &kept;
     cluster_ = std::make_unique<Cluster>(config);
-    cluster_->RunToTick(saved_tick);
-    EXPECT_EQ(cluster_->server().tick(), saved_tick);
-    place = kept.log.Pin();
-    const Bytes bytes = cluster_->server().Save(cluster_->now_us());
+    Bytes bytes;
+    if (saved_tick > 0) {
+      cluster_->RunToTick(saved_tick);
+      EXPECT_EQ(cluster_->server().tick(), saved_tick);
+      place = kept.log.Pin();
+      bytes = cluster_->server().Save(cluster_->now_us());
+    }
     cluster_->RunToTick(tick);
     Status status = ReadLogTail(path, "main", place, saved_tick, nullptr, &tail);
     EXPECT_TRUE(status.ok()) << status.why();
     EXPECT_EQ(tail.damage, "");
     EXPECT_EQ(tail.ticks.empty() ? -1 : tail.ticks.back().tick, tick)
         << "in the log before its datagrams leave";
-    const std::unique_ptr<const SavedRoom> saved = SavedRoom::Read(bytes, &status);
+    const std::unique_ptr<const SavedRoom> saved =
+        saved_tick > 0 ? SavedRoom::Read(bytes, &status) : RoomAtLogBegin(path, "main", &status);
     EXPECT_TRUE(saved != nullptr) << status.why();
     if (saved == nullptr) return;
     ServerConfig again;
@@ -112,6 +118,19 @@ TEST(ResumeCluster, TheWorldIsWhereItWas) {
     config.scene = scene;
     for (const std::int64_t killed : {301, 450, 590}) ExpectSameBits(config, 300, killed);
   }
+}
+
+TEST(ResumeCluster, ALogWithoutSnapshotsBringsTheWorldBack) {
+  for (const char* scene : kScenes) {
+    ClusterConfig config;
+    config.scene = scene;
+    ExpectSameBits(config, 0, 301);
+    config.impair = "4g";
+    ExpectSameBits(config, 0, 150, 20000);
+  }
+  ClusterConfig central;
+  central.mode = "central";
+  ExpectSameBits(central, 0, 301);
 }
 
 TEST(ResumeCluster, ALogInSegmentsBringsTheWorldBackToo) {

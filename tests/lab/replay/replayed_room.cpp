@@ -6,25 +6,9 @@
 #include "common/base/check.h"
 #include "common/codec/codec.h"
 #include "common/record/log_file.h"
-#include "common/sync/method.h"
+#include "server/saved/trial_load.h"
 
 namespace seam {
-namespace {
-
-ServerConfig ConfigOf(const Room& room) {
-  ServerConfig config;
-  config.sync = MakeSyncConfig(MethodNames{room.mode, room.reconcile, room.predict});
-  config.sync.tick_hz = room.tick_hz;
-  config.sync.send_hz = room.send_hz;
-  config.sync.input_delay_ticks = room.input_delay_ticks;
-  config.sync.seed = config.seed = room.seed;
-  config.room = room.room;
-  config.publish = Publish::kNone;
-  return config;
-}
-
-}  // namespace
-
 class ReplayedRoom::Silence : public Recorder {
  public:
   void Publish(const std::string&, std::int64_t, ByteView) override {}
@@ -86,7 +70,7 @@ ReplayedRoom::ReplayedRoom(const LoggedRoom& logged, Recorder* out)
       silence_(std::make_unique<Silence>()) {
   const Room& room = logged.recording.room;
   ServerConfig config = ConfigOf(room);
-  if (out != nullptr) config.publish = Publish::kAll;
+  config.publish = out != nullptr ? Publish::kAll : Publish::kNone;
   Recorder& recorder = out != nullptr ? *out : *silence_;
   server_ = std::make_unique<Server>(ParseScene(room.scene_text, room.scene_name), config, *net_,
                                      recorder, entropy_);

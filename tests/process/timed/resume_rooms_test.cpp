@@ -54,6 +54,17 @@ TEST_F(ResumeRooms, ARoomThatWaitsOrIsDamagedKeepsNoOtherOut) {
   for (const std::string& file : snapshots("main-1")) std::filesystem::resize_file(file, 1000);
   server = std::make_unique<Program>(Server({"--resume", State()}));
   ASSERT_TRUE(wait_for([&] {
+    return server->errors().find(": no snapshot and") != std::string::npos;
+  })) << server->Story();
+  EXPECT_NE(server->errors().find("its whole log is done again"), std::string::npos);
+  EXPECT_EQ(server->errors().find("otherwise than it was"), std::string::npos) << server->Story();
+  server->Signal(SIGTERM);
+  ASSERT_TRUE(server->Wait(kPatience));
+  EXPECT_EQ(server->status(), 0) << server->Story();
+  for (const std::string& file : snapshots("main-1")) std::filesystem::resize_file(file, 1000);
+  std::filesystem::resize_file(State() + "/main-1.lcm", 1000);
+  server = std::make_unique<Program>(Server({"--resume", State()}));
+  ASSERT_TRUE(wait_for([&] {
     return server->errors().find("no snapshot that can be read") != std::string::npos;
   })) << server->Story();
   usleep(500000);
