@@ -40,8 +40,7 @@ ServerConfig Silent(const SavedRoom& saved) {
 
 /// Opens it; of an earlier epoch it is a room as it was before this server's.
 NewestSnapshot Open(const std::string& folder, const std::string& room, std::int32_t epoch) {
-  std::vector<std::string> notes;
-  NewestSnapshot newest = OpenNewestSnapshot(folder, room, &notes);
+  NewestSnapshot newest = OpenNewestSnapshot(folder, room);
   if (newest.epoch == epoch) return newest;
   throw OperatorError(folder + ": room " + room + " has no snapshot of epoch " +
                       std::to_string(epoch) + " that can be read");

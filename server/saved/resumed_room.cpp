@@ -81,6 +81,19 @@ bool OnlyWaited(const std::string& log) {
   }
 }
 
+/// True if the room has gone on in a later epoch than that of its first log.
+bool WentOnLater(const std::string& folder, const std::string& room) {
+  bool later = false;
+  for (const SnapshotName& file : ListSnapshots(folder, room)) later = later || file.epoch > 1;
+  const std::string second = StemOf(room, 2), stem = second.substr(0, second.size() - 1);
+  std::error_code error;
+  for (const fs::path& path : ListFolder(folder, error)) {
+    const bool of_room = path.stem().string().rfind(stem, 0) == 0;
+    later = later || (of_room && path.extension() == kLogEnding);
+  }
+  return later;
+}
+
 }  // namespace
 
 std::string StateLogOf(const std::string& folder, const std::string& room, std::int32_t epoch) {
@@ -102,52 +115,80 @@ std::vector<std::string> RoomsIn(const std::string& folder, bool may_none) {
   return {names.begin(), names.end()};
 }
 
-NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room,
-                                  std::vector<std::string>* notes) {
+namespace {
+
+/// Opens the newest snapshot that is of this version and loads. Returns false if there is none.
+/// `notes` gets a line for each that does not.
+bool FindSnapshot(const std::string& folder, const std::string& room,
+                  std::vector<std::string>* notes, NewestSnapshot* newest) {
   const std::vector<SnapshotName> files = ListSnapshots(folder, room);
   for (const SnapshotName& file : files) {
     RoomSnapshot snapshot;
-    NewestSnapshot newest;
     Status status = ReadSnapshot(file.path, &snapshot);
     if (status.ok()) {
-      newest.saved = SavedRoom::Read(snapshot.room, &status);
+      newest->saved = SavedRoom::Read(snapshot.room, &status);
       std::int64_t tick = 0;
-      if (newest.saved != nullptr) status = CanLoad(*newest.saved, &tick);
+      if (newest->saved != nullptr) status = CanLoad(*newest->saved, &tick);
       if (status.ok() && (tick != file.tick || snapshot.tick != file.tick)) {
         status = Status::Error("is of tick " + std::to_string(tick) + ", its name says " +
                                std::to_string(file.tick));
       }
-      if (status.ok() && IsOfAnother(folder, file, newest.saved->room())) {
+      if (status.ok() && IsOfAnother(folder, file, newest->saved->room())) {
         status = Status::Error("is of another scene than the room's log");
       }
       if (!status.ok()) status = Status::Error(file.path + ": " + status.why());
     }
     if (status.ok()) {
-      newest.tick = snapshot.tick;
-      newest.log = snapshot.log;
-      newest.epoch = file.epoch;
-      return newest;
+      newest->tick = snapshot.tick;
+      newest->log = snapshot.log;
+      newest->epoch = file.epoch;
+      return true;
     }
     const bool last = &file == &files.back();
     notes->push_back(status.why() + (last ? "" : "; the one before is used"));
   }
-  Status status = Status::Ok();
-  NewestSnapshot begin;
-  begin.saved = RoomAtLogBegin(StateLogOf(folder, room), room, &status);
-  if (begin.saved != nullptr) {
-    notes->push_back("room " + room + ": no snapshot can be read; its whole log is done again");
-    return begin;
-  }
+  return false;
+}
+
+OperatorError NoSnapshot(const std::string& folder, const std::string& room,
+                         const std::vector<std::string>& notes) {
   std::string why = folder + ": room " + room + " has no snapshot that can be read";
-  for (const std::string& note : *notes) why += "; " + note.substr(0, note.find("; the"));
-  why += "; " + status.why();
-  throw OperatorError(why);
+  for (const std::string& note : notes) why += "; " + note.substr(0, note.find("; the"));
+  return OperatorError(why);
+}
+
+/// Returns the room before the first tick of its log. Throws OperatorError if that cannot be had.
+NewestSnapshot AtLogBegin(const std::string& folder, const std::string& room,
+                          std::vector<std::string>* notes) {
+  NewestSnapshot begin;
+  Status status = Status::Error("its first log is of an earlier epoch");
+  if (!WentOnLater(folder, room)) {
+    begin.saved = RoomAtLogBegin(StateLogOf(folder, room), room, &status);
+  }
+  if (begin.saved == nullptr) {
+    notes->push_back(status.why());
+    throw NoSnapshot(folder, room, *notes);
+  }
+  notes->push_back("room " + room + ": no snapshot can be read; its whole log is done again");
+  return begin;
+}
+
+}  // namespace
+
+NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room) {
+  std::vector<std::string> notes;
+  NewestSnapshot newest;
+  if (!FindSnapshot(folder, room, &notes, &newest)) throw NoSnapshot(folder, room, notes);
+  return newest;
 }
 
 ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
                             const Secret* log_key, std::int32_t epoch) {
   ResumedRoom resumed;
-  NewestSnapshot newest = OpenNewestSnapshot(folder, room, &resumed.notes);
+  NewestSnapshot newest;
+  if (!FindSnapshot(folder, room, &resumed.notes, &newest)) {
+    newest = AtLogBegin(folder, room, &resumed.notes);
+  }
   resumed.saved = std::move(newest.saved);
   resumed.saved_tick = newest.tick;
   const LogPlace from = newest.log;

@@ -33,20 +33,18 @@ struct NewestSnapshot {
   LogPlace log;
   std::int32_t epoch = 1;  ///< of the log
 };
-/// Opens the newest snapshot that is of this version and loads; `notes` gets a line for each that
-/// does not. Without one it is the room before the first tick of its log. Throws OperatorError if
-/// there is no such log either.
-NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room,
-                                  std::vector<std::string>* notes);
+/// Opens the newest snapshot that is of this version and loads. Throws OperatorError if there is
+/// none.
+NewestSnapshot OpenNewestSnapshot(const std::string& folder, const std::string& room);
 
 /// Returns the path of a room's log in such a folder, for one epoch.
 std::string StateLogOf(const std::string& folder, const std::string& room, std::int32_t epoch = 1);
 /// Returns the names of the rooms in it. Throws OperatorError if there are none, unless `may_none`.
 std::vector<std::string> RoomsIn(const std::string& folder, bool may_none = false);
-/// Reads a room: OpenNewestSnapshot, and its log from there on. Throws OperatorError if there is
-/// none. Renames a log that is damaged behind that, or
-/// was not written with `log_key` (nullptr: need not be). `epoch`: in which it is to go on, 0: as
-/// saved; in a later one than that of the log it gets a log of its own.
+/// Reads a room: of its snapshots the newest that is of this version and loads, and its log from
+/// there on; without one its whole log. Throws OperatorError if it has neither. Renames a log that
+/// is damaged behind that, or was not written with `log_key` (nullptr: need not be). `epoch`: in
+/// which it is to go on, 0: as saved; in a later one than that of the log it gets a log of its own.
 ResumedRoom ReadResumedRoom(const std::string& folder, const std::string& room,
                             const Secret* log_key = nullptr, std::int32_t epoch = 0);
 /// Makes the folder if there is none. Throws OperatorError if that cannot be, or if it holds this

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "client/embed/cluster.h"
 #include "common/base/check.h"
 #include "common/codec/codec.h"
 #include "server/saved/resumed_room.h"
@@ -14,6 +15,7 @@
 #include "tests/support/file_bytes.h"
 #include "tests/support/lone_room.h"
 #include "tests/support/program.h"
+#include "tests/support/soak/server_log.h"
 
 namespace seam {
 namespace snapshot_file_test {
@@ -89,6 +91,29 @@ TEST(SnapshotFile, ADamagedOrNewerOneGivesWayToTheOneBefore) {
     WriteBytes(before, {1, 2, 3});
     EXPECT_THROW(ReadResumedRoom(folder.path(), "main"), OperatorError);
   }
+}
+
+TEST(SnapshotFile, ALogOfAnEarlierEpochIsNotTheRoom) {
+  Workspace folder;
+  ServerLog log(StateLogOf(folder.path(), "main"));
+  ClusterConfig config;
+  config.keep = false;
+  config.recorder = &log;
+  Cluster cluster(config);
+  cluster.RunToTick(60);
+  folder.Write("main-000000000060.snapshot", "damaged");
+  const ResumedRoom resumed = ReadResumedRoom(folder.path(), "main");
+  EXPECT_EQ(resumed.saved_tick, 0);
+  EXPECT_EQ(resumed.tick(), 60);
+  EXPECT_FALSE(resumed.new_log);
+  ASSERT_EQ(resumed.notes.size(), 2u);
+  EXPECT_NE(resumed.notes[1].find("its whole log is done again"), std::string::npos);
+  for (const char* later : {"main.e2.lcm", "main.e2-000000000120.snapshot"}) {
+    folder.Write(later, "damaged");
+    EXPECT_THROW(ReadResumedRoom(folder.path(), "main"), OperatorError) << later;
+    std::filesystem::remove(folder / later);
+  }
+  EXPECT_EQ(ReadResumedRoom(folder.path(), "main").tick(), 60);
 }
 
 /// Whole by its checksums, and no room all the same.
