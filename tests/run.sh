@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # tests/run.sh BUILD_DIR [PROGRAM]: all tests, on every processor (JOBS=1: on one), and then, one
-# after the other, those that go by the clock of the wall. What fails is printed, everything else is
-# in BUILD_DIR/test-logs/. Last line: "N passed, N failed"; a program that ends without its summary
-# counts as one failed, and so does one that is still at it after LIMIT (2h). Exit code 1 if
-# anything failed.
+# after the other, those that go by the clock of the wall. What fails is printed, and done once more
+# alone: what passes then is named, and has passed; it may have met another test, or a busy machine.
+# Everything else is in BUILD_DIR/test-logs/. Last line: "N passed, N failed"; a program that ends
+# without its summary counts as one failed, and so does one that is still at it after LIMIT (2h).
+# Exit code 1 if anything failed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 bin=$1
@@ -54,6 +55,15 @@ done
 # Not in the background, where a shell makes programs ignore SIGINT.
 timeout --foreground "$limit" "$tests" --gtest_filter="$timed" > "$logs/timed.log" 2>&1
 finish "$logs/timed.log" $?
+
+names=$(sed -nE 's/^\[  FAILED  \] ([^ ,]+)(, where .*)?$/\1/p' "$logs"/*.log | sort -u)
+again=$(printf '%s' "$names" | grep -c .)
+if [ "$again" -gt 0 ] && [ "$again" = "$failed" ] && [ "$again" -le 3 ]; then
+  failed=0
+  timeout --foreground "$limit" "$tests" --gtest_filter="$(paste -sd: <<<"$names")" > "$logs/again.log" 2>&1
+  finish "$logs/again.log" $?
+  [ "$failed" = "$again" ] || echo "failed beside others, done again alone: $(tr '\n' ' ' <<<"$names")"
+fi
 
 sed -nE 's/^\[  (     OK|FAILED) +\] (\S+) \(([0-9]+) ms\)$/\3 ms: \2/p' "$logs"/*.log | sort -rn | head -5
 [ "$skipped" = 0 ] ||
